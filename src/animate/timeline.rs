@@ -25,13 +25,15 @@ impl Timeline {
     /// If a time is not a number, if the end is before the begin, or if the rate is not above 0 and at most 1000.
     pub fn between(from: f64, to: f64, fps: f64) -> Result<Self, Error> {
         if !(from.is_finite() && to.is_finite() && from <= to) {
-            return Err(Error::new(format!("no time passes from {from} s to {to} s"))
-                .remedy("let the end be behind the begin"));
+            return Err(Error::new(format!(
+                "the film ends at {to} s, which is not after its start at {from} s"
+            ))
+            .remedy("make the end later than the start"));
         }
         let frames = ((to - from) * fps - SLACK).ceil().max(1.0);
         if frames > MOST_FRAMES {
             return Err(Error::new(format!("{frames} frames are too many"))
-                .remedy("draw a shorter time, or fewer frames a second"));
+                .remedy("draw a shorter time, or fewer frames per second"));
         }
         Self::of_frames(frames as usize, from, fps)
     }
@@ -42,7 +44,7 @@ impl Timeline {
     /// If there is no frame, if the time is not a number, or if the rate is not above 0 and at most 1000.
     pub fn of_frames(frames: usize, from: f64, fps: f64) -> Result<Self, Error> {
         if !(fps > 0.0 && fps <= 1000.0) {
-            return Err(Error::new(format!("{fps} frames a second cannot be shown"))
+            return Err(Error::new(format!("{fps} is not a usable number of frames per second"))
                 .remedy("give a number above 0, at most 1000"));
         }
         if frames == 0 || frames as f64 > MOST_FRAMES || !from.is_finite() {

@@ -1,9 +1,14 @@
-//! [`Blend`]: the clips that `--animation` names, and how much of each is seen when.
+//! [`Blend`]: the clips that `--animation` names, and their weights over time.
 
 use crate::error::Error;
+use crate::math::glob::Glob;
 use crate::pose::{Clip, Playing};
+use crate::style::fault::nearest;
 
-/// The clips that play together, and how much of each is seen when.
+/// Names of clips in a message, at most.
+const MAX_NAMES: usize = 12;
+
+/// The clips that play together, and their weights over time.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Blend {
     asked: Vec<Asked>,
@@ -12,14 +17,16 @@ pub(super) struct Blend {
     /// The time over which weights without times of their own change.
     over: [f64; 2],
     repeats: bool,
+    /// Choices made for the user, in words.
+    notes: Vec<String>,
 }
 
-/// A clip that was asked for.
+/// A clip to play.
 #[derive(Debug, Clone, PartialEq)]
 struct Asked {
     clip: usize,
     span: [f64; 2],
-    /// How much of it is seen; none for an equal share of what the others leave.
+    /// Its weight; none for an equal share of the rest.
     weight: Option<Weight>,
 }
 
@@ -33,26 +40,31 @@ enum Weight {
 }
 
 impl Blend {
-    /// The clips that these texts name, each `NAME`, `NAME:WEIGHT`, or several of these with commas between; the only clip if
-    /// there is no text. With `repeats` each begins again when it is over.
+    /// The clips that these texts name, each `NAME`, `NAME:WEIGHT`, or a list of these separated by commas. A name may be a pattern such
+    /// as `Walk*`. Without a text the first clip plays. With `repeats` each clip loops.
     ///
     /// # Errors
-    /// If there are no clips, if none has such a name, if none is named of several, and if a weight is none.
+    /// If there are no clips, if no clip matches a name, or if a weight is not a number.
     pub(super) fn new(clips: &[Clip], texts: &[String], repeats: bool) -> Result<Self, Error> {
-        let known = || clips.iter().map(|clip| clip.name.as_str()).collect::<Vec<_>>().join(", ");
         if clips.is_empty() {
-            return Err(Error::new("it has no animations").remedy("leave out --animation and --time"));
+            return Err(Error::new("the model has no animations").remedy("leave out --animation and --time"));
         }
-        if texts.is_empty() && clips.len() > 1 {
-            return Err(Error::new(format!("which of its {} animations is drawn?", clips.len()))
-                .remedy(format!("name one with --animation: {}", known())));
+        let mut notes = Vec::new();
+        if let ([], [first, others @ ..]) = (texts, clips)
+            && !others.is_empty()
+        {
+            let (count, name, others) = (clips.len(), &first.name, names(others));
+            notes.push(format!(
+                "uses the first of {count} animations, `{name}`; --animation selects others: {others}"
+            ));
         }
         let find = |name: &str| clips.iter().position(|clip| clip.name == name);
         let mut asked = Vec::new();
         let mut add = |name: &str, weight: Option<Weight>| {
-            let clip = find(name).ok_or_else(|| {
-                Error::new(format!("it has no animation `{name}`")).remedy(format!("it has {}", known()))
-            })?;
+            let clip = match find(name) {
+                Some(clip) => clip,
+                None => matching(clips, name, &mut notes)?,
+            };
             let span = clips.get(clip).map_or([0.0; 2], Clip::span);
             asked.push(Asked { clip, span, weight });
             Ok(())
@@ -75,10 +87,15 @@ impl Blend {
         }
         let none = [f64::INFINITY, f64::NEG_INFINITY];
         let span = asked.iter().fold(none, |[from, to], own| [from.min(own.span[0]), to.max(own.span[1])]);
-        Ok(Self { asked, span, over: span, repeats })
+        Ok(Self { asked, span, over: span, repeats, notes })
     }
 
-    /// The same, where other times are drawn than those of its clips.
+    /// Choices made for the user, in words: the first clip of several.
+    pub(super) fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// The same over another span of time than that of its clips.
     pub(super) fn over(self, over: [f64; 2]) -> Self {
         Self { over, ..self }
     }
@@ -109,6 +126,37 @@ impl Blend {
         };
         self.asked.iter().zip(weights).map(own).collect()
     }
+}
+
+/// The first clip whose name matches a pattern, with a note if others match as well.
+///
+/// # Errors
+/// If no name matches.
+fn matching(clips: &[Clip], pattern: &str, notes: &mut Vec<String>) -> Result<usize, Error> {
+    let glob = Glob::new(pattern);
+    let mut matches = clips.iter().enumerate().filter(|(_, clip)| glob.matches(&clip.name));
+    if let Some((first, clip)) = matches.next() {
+        let others = matches.count();
+        if others > 0 {
+            let name = &clip.name;
+            notes.push(format!("`{pattern}` matches {} animations; uses the first, `{name}`", others + 1));
+        }
+        return Ok(first);
+    }
+    let known: Vec<&str> = clips.iter().map(|clip| clip.name.as_str()).collect();
+    let other_case = known.iter().find(|name| name.eq_ignore_ascii_case(pattern)).copied();
+    let remedy = match other_case.or_else(|| nearest(pattern, &known)) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("its animations are {}", names(clips)),
+    };
+    Err(Error::new(format!("the model has no animation `{pattern}`")).remedy(remedy))
+}
+
+/// The names of clips, the first of many.
+fn names(clips: &[Clip]) -> String {
+    let shown: Vec<&str> = clips.iter().take(MAX_NAMES).map(|clip| clip.name.as_str()).collect();
+    let more = clips.len().saturating_sub(MAX_NAMES);
+    if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
 }
 
 impl Weight {
@@ -192,6 +240,24 @@ mod tests {
 
     fn weights(texts: &[&str], time: f64) -> Vec<(usize, f64)> {
         blend(texts).unwrap().playing(time).iter().map(|own| (own.clip, own.weight)).collect()
+    }
+
+    #[test]
+    fn names_are_patterns_and_the_first_clip_is_the_default() {
+        let named = |text: &str| blend(&[text]).map(|blend| (blend.playing(0.0)[0].clip, blend.notes));
+        assert_eq!(named("R*").unwrap(), (1, Vec::new()));
+        assert_eq!(weights(&["W??k:0.3,R*"], 0.0), [(0, 0.3), (1, 0.7)]);
+        let (clip, notes) = named("*").unwrap();
+        assert!(clip == 0 && notes[0].contains("matches 3 animations; uses the first, `Walk`"), "{notes:?}");
+        let first = blend(&[]).unwrap();
+        assert_eq!(first.playing(0.0)[0].clip, 0);
+        assert!(first.notes[0].contains("the first of 3 animations, `Walk`"), "{:?}", first.notes);
+        for (wrong, expected) in
+            [("walk", "did you mean `Walk`?"), ("Rnu", "did you mean `Run`?"), ("Jump", "are Walk, Run, ")]
+        {
+            let error = named(wrong).unwrap_err().to_string();
+            assert!(error.contains(expected), "{error}");
+        }
     }
 
     #[test]

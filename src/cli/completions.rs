@@ -1,24 +1,24 @@
 //! `ligne completions`: a completion script for a shell.
 
-use clap::{Args, CommandFactory};
+use clap::Args;
 use clap_complete::{Shell, generate};
 
 use crate::error::Error;
 
-/// What was typed.
+/// Options of `ligne completions`.
 #[derive(Debug, Args)]
 #[command(
     after_help = "Example:\n  ligne completions bash > ~/.local/share/bash-completion/completions/ligne"
 )]
 pub(super) struct CompletionsArgs {
-    /// The shell
+    /// Shell
     shell: Shell,
 }
 
 /// Writes the script to standard output.
 pub(super) fn run(args: &CompletionsArgs) -> Result<(), Error> {
     let mut script = Vec::new();
-    generate(args.shell, &mut super::Cli::command(), "ligne", &mut script);
+    generate(args.shell, &mut super::program(), "ligne", &mut script);
     if args.shell == Shell::Bash {
         script = without_space_after_keys(script);
     }

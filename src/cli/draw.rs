@@ -14,7 +14,7 @@ use super::progress::Progress;
 use super::request::DrawRequest;
 use super::step::{open_rigged, open_scene};
 use super::viewpoint::{View, Viewpoint, viewpoint};
-use super::{dxf_args, lod, number, pipeline, print, say, web, wonder};
+use super::{dxf_args, hints, lod, number, pipeline, print, say, web, wonder};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
 use crate::export::gzip;
@@ -35,6 +35,8 @@ pub(super) struct Drawn {
     /// From where it was seen.
     seen: View,
     pub(super) report: Report,
+    /// Hints and choices made for the user. Not warnings: `--strict` accepts them.
+    pub(super) notes: Vec<String>,
     /// One an output, in their order.
     pub(super) encoded: Vec<Vec<u8>>,
     maps: Option<MapFiles>,
@@ -62,7 +64,9 @@ pub(super) fn run(request: &DrawRequest) -> Result<(), Error> {
     if let Some(folder) = request.maps.as_ref().filter(|folder| !folder.is_dir()) {
         check_place(folder)?;
         if folder.exists() {
-            return Err(Error::new("this is no folder").in_file(folder).remedy("name a folder for the maps"));
+            return Err(Error::new("this is not a folder")
+                .in_file(folder)
+                .remedy("name a folder for the maps"));
         }
     }
     let mut drawn = pipeline::in_threads(request.threads, || draw(request, &mut watch))??;
@@ -71,6 +75,9 @@ pub(super) fn run(request: &DrawRequest) -> Result<(), Error> {
     if !request.quiet {
         for warning in &drawn.report.warnings {
             say(&format!("warning: {}: {warning}", request.model.display()));
+        }
+        for note in &drawn.notes {
+            say(&format!("note: {}: {note}", request.model.display()));
         }
     }
     write(request, &mut drawn, &mut watch)?;
@@ -92,7 +99,7 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
         drawn = Some(view);
         Ok(())
     })?;
-    drawn.ok_or_else(|| Error::new("there is no view to draw"))
+    drawn.ok_or_else(|| Error::new("no view was given"))
 }
 
 /// The same for several views of one model, which is read once: those of the first request, which the others share
@@ -120,14 +127,15 @@ pub(super) fn draw_model(
         style = style.to_scale();
     }
     progress.step("reading");
-    let Opened { mut scene, mut framed, mut notes } = open(request, model, &style)?;
+    let Opened { mut scene, mut framed, mut warnings, mut notes } = open(request, model, &style)?;
+    notes.extend(hints::of_drawing(request, &scene));
     if let Some(up) = request.up {
         scene.up = up;
     }
     let load_ms = watch.lap_ms();
     progress.step("drawing");
     if !request.outputs.is_empty() {
-        notes.extend(wonder::idle(request, std::env::args_os()));
+        warnings.extend(wonder::idle(request, std::env::args_os()));
     }
     if request.section.section.is_some() {
         // The plane and the hatching follow the view of the whole model; the frame holds what is left of it, or all.
@@ -150,9 +158,9 @@ pub(super) fn draw_model(
     let points = || Ok(framed.as_deref().map_or_else(|| Cow::Owned(world_points(&scene)), Cow::Borrowed));
     let eyes = requests.iter().map(|request| viewpoint(&request.view, &request.sheet, &scene, points));
     let eyes = eyes.collect::<Result<Vec<_>, _>>()?;
-    let told = scene.warnings.lines().into_iter().chain(notes).collect();
+    let told = scene.warnings.lines().into_iter().chain(warnings).collect();
     let hidden = wonder::hidden(request, &scene);
-    let mut of_scene = OfScene { triangles: triangles(&scene), told, hidden, whole: None };
+    let mut of_scene = OfScene { triangles: triangles(&scene), told, hidden, notes, whole: None };
     let mut kept = None;
     let enclosed: Vec<_> = eyes.iter().map(|eye| wonder::enclosed(&scene, &eye.camera)).collect();
     watch.lap_ms();
@@ -186,6 +194,8 @@ struct OfScene<'a> {
     told: Vec<String>,
     /// Which parts are shown, if others are left out: for drawings that are empty.
     hidden: Option<String>,
+    /// Hints and choices made for the user.
+    notes: Vec<String>,
     /// The model itself, where it is still needed.
     whole: Option<&'a Scene>,
 }
@@ -239,7 +249,8 @@ fn draw_view(
     });
     let encoded = encoded.collect::<Result<Vec<_>, _>>()?;
     report.warnings.extend(left_out);
-    Ok(Drawn { drawing, seen: View::Fixed(camera, paper), report, encoded, maps })
+    let notes = of_scene.notes.clone();
+    Ok(Drawn { drawing, seen: View::Fixed(camera, paper), report, notes, encoded, maps })
 }
 
 /// A model that was read.
@@ -247,7 +258,9 @@ struct Opened {
     scene: Scene,
     /// The points that the frame is to hold, where they are not those of the scene.
     framed: Option<Vec<DVec3>>,
-    /// What there is to say of the options.
+    /// Warnings about the options.
+    warnings: Vec<String>,
+    /// Choices made for the user.
     notes: Vec<String>,
 }
 
@@ -256,8 +269,8 @@ fn open(request: &DrawRequest, model: Option<Rigged>, style: &Style) -> Result<O
     let mut rigged = model.map_or_else(|| read(request), Ok)?;
     // Levels of detail are of the model as it is stored, whatever moves and whatever is shown of it.
     let coarse = request.faces.map(|faces| (lod::detail(&request.model, &mut rigged.scene, faces), faces));
-    let mut scene = scene_at(rigged, request, style)?;
-    let notes = wonder::unmatched(&scene, &request.only, &request.hide);
+    let (mut scene, notes) = scene_at(rigged, request, style)?;
+    let warnings = wonder::unmatched(&scene, &request.only, &request.hide);
     let parts_left_out = !(request.only.is_empty() && request.hide.is_empty());
     let framed = (request.frame == Frame::All && parts_left_out).then(|| world_points(&scene));
     pipeline::keep_parts(&mut scene, &request.only, &request.hide)?;
@@ -265,7 +278,7 @@ fn open(request: &DrawRequest, model: Option<Rigged>, style: &Style) -> Result<O
         Some((detail, faces)) => lod::reduced(&scene, &detail, faces)?,
         None => scene,
     };
-    Ok(Opened { scene, framed, notes })
+    Ok(Opened { scene, framed, warnings, notes })
 }
 
 /// The model as it is stored, with its animations if one of them is drawn.
@@ -302,7 +315,7 @@ pub(super) fn refuse_warnings(request: &DrawRequest, report: &Report) -> Result<
     }
     Err(Error::new(report.warnings.join("; "))
         .in_file(&request.model)
-        .remedy("mend the model, or draw without --strict"))
+        .remedy("repair the model, or draw without --strict"))
 }
 
 /// The bytes of a request's first output, which is not written.
@@ -403,6 +416,7 @@ mod tests {
             drawing: Drawing::new("", page, Vec::new()),
             seen: View::Angles { azimuth_deg: None, elevation_deg: None, lens: None },
             report: Report { counts, ..Report::default() },
+            notes: Vec::new(),
             encoded: Vec::new(),
             maps: None,
         };

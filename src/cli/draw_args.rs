@@ -1,4 +1,4 @@
-//! What was typed after `ligne draw`.
+//! Options of `ligne draw`.
 
 use std::path::PathBuf;
 
@@ -23,33 +23,33 @@ use crate::scene::{NamedView, UpAxis};
 use crate::style::Style;
 
 const EXAMPLES: &str = "Examples:
-  ligne draw bunny.obj                                 writes bunny.svg
-  ligne draw bunny.obj bunny.png --size 2000x1500 --azimuth -30
+  ligne draw bunny.obj                              writes bunny.svg
+  ligne bunny.obj                                   the same
+  ligne draw bunny.obj bunny.svg bunny.png --size 2000x1500 --azimuth -30
   ligne draw part.stl sheet.svg --style technical --view iso --page A4 --scale 1:2
   ligne draw drive.glb - --hide 'bolt*' --quiet | less
   ligne draw *.glb --out-dir drawings --format svg,png --view front,top,iso
   ligne draw bunny.obj --style mine.toml --watch";
 
-const USAGE: &str = "ligne draw [OPTIONS] <MODEL> [OUT]
+const USAGE: &str = "ligne draw [OPTIONS] <MODEL> [OUT]...
        ligne draw [OPTIONS] --out-dir <DIR> <MODEL>...";
 
-/// What was typed after `ligne draw`.
+/// Options of `ligne draw`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES, override_usage = USAGE)]
 pub(super) struct DrawArgs {
-    /// The model: .obj, .gltf, .glb, .stl, .ply or .step, or - for standard input (say with --format what it is)
+    /// Model: .obj, .gltf, .glb, .stl, .ply or .step; - for standard input, with --input-format
     #[arg(value_hint = ValueHint::FilePath)]
     pub(super) model: PathBuf,
 
-    /// The drawing: .svg, .svgz, .png, .pdf or .dxf, or - for SVG on standard output [default: the model's name with
-    /// .svg, in the current folder]
+    /// Drawings: .svg, .svgz, .png, .pdf or .dxf; - for SVG on standard output [default: MODEL's name with .svg]
     pub(super) out: Option<PathBuf>,
 
-    /// With --out-dir all are models
-    #[arg(hide = true, requires = "out_dir")]
+    /// Further drawings; with --out-dir further models
+    #[arg(hide = true)]
     pub(super) more: Vec<PathBuf>,
 
-    /// A further drawing, may be given again
+    /// Further drawing; repeatable
     #[arg(short = 'o', long = "output", value_name = "OUT")]
     pub(super) outputs: Vec<PathBuf>,
 
@@ -75,56 +75,55 @@ pub(super) struct DrawArgs {
     #[command(flatten)]
     pub(super) print: PrintArgs,
 
-    /// Write what the drawing took and what it holds, as JSON; - for standard output
+    /// Write times, counts and warnings as JSON; - for standard output
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]
     pub(super) report: Option<PathBuf>,
 
-    /// Write the maps of the view that lines in the image are found in, into this folder: normal.png, depth.png (16 bits),
-    /// edges.png and parts.png
+    /// Write the view's maps for image lines: normal.png, depth.png, edges.png and parts.png
     #[arg(long, value_name = "FOLDER", help_heading = "Output")]
     pub(super) maps: Option<PathBuf>,
 
-    /// Draw what a stage of the pipeline made, each thing in its own colour: docs/stages.md
+    /// Draw the result of one pipeline stage, colour-coded (docs/dev/stages.md)
     #[arg(long, value_name = "NAME", help_heading = "Output",
         value_parser = PossibleValuesParser::new(Stage::ALL.map(Stage::name))
             .try_map(|name| Stage::parse(&name).ok_or("no such stage")))]
     pub(super) stage: Option<Stage>,
 }
 
-/// How a model is drawn: what `ligne draw`, `ligne diff` and cases of `ligne test` have in common.
+/// Options for drawing a model, shared by `ligne draw`, `ligne animate`, `ligne diff` and cases of `ligne test`.
 #[derive(Debug, Clone, Args)]
 pub(super) struct HowArgs {
-    /// Name of a built-in style, or a style sheet [env: LIGNE_STYLE]
+    /// Built-in style, or style sheet [env: LIGNE_STYLE]
     #[arg(long, value_name = "NAME|FILE.toml", default_value = "ink", hide_possible_values = true,
         value_parser = Offered::new(Style::names(), |name| Ok(name.to_owned())))]
     pub(super) style: String,
 
-    /// Change one key of the style; may be given again: --set lines.crease_deg=30 (ligne styles --keys lists all keys)
+    /// Change one style key, such as lines.crease_deg=30; repeatable; ligne styles --keys lists the keys
     #[arg(long = "set", value_name = "KEY=VALUE", hide_possible_values = true,
         value_parser = Offered::late(style_keys::settings, setting))]
     pub(super) sets: Vec<String>,
 
-    /// The hand: another number draws the same with another one [default: the style's]
+    /// Random seed for hand-drawn effects [default: the style's]
     #[arg(long, value_name = "N")]
     pub(super) seed: Option<u32>,
 
-    /// A camera record (.json), or the name of a camera of the model
+    /// Camera record, or the name of a camera in the model
     #[arg(long, value_name = "FILE.json|NAME", help_heading = "View",
         conflicts_with_all = ["view", "azimuth", "elevation", "fov", "ortho"])]
     pub(super) camera: Option<String>,
 
-    /// A named view, orthographic unless --fov is given; ligne draw takes several: front,top,iso
+    /// Named view, orthographic without --fov; a list such as front,top,iso draws each
     #[arg(long, help_heading = "View", value_delimiter = ',', conflicts_with_all = ["azimuth", "elevation"], ignore_case = true,
         value_parser = PossibleValuesParser::new(NamedView::ALL.map(view_value))
             .try_map(|name| NamedView::parse(&name).ok_or("no such view")))]
     pub(super) view: Vec<NamedView>,
 
-    /// Degrees to the right of the front: 0 = front, 90 = right [default: 35]
+    /// Camera angle to the right of the front: 0 front, 90 right [default: 35]
     #[arg(long, value_name = "DEGREES", help_heading = "View", allow_negative_numbers = true,
         value_parser = degrees)]
     pub(super) azimuth: Option<f64>,
 
-    /// Degrees above the horizon, -90 to 90 [default: 22]
+    /// Camera angle above the horizon, -90 to 90 [default: 22]
     #[arg(long, value_name = "DEGREES", help_heading = "View", allow_negative_numbers = true,
         value_parser = elevation)]
     pub(super) elevation: Option<f64>,
@@ -134,38 +133,37 @@ pub(super) struct HowArgs {
         value_parser = field_of_view)]
     pub(super) fov: Option<f64>,
 
-    /// Parallel lines of sight
+    /// Parallel projection
     #[arg(long, help_heading = "View")]
     pub(super) ortho: bool,
 
-    /// Which axis of the model points up [default: as the format has it]
+    /// Up axis of the model [default: from the format]
     #[arg(long, help_heading = "View", value_parser = PossibleValuesParser::new(["y", "z"])
         .map(|name| if name == "z" { UpAxis::Z } else { UpAxis::Y }))]
     pub(super) up: Option<UpAxis>,
 
-    /// Draw only the parts whose name matches, may be given again
+    /// Draw only parts with a matching name; repeatable
     #[arg(long, value_name = "GLOB", help_heading = "View")]
     pub(super) only: Vec<String>,
 
-    /// Leave out the parts whose name matches, may be given again
+    /// Leave out parts with a matching name; repeatable
     #[arg(long, value_name = "GLOB", help_heading = "View")]
     pub(super) hide: Vec<String>,
 
-    /// Draw a moment of this animation of the model; several play together, with equal shares or with weights:
-    /// Walk,Run or Walk:0.7,Run:0.3; weights may change in time: Walk:1..0,Run:0..1 or Walk:1@0.5..0@2,Run
+    /// Clips to play, by name or pattern: Walk, 'Walk*', Walk:0.7,Run:0.3, Walk:1..0,Run:0..1 [default: first clip]
     #[arg(long, value_name = "NAME[:WEIGHT],...", help_heading = "View")]
     pub(super) animation: Vec<String>,
 
-    /// Let each animation begin again when it is over
+    /// Loop each clip
     #[arg(long, help_heading = "View")]
     pub(super) repeat: bool,
 
-    /// The moment in seconds; where the model has one animation, its name may be left out [default: 0]
+    /// Time within the animation [default: 0]
     #[arg(long, value_name = "SECONDS", help_heading = "View", value_parser = seconds,
         allow_hyphen_values = true)]
     pub(super) time: Option<f64>,
 
-    /// Draw with no more than so many faces: those go first whose loss changes the shape least (docs/detail.md)
+    /// Simplify the model to at most N faces
     #[arg(long, value_name = "N", help_heading = "View", value_parser = clap::value_parser!(u64).range(1..))]
     pub(super) faces: Option<u64>,
 
@@ -178,7 +176,7 @@ pub(super) struct HowArgs {
     #[command(flatten)]
     pub(super) step: StepArgs,
 
-    /// Size of the drawing in px: 1000x800, or 1000 for a square [default: 1000x1000]
+    /// Size of the drawing in px, such as 1000x800 or 1000 [default: 1000x1000]
     #[arg(long, value_name = "WIDTHxHEIGHT", help_heading = "Page", conflicts_with = "page",
         value_parser = paper::size_px)]
     pub(super) size: Option<Extent>,
@@ -188,60 +186,59 @@ pub(super) struct HowArgs {
         value_parser = Offered::new(paper::sheet_names(), paper::page_mm))]
     pub(super) page: Option<Extent>,
 
-    /// Lay the page on its longer side
+    /// Turn the page to landscape
     #[arg(long, help_heading = "Page", requires = "page")]
     pub(super) landscape: bool,
 
-    /// Free border round the picture, such as 10mm [default: 10mm on a page, 0 otherwise]
+    /// Free border, such as 10mm [default: 10mm on a page, 0 otherwise]
     #[arg(long, value_name = "LENGTH", help_heading = "Page", value_parser = paper::margin)]
     pub(super) margin: Option<Measure>,
 
-    /// Draw to scale, orthographic: 1:2 is half size. A unit of the model is a mm, in glTF a m, unless --unit tells
+    /// Orthographic scale, such as 1:2 for half size; see --unit
     #[arg(long, value_name = "PAPER:MODEL", help_heading = "Page", requires = "page", conflicts_with = "fov",
         value_parser = paper::scale)]
     pub(super) scale: Option<f64>,
 
-    /// Colour of the paper, #rrggbb, a name such as ivory, or none [default: the style's]
+    /// Paper colour: #rrggbb, a CSS name, or none [default: the style's]
     #[arg(long, value_name = "COLOUR|none", help_heading = "Page", value_parser = background)]
     pub(super) background: Option<Background>,
 
-    /// Decimals of coordinates in SVG
+    /// Decimals of SVG coordinates [default: 2 in px, 3 in mm]
     #[arg(long, value_name = "N", help_heading = "Output", value_parser = clap::value_parser!(u8).range(0..=9))]
     pub(super) precision: Option<u8>,
 
-    /// Pixels to the inch in PNG [default: 96, where a px is a pixel; 300 on a page]
+    /// PNG resolution in pixels per inch [default: 96 in px, 300 on a page]
     #[arg(long, value_name = "N", help_heading = "Output", value_parser = dots_per_inch)]
     pub(super) dpi: Option<f64>,
 
-    /// What the groups in SVG stand for
-    #[arg(long, help_heading = "Output", value_enum, default_value_t = GroupBy::Layer)]
+    /// SVG groups by layer of the drawing or by part of the model [default: layer]
+    #[arg(long, help_heading = "Output", value_enum, default_value_t = GroupBy::Layer, hide_default_value = true)]
     pub(super) group: GroupBy,
 
-    /// Put before every id in SVG, so that several drawings fit in one page
+    /// Prefix for all ids in SVG, for several drawings in one page
     #[arg(long, value_name = "PREFIX", help_heading = "Output", value_parser = id_prefix)]
     pub(super) id_prefix: Option<String>,
 
-    /// Number of threads; the drawing is the same with any [env: LIGNE_THREADS] [default:
-    /// one a core]
+    /// Number of threads; never changes the drawing [env: LIGNE_THREADS] [default: one per core]
     #[arg(long, value_name = "N", help_heading = "Output",
         value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub(super) threads: Option<u16>,
 
-    /// Say nothing but errors
+    /// Print errors only
     #[arg(short, long, help_heading = "Output")]
     pub(super) quiet: bool,
 
-    /// Take warnings for errors
+    /// Treat warnings as errors
     #[arg(long, help_heading = "Output")]
     pub(super) strict: bool,
 }
 
-/// What the groups in SVG stand for.
+/// The meaning of groups in SVG. Plain comments keep the values on one line of help.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum GroupBy {
-    /// The layers of the drawing
+    // A group per layer of the drawing.
     Layer,
-    /// The parts of the model
+    // A group per part of the model.
     Part,
 }
 

@@ -12,13 +12,13 @@ use crate::scene::camera::Projection;
 /// How DXF is written.
 #[derive(Debug, Clone, Copy, Args)]
 pub(super) struct DxfArgs {
-    /// Release of DXF: r12, which every program reads, or 2000, which has fills, widths of lines and units as well
+    /// DXF release: r12 (read by every program) or 2000 (with fills, line widths and units)
     #[arg(long, value_name = "RELEASE", help_heading = "Output", default_value = "r12", ignore_case = true,
         value_parser = PossibleValuesParser::new(["r12", "2000"])
             .map(|name| if name == "2000" { DxfVersion::R2000 } else { DxfVersion::R12 }))]
     dxf: DxfVersion,
 
-    /// Lengths in DXF: millimetres of the page (a px is 1/96 inch), or units of the model from its origin, in parallel views
+    /// DXF lengths: page (mm, 1 px = 1/96 inch) or model (model units; needs an orthographic view)
     #[arg(long, value_name = "WHOSE", help_heading = "Output", default_value = "page",
         value_parser = PossibleValuesParser::new(["page", "model"])
             .map(|name| if name == "model" { Lengths::Model } else { Lengths::Page }))]
@@ -61,17 +61,17 @@ pub(super) fn encode(
             options = options.with_length(DxfLength::Model(per_unit)).with_origin(at);
         }
         (Lengths::Model, Projection::Perspective { .. }) => {
-            return Err(Error::new("in perspective nothing has the lengths of the model")
+            return Err(Error::new("a perspective view has no uniform scale")
                 .at("--dxf-length")
                 .remedy("give --ortho or a named view, or leave --dxf-length out"));
         }
     }
     let told = match (drawing.left_out_of_dxf(&options), args.dxf) {
         (0, _) => None,
-        (left, DxfVersion::R12) => {
-            Some(format!("DXF R12 has no fills and no pictures: {left} are left out (--dxf 2000 has fills)"))
-        }
-        (left, DxfVersion::R2000) => Some(format!("DXF has no pictures: {left} are left out")),
+        (left, DxfVersion::R12) => Some(format!(
+            "DXF R12 cannot hold fills or pictures: {left} are left out (--dxf 2000 keeps fills)"
+        )),
+        (left, DxfVersion::R2000) => Some(format!("DXF cannot hold pictures: {left} are left out")),
     };
     Ok((drawing.to_dxf(&options), told))
 }

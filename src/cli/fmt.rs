@@ -15,29 +15,29 @@ use crate::export::gzip;
 /// No drawing is larger unpacked.
 const MOST_BYTES: usize = 1 << 30;
 
-/// What was typed.
+/// Options of `ligne fmt`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   ligne fmt drawing.svg               rewrite a drawing in canonical form
-  ligne fmt --check docs/*.svg        name the drawings that are not in it
-  ligne fmt drawing.svg -o -          write it to standard output
+  ligne fmt --check docs/*.svg        list the drawings that are not in canonical form
+  ligne fmt drawing.svg -o -          write to standard output
 
-The picture stays the same: marks that may be exchanged are ordered, paths begin at their upper end, and numbers are
-rounded, so that version control shows small differences. Drawings of ligne draw are in this form already.")]
+The picture stays the same. Marks that do not overlap are sorted, paths start at their upper end, and numbers are rounded.
+Version control then shows small differences. Drawings of ligne draw are already in canonical form.")]
 pub(super) struct FmtArgs {
     /// SVG files
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
 
-    /// Write nothing; name the files that are not in the form, and end with status 1 if there are any
+    /// Write nothing; list files that are not in canonical form, and exit with 1 if there are any
     #[arg(long, conflicts_with = "output")]
     check: bool,
 
-    /// Decimals of coordinates [default: as many as the file has]
+    /// Decimals of coordinates [default: from the file]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=8))]
     precision: Option<u8>,
 
-    /// Write to this file instead, - for standard output; for one FILE only
+    /// Output for a single FILE; - for standard output
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
 }
@@ -45,9 +45,9 @@ pub(super) struct FmtArgs {
 /// Rewrites the files, all or none.
 pub(super) fn run(args: &FmtArgs) -> Result<ExitCode, Error> {
     if args.files.len() > 1 && args.output.is_some() {
-        return Err(Error::new("one output cannot take several files")
+        return Err(Error::new("one output cannot hold several files")
             .at("--output")
-            .remedy("leave it out to rewrite the files in their places"));
+            .remedy("leave out --output to rewrite the files in place"));
     }
     if let Some(output) = args.output.as_deref().filter(|output| !is_stdout(output)) {
         check_place(output)?;
@@ -87,5 +87,5 @@ fn read(file: &Path) -> Result<String, Error> {
         .map_err(|error| Error::io("cannot be read", error).in_file(file).remedy("check the path"))?;
     let bytes = gzip::plain(bytes, MOST_BYTES).map_err(|error| error.in_file(file))?;
     String::from_utf8(bytes)
-        .map_err(|_| Error::new("is not text in UTF-8").in_file(file).remedy("save it as SVG in UTF-8"))
+        .map_err(|_| Error::new("the file is not UTF-8 text").in_file(file).remedy("save it as SVG in UTF-8"))
 }

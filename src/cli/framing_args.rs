@@ -1,4 +1,4 @@
-//! What of a model comes into the frame, and how large: options that all that draws has in common.
+//! Framing options, shared by all commands that draw a model.
 
 use std::path::PathBuf;
 
@@ -7,37 +7,37 @@ use glam::DVec3;
 
 use super::model_unit::ModelUnit;
 
-/// What of a model comes into the frame, and how large.
+/// Framing options.
 #[derive(Debug, Clone, Args)]
 pub(super) struct FramingArgs {
-    /// What to frame: what is drawn, or the whole model even when --only, --hide or --section removes some of it, so that the pictures
-    /// of an instruction line up
-    #[arg(long, value_name = "WHAT", help_heading = "View", value_enum, default_value_t = Frame::Visible)]
+    /// Parts to fit into the frame: visible, or all even when --only, --hide or --section removes some [default: visible]
+    #[arg(long, value_name = "WHAT", help_heading = "View", value_enum, default_value_t = Frame::Visible,
+        hide_default_value = true)]
     pub(super) frame: Frame,
 
-    /// The point of the model that comes to the middle of the frame; with --scale or a parallel camera record
+    /// Model point at the centre of the frame; needs --scale or an orthographic camera record
     #[arg(long, visible_alias = "center", value_name = "X,Y,Z", help_heading = "View", allow_hyphen_values = true,
         value_parser = point)]
     pub(super) centre: Option<DVec3>,
 
-    /// What a unit of the model is: mm, cm, m, in, ft [default: m in glTF, which demands it, mm in all other formats]
+    /// Unit of the model: mm, cm, m, in, ft [default: m in glTF, mm otherwise]
     #[arg(long, value_name = "UNIT", help_heading = "Page", value_enum, hide_possible_values = true)]
     pub(super) unit: Option<ModelUnit>,
 }
 
-/// What the frame is to hold.
+/// The parts that are fitted into the frame. Plain comments keep the values on one line of help.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Frame {
-    /// All parts of the model
+    // All parts of the model.
     All,
-    /// The parts that are drawn
+    // The parts that are drawn.
     Visible,
 }
 
-/// A record of the view that is drawn.
+/// Option that saves the camera of a drawing.
 #[derive(Debug, Clone, Args)]
 pub(super) struct SaveArgs {
-    /// Write the camera of this drawing as a record, for --camera
+    /// Write the camera as a record for --camera
     #[arg(long, value_name = "FILE.json", help_heading = "Output")]
     pub(super) save_camera: Option<PathBuf>,
 }

@@ -1,4 +1,4 @@
-//! `ligne lod`: the order in which a model loses its faces, written beside it; and models with as many faces as asked for.
+//! `ligne lod`: the simplification order of a model, and models with a limited number of faces.
 
 use std::path::{Path, PathBuf};
 
@@ -14,26 +14,26 @@ use crate::lod::Detail;
 use crate::render::Stopwatch;
 use crate::scene::Scene;
 
-/// What was typed.
+/// Options of `ligne lod`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  ligne lod bunny.obj                        writes bunny.ligne-lod beside the model
+  ligne lod bunny.obj                        writes bunny.ligne-lod next to the model
   ligne lod bunny.obj levels/bunny.ligne-lod
-  ligne draw bunny.obj --faces 5000          takes it from there, if it is of this model
+  ligne draw bunny.obj --faces 5000          reads bunny.ligne-lod
 
-Without such a file drawings with --faces are the same, but take longer.")]
+The file makes --faces faster. It does not change the drawing.")]
 pub(super) struct LodArgs {
-    /// The model: .obj, .gltf, .glb, .stl, .ply or .step
+    /// Model: .obj, .gltf, .glb, .stl, .ply or .step
     model: PathBuf,
 
-    /// The file to write [default: beside the model, with its name]
+    /// Output [default: MODEL's name with .ligne-lod, in its folder]
     #[arg(value_name = "OUT.ligne-lod")]
     out: Option<PathBuf>,
 
     #[command(flatten)]
     step: StepArgs,
 
-    /// Say nothing but errors
+    /// Print errors only
     #[arg(short, long)]
     quiet: bool,
 }
@@ -43,9 +43,9 @@ pub(super) fn run(args: &LodArgs) -> Result<(), Error> {
     let out = args.out.clone().unwrap_or_else(|| Detail::beside(&args.model));
     check_place(&out)?;
     if same_file(&out, &args.model) {
-        return Err(Error::new("the levels of detail would overwrite the model")
+        return Err(Error::new("the output would overwrite the model")
             .in_file(&out)
-            .remedy("give them another name"));
+            .remedy("give the output another name"));
     }
     let scene = open_scene(&args.model, &args.step)?;
     let mut watch = Stopwatch::start();
@@ -77,9 +77,7 @@ pub(super) fn detail(model: &Path, scene: &mut Scene, faces: u64) -> Detail {
     if let Ok(bytes) = std::fs::read(&beside) {
         match Detail::read(&bytes, scene) {
             Ok(detail) => return detail,
-            Err(error) => {
-                scene.warnings.note(format!("{} is left aside: {}", beside.display(), error.message))
-            }
+            Err(error) => scene.warnings.note(format!("{} is ignored: {}", beside.display(), error.message)),
         }
     }
     Detail::down_to(scene, faces)
@@ -92,7 +90,9 @@ pub(super) fn reduced(scene: &Scene, detail: &Detail, faces: u64) -> Result<Scen
     let mut scene = levels.scene(scene)?;
     if fewest > faces {
         let fewest = counted(fewest, "face");
-        scene.warnings.note(format!("it keeps {fewest}: its pieces cannot be drawn with fewer"));
+        scene
+            .warnings
+            .note(format!("the model keeps {fewest}, because its pieces cannot be simplified further"));
     }
     Ok(scene)
 }

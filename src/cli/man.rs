@@ -1,63 +1,30 @@
-//! `ligne man`: the manual page of the program, or of one of its commands.
+//! `ligne man`: the manual page of the program or of a command, or the reference of all commands as Markdown.
 
-use clap::{Args, Command, CommandFactory};
+use clap::{Args, Command};
 use clap_mangen::Man;
 use clap_mangen::roff::{Roff, bold, roman};
 
-use super::defaults::VARIABLES;
+use super::conventions::{EXIT_STATUS, FILES, environment};
+use super::reference;
 use crate::error::Error;
 use crate::style::fault::nearest;
 
-/// What was typed.
+/// Options of `ligne man`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   ligne man > ligne.1                 the page of the program
   ligne man draw | man -l -           read the page of a command")]
 pub(super) struct ManArgs {
-    /// The command whose page is written; without it, the program's own
+    /// Command to describe [default: the program]
     command: Option<String>,
+
+    /// Print the reference of all commands as Markdown
+    #[arg(long, hide = true, conflicts_with = "command")]
+    markdown: bool,
 }
-
-/// What a variable does, for those of [`VARIABLES`].
-const VARIABLES_DO: [&str; 3] = [
-    "The style, in place of --style.",
-    "The number of threads, in place of --threads. The drawing is the same with any.",
-    "The converter for STEP models, in place of --step-converter.",
-];
-
-/// Variables of STEP models without an option.
-const STEP: [(&str, &str); 2] = [
-    ("LIGNE_CACHE", "The folder for converted STEP models, in place of the user's cache folder."),
-    (
-        "LIGNE_STEP_SECONDS, LIGNE_STEP_MB",
-        "Limits of a converter: seconds (default 300), and megabytes of memory on Linux (default 8192).",
-    ),
-];
-
-/// Variables of job arrays, and what they do.
-const ARRAYS: [(&str, &str); 2] = [
-    (
-        "SLURM_ARRAY_TASK_ID, SLURM_ARRAY_TASK_COUNT",
-        "Which shard of several models ligne draw --out-dir draws, where --shard does not say it; --shard /N takes the first alone.",
-    ),
-    ("JOB_COMPLETION_INDEX, JOB_COMPLETIONS", "The same in an indexed job of Kubernetes."),
-];
 
 /// Commands that read `ligne.toml`.
 const CONFIGURED: [&str; 4] = ["draw", "animate", "diff", "test"];
-
-const FILES: [&str; 4] = [
-    "What a project draws with unless told otherwise: looked for in the working folder and in each folder above it. \
-     An option on the command line wins over an environment variable, a variable over this file, and the file \
-     over what is built in. An option that excludes a configured one (--azimuth a view, --size a page) displaces it; \
-     --set adds to configured changes. --no-config leaves the file aside.",
-    "[draw] says how models are drawn, by ligne draw, ligne animate and ligne diff; its keys are the long names of options: style, set (a table of style keys, or a list of texts), \
-     seed, camera, view, azimuth, elevation, fov, ortho, up, only, hide, section, uncut, explode, explode-part, step-converter, step-tolerance, animation, repeat, time, faces, frame, centre, unit, size, page, landscape, margin, scale, \
-     background, precision, dpi, group, id-prefix, threads, quiet, strict.",
-    "[diff] holds tolerance: within which distance lines and fills count as the same, as text or as a table. \
-     ligne test takes it for cases that say nothing else, and takes nothing else of the file.",
-    "Paths in it are relative to the file. Unknown keys and wrong values are refused with file and line.",
-];
 
 const EXAMPLE_FILE: &str = "\
 # ligne.toml
@@ -74,14 +41,17 @@ tolerance = { default = \"0.1px\", lines = \"0.05mm\" }";
 const EXAMPLES: &str = "\
 ligne draw bunny.obj
 ligne draw part.stl sheet.pdf --style technical --view iso --page A4 --scale 1:2
-ligne test drawings --report changes.html
+ligne test drawings --html changes.html
 ligne info drive.glb
 ligne styles ink > mine.toml";
 
 /// Writes the page to standard output.
 pub(super) fn run(args: &ManArgs) -> Result<(), Error> {
-    let mut program = super::Cli::command();
+    let mut program = super::program();
     program.build();
+    if args.markdown {
+        return super::print(reference::markdown(&program).as_bytes());
+    }
     let command = match args.command.as_deref() {
         None => &program,
         Some(name) => program.find_subcommand(name).ok_or_else(|| {
@@ -115,7 +85,7 @@ fn page(program: &Command, command: &Command) -> Result<Vec<u8>, std::io::Error>
         man.render_subcommands_section(&mut out)?;
     }
     let mut roff = Roff::default();
-    environment(&mut roff, command, is_program);
+    environment_section(&mut roff, command, is_program);
     if is_program || CONFIGURED.contains(&command.get_name()) {
         files(&mut roff);
     }
@@ -132,34 +102,18 @@ fn page(program: &Command, command: &Command) -> Result<Vec<u8>, std::io::Error>
     Ok((preamble.clone() + &String::from_utf8_lossy(&out).replace(&preamble, "")).into_bytes())
 }
 
-fn environment(roff: &mut Roff, command: &Command, is_program: bool) {
+fn environment_section(roff: &mut Roff, command: &Command, is_program: bool) {
     let has = |option: &str| command.get_arguments().any(|known| known.get_long() == Some(option));
-    let mut entries: Vec<(&str, &str)> = Vec::new();
-    for ((name, option), does) in VARIABLES.iter().zip(VARIABLES_DO) {
-        // A sheet of styles shows all of them, not the one that a project prefers.
-        let is_ignored = command.get_name() == "styles" && *option != "step-converter";
-        if is_program || has(option) && !is_ignored {
-            entries.push((name, does));
-        }
-    }
-    if is_program || has("bless") {
-        entries.push(("CI", "Where it is set, ligne test refuses --bless: drawings are approved by people."));
-    }
-    if is_program || has("out-dir") {
-        entries.extend(ARRAYS);
-    }
-    if is_program || has("step-converter") {
-        entries.extend(STEP);
-    }
+    let entries = environment(|option| is_program || has(option));
     if entries.is_empty() {
         return;
     }
     roff.control("SH", ["ENVIRONMENT"]);
-    for (name, does) in entries {
-        entry(roff, name, does);
+    for (name, effect) in entries {
+        entry(roff, name, effect);
     }
     roff.control("PP", []);
-    roff.text([roman("An empty variable counts as none.")]);
+    roff.text([roman("An empty variable counts as unset.")]);
 }
 
 fn files(roff: &mut Roff) {
@@ -176,24 +130,11 @@ fn files(roff: &mut Roff) {
 
 fn exit_status(roff: &mut Roff) {
     roff.control("SH", ["EXIT STATUS"]);
-    entry(roff, "0", "Done; drawings that were compared are the same.");
-    entry(
-        roff,
-        "1",
-        "ligne diff or ligne test found differences, or a drawing that nobody has approved; ligne fmt --check one not in canonical form.",
-    );
-    entry(
-        roff,
-        "2",
-        "The call or an input file is wrong. The message says which, what is wrong with it and what to do; \
-         existing files stay as they were. Where ligne draw has many models, the others are drawn.",
-    );
-    entry(
-        roff,
-        "75",
-        "A file could not be read or written for a reason that may pass, such as a full disc: the same call may do later, \
-         ligne draw with --resume.",
-    );
+    for (status, meaning) in EXIT_STATUS {
+        entry(roff, status, meaning);
+    }
+    roff.control("PP", []);
+    roff.text([roman("After an error nothing is written, and existing files stay unchanged.")]);
 }
 
 fn examples(roff: &mut Roff, text: &str) {
@@ -242,7 +183,7 @@ mod tests {
     use crate::cli::draw_args::HowArgs;
 
     fn text(command: Option<&str>) -> String {
-        let mut program = crate::cli::Cli::command();
+        let mut program = crate::cli::program();
         program.build();
         let command = command.and_then(|name| program.find_subcommand(name)).unwrap_or(&program);
         String::from_utf8(page(&program, command).unwrap_or_default()).unwrap_or_default()
@@ -250,7 +191,7 @@ mod tests {
 
     #[test]
     fn every_command_has_a_page() {
-        let mut program = crate::cli::Cli::command();
+        let mut program = crate::cli::program();
         program.build();
         for command in program.get_subcommands().filter(|c| c.get_name() != "help") {
             let page = text(Some(command.get_name()));

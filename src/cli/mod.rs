@@ -1,10 +1,11 @@
-//! The command line: what was typed, what is meant, one file a command.
+//! The command line: arguments, requests, and one module for each command.
 
 mod animate;
 mod blend;
 mod completions;
 mod config;
 mod contact_sheet;
+mod conventions;
 mod defaults;
 mod diff;
 mod draw;
@@ -12,6 +13,7 @@ mod draw_args;
 mod dxf_args;
 mod fmt;
 mod framing_args;
+mod hints;
 mod info;
 mod keys;
 mod lod;
@@ -29,9 +31,11 @@ mod pipeline;
 #[cfg(feature = "pdf")]
 mod print_args;
 mod progress;
+mod reference;
 mod request;
 mod section_args;
 mod shard;
+mod shorthand;
 mod status;
 mod step;
 mod style_keys;
@@ -45,38 +49,52 @@ mod wonder;
 use std::io::Write;
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{Args, Command as Program, CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::error::Error;
 
-/// Exit status where drawings that were compared differ.
+/// Exit status if compared drawings differ.
 const DIFFERENCES: u8 = 1;
 
-/// Exit status where the call or an input file is wrong.
+/// Exit status if the call or an input file is wrong.
 const WRONG: u8 = 2;
 
-/// Exit status where the same call may well do later: a full disc, a network that is away. EX_TEMPFAIL of sysexits.h.
+/// Exit status if the same call may succeed later, for example after a full disc. EX_TEMPFAIL of sysexits.h.
 const LATER: u8 = 75;
 
 const EXAMPLES: &str = "Examples:
-  ligne draw model.obj                              writes model.svg, in ink
-  ligne draw model.glb model.png --style toon       in flat colours; `ligne styles` lists all
-  ligne info model.stl                              says what is in a model, and what is wrong with it";
+  ligne model.obj                                writes model.svg in the style ink
+  ligne model.glb model.png --style toon         flat colours; `ligne styles` lists all styles
+  ligne draw *.glb --out-dir drawings            draws many models
+  ligne info model.stl                           lists contents and defects of a model
 
-/// What was typed.
+A model as the first word means `ligne draw`.";
+
+/// Usage of the program.
+const USAGE: &str = "ligne [OPTIONS] <COMMAND>
+       ligne <MODEL> [OUT]... [OPTIONS]";
+
+/// Heading of the options that commands take over from `ligne draw`.
+const SHARED: &str = "Options shared with ligne draw";
+
+/// Commands that take over options from `ligne draw`.
+const SHARING: [&str; 2] = ["animate", "diff"];
+
+/// Arguments of the program.
 #[derive(Debug, Parser)]
 #[command(
     name = "ligne",
     version,
     about = "Turns a 3D model into a vector line drawing",
     arg_required_else_help = true,
+    override_usage = USAGE,
     after_help = EXAMPLES
 )]
 struct Cli {
     #[command(subcommand)]
     command: Command,
 
-    /// Leave ligne.toml aside
+    /// Ignore ligne.toml
     #[arg(long, global = true)]
     no_config: bool,
 }
@@ -85,66 +103,82 @@ struct Cli {
 enum Command {
     /// Draw a model
     Draw(Box<draw_args::DrawArgs>),
-    /// Draw the frames of an animation, or of a turn round a model
+    /// Draw an animation or a turntable as frames or a film
     Animate(Box<animate::AnimateArgs>),
-    /// Compose drawings on pages: comic panels, technical sheets
+    /// Compose drawings on pages: comic pages, technical sheets
     Page(Box<page::PageArgs>),
-    /// Compare two drawings by geometry
+    /// Compare two drawings or models by geometry
     Diff(Box<diff::DiffArgs>),
-    /// Draw every case of a folder and compare it with the approved drawing
+    /// Draw the cases of a folder and compare them with approved drawings
     Test(test::TestArgs),
-    /// Rewrite drawings in the form that makes small textual differences
+    /// Rewrite drawings in canonical form for version control
     Fmt(fmt::FmtArgs),
-    /// Say what is in a model file, and what is wrong with it
+    /// List contents and defects of a model file
     Info(info::InfoArgs),
-    /// Write beside a model in which order it loses its faces
+    /// Precompute the simplification of a model, for --faces
     Lod(lod::LodArgs),
-    /// List the built-in styles, show one, or draw a model in all of them
+    /// List or print built-in styles, or draw a model in all of them
     Styles(Box<styles::StylesArgs>),
-    /// Write a completion script for a shell
+    /// Print a completion script for a shell
     Completions(completions::CompletionsArgs),
-    /// Write the manual page
+    /// Print a manual page
     Man(man::ManArgs),
+}
+
+/// The program's commands and options, as the parser, help, manual pages and completions use them.
+fn program() -> Program {
+    let of_drawing = draw_args::HowArgs::augment_args(Program::new("draw"));
+    let shared: Vec<_> = of_drawing.get_arguments().map(|option| option.get_id().clone()).collect();
+    let mut program = Cli::command();
+    // `Command::mut_subcommand` would move the command to the end of the list.
+    for command in program.get_subcommands_mut().filter(|command| SHARING.contains(&command.get_name())) {
+        *command = std::mem::take(command).mut_args(|option| {
+            if shared.contains(option.get_id()) { option.help_heading(SHARED) } else { option }
+        });
+    }
+    program
 }
 
 /// Runs the program with the arguments of the process.
 #[must_use]
 pub fn main() -> ExitCode {
     let surroundings = defaults::Surroundings::of_process();
-    let words = defaults::complete(std::env::args_os().collect(), &Cli::command(), &surroundings);
-    let words = match words {
+    let program = program();
+    let typed = shorthand::expanded(std::env::args_os().collect(), &program);
+    let words = match defaults::complete(typed, &program, &surroundings) {
         Ok(words) => words,
         Err(error) => {
             say(&format!("error: {error}"));
             return ExitCode::from(WRONG);
         }
     };
-    let cli = match Cli::try_parse_from(&words) {
+    let parsed = program.clone().try_get_matches_from(&words);
+    let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {
-            let error = style_keys::with_tip(error, &words, &Cli::command());
-            // Nobody is left to tell where this fails.
+            let error = style_keys::with_tip(error, &words, &program);
+            // There is no other place to report a failure of standard error.
             let _ = error.print();
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(WRONG));
         }
     };
-    let all_well = |()| ExitCode::SUCCESS;
+    let success = |()| ExitCode::SUCCESS;
     let done = match cli.command {
-        Command::Draw(args) if args.contact.contact_sheet => contact_sheet::of_views(*args).map(all_well),
+        Command::Draw(args) if args.contact.contact_sheet => contact_sheet::of_views(*args).map(success),
         Command::Draw(args) if many::is_asked(&args) => many::run(*args),
         Command::Draw(args) => {
-            request::DrawRequest::new(*args).and_then(|request| draw::run(&request)).map(all_well)
+            request::DrawRequest::new(*args).and_then(|request| draw::run(&request)).map(success)
         }
-        Command::Animate(args) => animate::run(*args).map(all_well),
-        Command::Page(args) => page::run(&args).map(all_well),
+        Command::Animate(args) => animate::run(*args).map(success),
+        Command::Page(args) => page::run(&args).map(success),
         Command::Diff(args) => diff::run(&args),
         Command::Test(args) => test::run(&args, cli.no_config, &surroundings),
         Command::Fmt(args) => fmt::run(&args),
-        Command::Info(args) => info::run(&args).map(all_well),
-        Command::Lod(args) => lod::run(&args).map(all_well),
-        Command::Styles(args) => styles::run(&args).map(all_well),
-        Command::Completions(args) => completions::run(&args).map(all_well),
-        Command::Man(args) => man::run(&args).map(all_well),
+        Command::Info(args) => info::run(&args).map(success),
+        Command::Lod(args) => lod::run(&args).map(success),
+        Command::Styles(args) => styles::run(&args).map(success),
+        Command::Completions(args) => completions::run(&args).map(success),
+        Command::Man(args) => man::run(&args).map(success),
     };
     match done {
         Ok(status) => status,
@@ -155,12 +189,12 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// A line on standard error; one that nobody reads is no error.
+/// Prints a line on standard error; a closed pipe is not an error.
 fn say(line: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{line}");
 }
 
-/// Writes to standard output; a reader that has seen enough and closed the pipe is no error.
+/// Writes to standard output; a closed pipe is not an error.
 fn print(bytes: &[u8]) -> Result<(), Error> {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
@@ -173,13 +207,28 @@ fn print(bytes: &[u8]) -> Result<(), Error> {
 
 #[cfg(test)]
 mod tests {
-    use clap::CommandFactory;
+    /// Help text that fits next to an option on one line of a wide terminal.
+    const MAX_HELP_CHARS: usize = 125;
+
+    #[test]
+    fn every_option_has_one_line_of_help() {
+        let mut program = super::program();
+        program.build();
+        for command in program.get_subcommands().filter(|command| command.get_name() != "help") {
+            for option in command.get_arguments() {
+                let help = option.get_help().map(ToString::to_string).unwrap_or_default();
+                let place = format!("{} {option}: {help}", command.get_name());
+                assert!(!help.is_empty() && help.chars().count() <= MAX_HELP_CHARS, "{place}");
+                assert!(option.get_long_help().is_none() && !help.ends_with('.'), "{place}");
+            }
+        }
+    }
 
     use crate::error::spelling::british;
 
     #[test]
     fn options_in_british_spelling_have_american_aliases() {
-        let program = super::Cli::command();
+        let program = super::program();
         let mut tried = 0;
         for option in program.get_subcommands().flat_map(clap::Command::get_arguments) {
             let Some(name) = option.get_long() else { continue };
@@ -196,7 +245,7 @@ mod tests {
 
     #[test]
     fn the_commands_are_sound_and_show_an_example() {
-        let mut command = super::Cli::command();
+        let mut command = super::program();
         command.build();
         command.clone().debug_assert();
         for subcommand in command.get_subcommands_mut().filter(|c| c.get_name() != "help") {

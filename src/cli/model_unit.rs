@@ -79,19 +79,19 @@ pub(super) fn doubt(scene: &Scene, longest: f64) -> Option<String> {
     if is_in_metres(scene) {
         return (longest > LONGEST_METRES).then(|| {
             let metres = number(longest / 1000.0);
-            format!("it is {long} m long, as glTF counts; if its numbers are mm it is {metres} m: --unit mm")
+            format!("the model is {long} m long, as glTF uses metres; if its numbers are mm, it is {metres} m long: --unit mm")
         });
     }
-    let counted = "the file does not say in which unit it is";
+    let counted = "the file does not store its unit";
     if longest < SHORTEST_MM {
         let (mm, inches) = (number(longest * 1000.0), number(longest * ModelUnit::In.mm()));
         Some(format!(
-            "{counted}; as mm it is only {long} mm long, as metres {mm} mm (--unit m), as inches {inches} mm (--unit in)"
+            "{counted}; in mm the model is only {long} mm long, in metres {mm} mm (--unit m), in inches {inches} mm (--unit in)"
         ))
     } else if longest > LONGEST_MM {
         let metres = number(longest / 1000.0);
         Some(format!(
-            "{counted}; as mm it is {metres} m long; if that is too long, it was exported in finer units"
+            "{counted}; in mm the model is {metres} m long; if that is too long, its unit is smaller"
         ))
     } else {
         None

@@ -1,4 +1,4 @@
-//! The moment of an animation that is drawn.
+//! The scene at one moment of its animation.
 
 use super::blend::Blend;
 use super::request::DrawRequest;
@@ -8,14 +8,18 @@ use crate::pose::{Clip, Rigged};
 use crate::scene::Scene;
 use crate::style::Style;
 
-/// The scene at the time of a request while its clips play, and what leaves motion lines in a style; as it is stored if
-/// neither is asked for. Where the file has one clip, a time is enough.
+/// The scene at the time of a request, with the trails of motion lines, and notes on the choice of clips. Without a clip and a time it
+/// is the scene as stored.
 ///
 /// # Errors
-/// If no clip has such a name, if it is not told which one plays, and what posing says.
-pub(super) fn scene_at(rigged: Rigged, request: &DrawRequest, style: &Style) -> Result<Scene, Error> {
+/// If no clip has such a name, or if a pose is not finite.
+pub(super) fn scene_at(
+    rigged: Rigged,
+    request: &DrawRequest,
+    style: &Style,
+) -> Result<(Scene, Vec<String>), Error> {
     if request.stands() {
-        return Ok(rigged.scene);
+        return Ok((rigged.scene, Vec::new()));
     }
     let in_file = |error: Error| match &rigged.scene.file {
         Some(file) if error.file.is_none() => error.in_file(file),
@@ -33,11 +37,9 @@ pub(super) fn scene_at(rigged: Rigged, request: &DrawRequest, style: &Style) -> 
         .filter_map(|own| clips.get(own.clip))
         .filter(|clip| !(blend.repeats() || has(clip, time)))
     {
-        scene
-            .warnings
-            .note(format!("the animation `{name}` does not last until {time} s; it stands still there"));
+        scene.warnings.note(format!("the animation `{name}` ends before {time} s; its last pose is drawn"));
     }
-    Ok(scene)
+    Ok((scene, blend.notes().to_vec()))
 }
 
 /// Whether a time lies within a clip, or the clip is all at one time.

@@ -27,14 +27,14 @@ impl Numbered {
         let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
         if folder.to_string_lossy().contains('%') {
             return Err(wrong(format!(
-                "the number of {what} belongs into the name of the file, not of its folder"
+                "the number of {what} must be in the file name, not in the folder name"
             )));
         }
         if !name.contains('%') {
             return Ok(None);
         }
         let number = number_in(&name)
-            .ok_or_else(|| wrong(format!("`{name}` does not tell where the number of {what} stands")))?;
+            .ok_or_else(|| wrong(format!("`{name}` has no place for the number of {what}")))?;
         let [before, digits, after] = number;
         let format = Output::new(PathBuf::from(&name))?.format;
         let digits = digits.parse().unwrap_or(0);

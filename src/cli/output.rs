@@ -5,6 +5,7 @@ use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
+use crate::load::ModelFormat;
 
 /// What is written, and where.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -47,15 +48,20 @@ impl Output {
                     .in_file(path)
                     .remedy("build it with the feature `pdf`, or write .svg"));
             }
+            Some(other) if ModelFormat::of_ending(other).is_some() => {
+                return Err(Error::new("this is a model, and a drawing is expected here")
+                    .in_file(path)
+                    .remedy("to draw several models, give --out-dir FOLDER"));
+            }
             Some(other) => {
-                return Err(Error::new(format!("drawings are not written as .{other}"))
+                return Err(Error::new(format!("ligne cannot write drawings as .{other}"))
                     .in_file(path)
                     .remedy(
                         "end the name with .svg, .png, .pdf or .dxf, or write - for SVG on standard output",
                     ));
             }
             None => {
-                return Err(Error::new("the name of the drawing does not tell its format")
+                return Err(Error::new("the name of the drawing has no format")
                     .in_file(path)
                     .remedy("end it with .svg, .png, .pdf or .dxf, or write - for SVG on standard output"));
             }
@@ -80,7 +86,7 @@ pub(super) fn is_stdout(path: &Path) -> bool {
 /// Refuses a place that nothing can be written to, before any work is done.
 pub(super) fn check_place(path: &Path) -> Result<(), Error> {
     if is_stdout(path) {
-        return Err(Error::new("this is not written to standard output").remedy("name a file"));
+        return Err(Error::new("this output cannot go to standard output").remedy("name a file"));
     }
     if path.is_dir() {
         return Err(Error::new("this is a folder").in_file(path).remedy("name a file in it"));
@@ -122,7 +128,7 @@ impl Staging {
         let existing = fs::metadata(&place).ok();
         if let Some(existing) = &existing {
             if existing.permissions().readonly() {
-                return Err(Error::new("the file may not be changed")
+                return Err(Error::new("the file is write-protected")
                     .in_file(path)
                     .remedy("make it writable, or give the output another name"));
             }
@@ -210,7 +216,7 @@ pub(super) fn staged_for(name: &str) -> Option<&str> {
 fn cannot_write(path: &Path, error: std::io::Error) -> Error {
     let remedy = match error.kind() {
         ErrorKind::NotFound => "create the folder first",
-        ErrorKind::PermissionDenied => "write to a folder of your own",
+        ErrorKind::PermissionDenied => "choose a folder that you can write to",
         ErrorKind::StorageFull => "free some space",
         _ => "check the path",
     };

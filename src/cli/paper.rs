@@ -147,7 +147,7 @@ impl Paper {
         if margin * 2.0 >= shorter {
             let unit = unit.name();
             return Err(Error::new(format!(
-                "a margin of {margin} {unit} leaves nothing of {shorter} {unit}"
+                "a margin of {margin} {unit} leaves no room on a page of {shorter} {unit}"
             ))
             .at("--margin")
             .remedy("make it less than half of the page's shorter side"));

@@ -57,7 +57,7 @@ fn check_left(scene: &Scene, names: &[String]) -> Result<(), Error> {
     if scene.parts.is_empty() {
         let mut shown: Vec<&str> = names.iter().map(String::as_str).take(8).collect();
         shown.dedup();
-        return Err(Error::new("no part is left by --only and --hide")
+        return Err(Error::new("--only and --hide leave no part")
             .remedy(format!("the parts are {}", shown.join(", "))));
     }
     Ok(())

@@ -15,33 +15,33 @@ use crate::math::colour::Colour;
 /// How PDF is written, but for its inks.
 #[derive(Debug, Clone, Default, Args)]
 pub(super) struct PrintArgs {
-    /// ICC profile of the press, in PDF: fills are converted by it with --ink cmyk, and PDF/X-4 holds it
+    /// ICC profile of the press, for --ink cmyk and PDF/X-4
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = "Print")]
     icc: Option<PathBuf>,
 
-    /// A colour that is printed with an ink of its own, in PDF: "#e4002b=PANTONE 185 C"; may be given again
+    /// Spot colour, such as "#e4002b=PANTONE 185 C"; repeatable
     #[arg(long = "spot", value_name = "COLOUR=INK", value_parser = spot, help_heading = "Print")]
     spots: Vec<Spot>,
 
-    /// All inks of a place together, percent of one, with --ink cmyk: 300
+    /// Maximum total ink in percent, with --ink cmyk, such as 300
     #[arg(long, value_name = "PERCENT", help_heading = "Print")]
     ink_limit: Option<f64>,
 
-    /// Print fills as dots of solid ink, in PDF: rows of dots an inch, and the angle of black's, 60 or 60@45
+    /// Halftone screen for fills: lines per inch and angle of black, such as 60 or 60@45
     #[arg(long, value_name = "LPI@ANGLE", value_parser = screen, help_heading = "Print")]
     screen: Option<Screen>,
 
-    /// Print crop marks and registration marks around the page, in PDF
+    /// Add crop marks and registration marks
     #[arg(long, help_heading = "Print")]
     marks: bool,
 
-    /// Keep to a standard, in PDF: x4 for presses (PDF/X-4), a2b for archives (PDF/A-2b)
+    /// PDF standard: x4 (PDF/X-4, presses) or a2b (PDF/A-2b, archives)
     #[arg(long = "pdf", value_name = "STANDARD", help_heading = "Print", ignore_case = true,
         value_parser = PossibleValuesParser::new(["x4", "a2b"])
             .map(|name| if name.eq_ignore_ascii_case("x4") { Standard::X4 } else { Standard::A2b }))]
     standard: Option<Standard>,
 
-    /// Write letters as outlines, without fonts, in PDF
+    /// Write letters as outlines, without fonts
     #[arg(long, help_heading = "Print")]
     outlined: bool,
 }
@@ -101,9 +101,9 @@ impl PrintArgs {
         match ink.as_deref() {
             Some("cmyk") => {
                 let profile = profile.ok_or_else(|| {
-                    Error::new("without the profile of the press nobody knows how much of each ink to print")
+                    Error::new("four inks need the ICC profile of the press")
                         .at("--ink cmyk")
-                        .remedy("give --icc FILE (icc in a page file), or --ink k for black alone")
+                        .remedy("give --icc FILE (icc in a page file), or --ink k for black only")
                 })?;
                 options.inks = Inks::Cmyk(profile);
             }
@@ -111,7 +111,7 @@ impl PrintArgs {
             _ => options.profile = profile,
         }
         if self.ink_limit.is_some() && !matches!(options.inks, Inks::Cmyk(_)) {
-            return Err(Error::new("only four inks have a limit")
+            return Err(Error::new("an ink limit needs four inks")
                 .at("--ink-limit")
                 .remedy("give --ink cmyk --icc FILE, or leave it out"));
         }
@@ -145,9 +145,11 @@ impl PrintArgs {
             (self.outlined, "--outlined"),
         ];
         match given.iter().find(|(given, _)| *given) {
-            Some((_, option)) if !writes_pdf => Err(Error::new("is an option of PDF, and none is written")
-                .at(*option)
-                .remedy("name a .pdf file")),
+            Some((_, option)) if !writes_pdf => {
+                Err(Error::new("this option works with PDF only, and no PDF is written")
+                    .at(*option)
+                    .remedy("name a .pdf file"))
+            }
             _ => Ok(()),
         }
     }

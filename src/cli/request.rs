@@ -93,7 +93,8 @@ impl DrawRequest {
     /// Where an output has no known format, where two outputs are the same file, and where an
     /// output would overwrite the model.
     pub(super) fn new(args: DrawArgs) -> Result<Self, Error> {
-        let paths = args.many.paths(&args.model, args.out.into_iter().chain(args.outputs).collect())?;
+        let typed = args.out.into_iter().chain(args.more).chain(args.outputs).collect();
+        let paths = args.many.paths(&args.model, typed)?;
         let outputs = paths.into_iter().map(Output::new).collect::<Result<Vec<_>, _>>()?;
         let save_camera = args.save.save_camera;
         let besides: Vec<&Path> = args.report.iter().chain(&save_camera).map(PathBuf::as_path).collect();
@@ -101,7 +102,7 @@ impl DrawRequest {
         let piped = args.many.piped([&args.model])?;
         let request = Self::of_model(args.model, args.how)?.reading(piped);
         #[cfg(feature = "pdf")]
-        let print = args.print.of_outputs(args.web.ink.as_deref(), &outputs)?;
+        let print = args.print.of_outputs(args.web.pdf_inks(), &outputs)?;
         Ok(Self {
             #[cfg(feature = "pdf")]
             print,
@@ -133,7 +134,7 @@ impl DrawRequest {
         // clap drops what an option requires where that conflicts with another option given.
         let alone = [("--scale", args.scale.is_some()), ("--landscape", args.landscape)];
         if let Some((option, _)) = alone.into_iter().find(|(_, given)| *given && args.page.is_none()) {
-            return Err(Error::new("this needs a page in mm")
+            return Err(Error::new("this option needs a page in mm")
                 .at(option)
                 .remedy("give --page, such as --page A4"));
         }
@@ -143,9 +144,9 @@ impl DrawRequest {
             (None, false) => None,
         };
         if args.view.len() > 1 {
-            return Err(Error::new("there is one drawing, and there are several views")
+            return Err(Error::new("one drawing cannot show several views")
                 .at("--view")
-                .remedy("give one"));
+                .remedy("give one view"));
         }
         let view = match (args.camera, args.view.first().copied()) {
             (Some(camera), _) => View::Recorded(camera),
@@ -215,13 +216,13 @@ pub(super) fn check_apart(
                 .remedy("give the drawing another name"));
         }
         if taken.iter().any(|other| same_file(path, other)) {
-            return Err(Error::new("this output is given twice").in_file(path).remedy("leave one out"));
+            return Err(Error::new("this output is named twice").in_file(path).remedy("leave one out"));
         }
         taken.push(path.to_path_buf());
     }
     let printed = outputs.iter().filter(|output| output.format == Format::SvgToStdout).count();
     if printed + besides.iter().filter(|path| is_stdout(path)).count() > 1 {
-        return Err(Error::new("standard output is given twice").remedy("leave one `-` out"));
+        return Err(Error::new("standard output is named twice").remedy("leave one `-` out"));
     }
     Ok(())
 }

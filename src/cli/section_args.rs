@@ -13,22 +13,19 @@ use crate::section::{CutPlane, Section, cut};
 /// Where a model is cut open, and what stays whole.
 #[derive(Debug, Clone, Default, Args)]
 pub(super) struct SectionArgs {
-    /// Cut the model open along a plane, and take away what is between that and the eye: x, y or z through the middle of the model,
-    /// x=12.5 in its unit, x=10mm, x=30% of its extent, or normal:1,0,1@5. A sign says which side is taken away: +x what has more x
+    /// Cut the model open along a plane: x, +x, y=12.5, z=10mm, x=30%, normal:1,0,1@5 (sign: side to remove)
     #[arg(long, value_name = "PLANE", help_heading = "View", allow_hyphen_values = true, value_parser = CutPlane::parse)]
     pub(super) section: Option<CutPlane>,
 
-    /// Leave the parts whole whose name matches where the plane goes through them, may be given again
+    /// Parts the section plane leaves whole; repeatable
     #[arg(long, value_name = "GLOB", help_heading = "View", requires = "section")]
     pub(super) uncut: Vec<String>,
 
-    /// Take the model apart along the axis x, y, z or 1,0,1, or the best one (auto), with trail lines; :FACTOR says how far
-    /// [default: 1]
+    /// Exploded view along x, y, z, 1,0,1 or auto, with trail lines; FACTOR scales the distance [default: 1]
     #[arg(long, value_name = "AXIS[:FACTOR]", help_heading = "View", allow_hyphen_values = true, value_parser = explosion)]
     pub(super) explode: Option<Explosion>,
 
-    /// Say how parts whose name matches come apart: 'nut*: along=-z distance=12 order=2 group=cover', any of these four; may be given
-    /// again. The distance is in units of the model, 0 has them stay; a greater order stands farther along the axis; a group stays together
+    /// Rule for exploded parts, such as 'nut*: along=-z distance=12 order=2 group=cover'; repeatable
     #[arg(long, value_name = "GLOB: KEYS", help_heading = "View", requires = "explode", value_parser = part_explosion)]
     explode_part: Vec<PartExplosion>,
 }
@@ -44,12 +41,12 @@ fn part_explosion(text: &str) -> Result<PartExplosion, String> {
         let (key, value) = key.split_once('=').ok_or_else(|| wrong(&format!("`{key}` has no value")))?;
         let number = || {
             let number = value.parse().ok().filter(|number: &f64| number.is_finite());
-            number.ok_or_else(|| format!("{key} is no number: `{value}`"))
+            number.ok_or_else(|| format!("{key} is not a number: `{value}`"))
         };
         match key {
             "along" => {
                 let way = direction(value).ok_or_else(|| {
-                    format!("along is no direction: `{value}`; write x, -y or three numbers such as 1,0,1")
+                    format!("`{value}` is not a direction; write x, -y or three numbers such as 1,0,1")
                 })?;
                 part.direction = Some(way);
             }
@@ -60,7 +57,7 @@ fn part_explosion(text: &str) -> Result<PartExplosion, String> {
         }
     }
     if part == PartExplosion::new(name.trim()) {
-        return Err(wrong("nothing is told of it"));
+        return Err(wrong("there is no key after the colon"));
     }
     Ok(part)
 }
@@ -69,7 +66,8 @@ fn part_explosion(text: &str) -> Result<PartExplosion, String> {
 fn explosion(text: &str) -> Result<Explosion, String> {
     let (axis, factor) = text.split_once(':').map_or((text, None), |(axis, factor)| (axis, Some(factor)));
     let wrong = || {
-        "write x, y, z, three numbers such as 1,0,1, or auto, and how far behind a colon: z:1.5".to_owned()
+        "write x, y, z, three numbers such as 1,0,1, or auto, and a factor after a colon, such as z:1.5"
+            .to_owned()
     };
     let axis = match axis.trim() {
         "" | "auto" => None,
@@ -95,9 +93,9 @@ impl SectionArgs {
         let is_unknown =
             |told: &&PartExplosion| !scene.parts.iter().any(|part| told.name.matches(&part.name));
         if let Some(unknown) = self.explode_part.iter().find(is_unknown) {
-            return Err(Error::new(format!("no part of the model is called `{}`", unknown.name.as_str()))
+            return Err(Error::new(format!("no part has the name `{}`", unknown.name.as_str()))
                 .at("--explode-part")
-                .remedy("`ligne info` lists the names; a pattern such as bolt* stands for several"));
+                .remedy("`ligne info` lists the names; a pattern such as bolt* matches several"));
         }
         let parts = [explosion.parts.as_slice(), &self.explode_part].concat();
         let ways = explode(scene, &Explosion { parts, ..explosion.clone() });
@@ -120,9 +118,9 @@ impl SectionArgs {
         let mut section = cut(std::mem::take(scene), &plane, &uncut);
         *scene = std::mem::take(&mut section.scene);
         if scene.parts.is_empty() {
-            return Err(Error::new("nothing is left of the model behind the plane")
+            return Err(Error::new("the section plane removes the whole model")
                 .at("--section")
-                .remedy("move it"));
+                .remedy("move the plane, or turn it with another sign"));
         }
         Ok(Some(section))
     }

@@ -44,9 +44,7 @@ impl Share {
             let k: usize = k.parse().ok().filter(|k| (1..=of).contains(k))?;
             Some(Self::Given(Shard { first: k - 1, of }))
         });
-        share.ok_or_else(|| {
-            "write K/N, such as 1/4 for the first of four, or /4 where a job array knows the rest".to_owned()
-        })
+        share.ok_or_else(|| "write K/N, such as 1/4 for the first of four, or /4 in a job array".to_owned())
     }
 
     /// The shard, asking the environment if need be.
@@ -57,9 +55,9 @@ impl Share {
         match self {
             Self::Given(shard) => Ok(shard),
             Self::Of(of) => numbered(of, &variable)?.ok_or_else(|| {
-                Error::new("this is no task of a job array: neither SLURM_ARRAY_TASK_ID nor JOB_COMPLETION_INDEX is set")
+                Error::new("this is not a task of a job array: neither SLURM_ARRAY_TASK_ID nor JOB_COMPLETION_INDEX is set")
                     .at("--shard")
-                    .remedy(format!("write which shard it is, such as 1/{of}"))
+                    .remedy(format!("write the number of the shard, such as 1/{of}"))
             }),
         }
     }
@@ -81,7 +79,7 @@ fn variable(name: &str) -> Option<String> {
 fn number(name: &str, variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<usize>, Error> {
     let Some(value) = variable(name) else { return Ok(None) };
     let number = value.trim().parse();
-    let wrong = |_| Error::new(format!("`{value}` is no number")).at(name).remedy("give --shard K/N");
+    let wrong = |_| Error::new(format!("`{value}` is not a number")).at(name).remedy("give --shard K/N");
     number.map(Some).map_err(wrong)
 }
 
@@ -96,7 +94,7 @@ fn numbered(of: usize, variable: &dyn Fn(&str) -> Option<String>) -> Result<Opti
     let Some((name, id, least)) = found else { return Ok(None) };
     let first = id.checked_sub(least).filter(|first| *first < of);
     let first = first.ok_or_else(|| {
-        Error::new(format!("task {id} is none of {least} to {}", of - 1 + least))
+        Error::new(format!("task {id} is outside {least} to {}", of - 1 + least))
             .at(name)
             .remedy(format!("number the tasks from {least} to {}, or give --shard K/N", of - 1 + least))
     })?;
@@ -114,7 +112,7 @@ fn counted(variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<Shard>, E
     if let Some(id) = number("SLURM_ARRAY_TASK_ID")? {
         let name = "SLURM_ARRAY_TASK_ID";
         let Some(of) = number("SLURM_ARRAY_TASK_COUNT")?.filter(|of| *of > 0) else {
-            return unsaid(name, "SLURM_ARRAY_TASK_COUNT does not say of how many");
+            return unsaid(name, "SLURM_ARRAY_TASK_COUNT is missing");
         };
         let least = number("SLURM_ARRAY_TASK_MIN")?.unwrap_or(1);
         let step = number("SLURM_ARRAY_TASK_STEP")?.unwrap_or(1).max(1);
@@ -124,15 +122,15 @@ fn counted(variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<Shard>, E
         // A list such as 3,7 has gaps: which of its tasks this is, nobody says.
         return match place(id).filter(|first| *first < of && place(most) == Some(of - 1)) {
             Some(first) => Ok(Some(Shard { first, of })),
-            None => unsaid(name, "its tasks are not numbered evenly"),
+            None => unsaid(name, "its task numbers have gaps"),
         };
     }
     if let Some(first) = number("JOB_COMPLETION_INDEX")? {
         let name = "JOB_COMPLETION_INDEX";
         return match number("JOB_COMPLETIONS")? {
             Some(of) if first < of => Ok(Some(Shard { first, of })),
-            Some(of) => unsaid(name, &format!("JOB_COMPLETIONS is {of}, and indices end before that")),
-            None => unsaid(name, "JOB_COMPLETIONS does not say of how many"),
+            Some(of) => unsaid(name, &format!("JOB_COMPLETIONS is {of}, and the index is not below it")),
+            None => unsaid(name, "JOB_COMPLETIONS is missing"),
         };
     }
     Ok(None)

@@ -10,34 +10,34 @@ use crate::style::Style;
 /// What was typed.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  ligne styles                        list the styles
-  ligne styles ink > mine.toml        start a style of your own
-  ligne styles ink --all              every key of a style, with its value and a line of help
-  ligne styles --keys 'lines.*'       list keys with type, default and allowed values
+  ligne styles                            list the styles
+  ligne styles ink > mine.toml            start your own style
+  ligne styles ink --all                  list every key of a style, with its value and help
+  ligne styles --keys 'lines.*'           list keys with type, default and allowed values
   ligne styles --sheet all.svg gear.obj   draw a model in all styles, side by side
   ligne styles --sheet some.png gear.obj --style 'ink,*pencil*,mine.toml' --azimuth -20 --size 400")]
 pub(super) struct StylesArgs {
-    /// The style whose text is shown; with --sheet the model that is drawn
+    /// Style to print; with --sheet, the model to draw
     #[arg(value_name = "NAME|MODEL")]
     name: Option<String>,
 
     #[command(flatten)]
     sheet: StyleSheetArgs,
 
-    /// Show every key of the style, also those it does not set; NAME may be a style sheet
+    /// Print every key of a style, with its value and help; NAME may be a style sheet
     #[arg(long, requires = "name", conflicts_with = "sheet")]
     all: bool,
 
-    /// List the keys of style sheets; GLOB picks some: 'pen.*', or any part of a key [default: all]
+    /// List style keys that match, such as 'pen.*' [default: all]
     #[arg(long, value_name = "GLOB", num_args = 0..=1, default_missing_value = "*",
         conflicts_with_all = ["name", "sheet", "all"])]
     keys: Option<String>,
 
-    /// With --keys: print JSON
+    /// Print the keys of --keys as JSON
     #[arg(long, requires = "keys")]
     json: bool,
 
-    /// With --keys: print the page docs/reference/style-keys.md
+    /// Print the page docs/reference/style-keys.md
     #[arg(long, hide = true, requires = "keys", conflicts_with = "json")]
     reference: bool,
 }

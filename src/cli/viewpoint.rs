@@ -132,7 +132,7 @@ fn recorded<'p>(
 fn place(found: &mut Viewpoint, sheet: &Sheet, scene: &Scene, points: &[DVec3]) -> Result<(), Error> {
     if !matches!(found.camera.projection, Projection::Orthographic { .. }) {
         let option = if sheet.scale.is_some() { "--scale" } else { "--centre" };
-        return Err(Error::new("this needs parallel lines of sight")
+        return Err(Error::new("this option needs an orthographic view")
             .at(option)
             .remedy("give --ortho, or another camera"));
     }
@@ -195,18 +195,18 @@ fn outside(found: &Viewpoint, points: &[DVec3]) -> Option<String> {
         return None;
     }
     if low.x > high.x {
-        return Some("the model is behind the eye: nothing of it can be seen".to_owned());
+        return Some("the model is behind the camera, so the drawing is empty".to_owned());
     }
     let (width, height) = (camera.width / 2.0, camera.height / 2.0);
     if low.x > width || high.x < -width || low.y > height || high.y < -height {
-        return Some("the model is beside the frame: nothing of it can be seen".to_owned());
+        return Some("the model is outside the frame, so the drawing is empty".to_owned());
     }
     let size = high - low;
     let dot = size.x.max(size.y) < DOT * camera.width.min(camera.height);
     dot.then(|| {
         let (width, height) = (plain(size.x, 1), plain(size.y, 1));
         format!(
-            "the model is a dot on the page, {width} x {height} {} large; if its unit is another one, give --unit",
+            "the model covers only {width} x {height} {} of the page; give its unit with --unit",
             paper.unit.name()
         )
     })

@@ -26,7 +26,7 @@ pub(super) fn complete(
         drawing.hotspots = render::hotspots(scene, camera, page, style)?;
     }
     let bare = request.web.hotspots && drawing.hotspots.is_empty();
-    Ok(bare.then_some("no part with a name is in sight: there are no hot-spots"))
+    Ok(bare.then_some("no named part is visible, so there are no hotspots"))
 }
 
 /// How SVG is written.
@@ -35,10 +35,10 @@ pub(super) fn svg_options(request: &DrawRequest, style: &Style) -> Result<SvgOpt
     if request.web.title.is_some() || request.web.desc.is_some() {
         options = options.read_aloud(request.web.desc.as_deref().unwrap_or_default());
     }
-    if request.web.ink.as_deref().is_some_and(|ink| ink.eq_ignore_ascii_case("currentColor")) {
+    if request.web.uses_current_colour() {
         let Ink::Fixed(ink) = style.stroke.pen.colour else {
-            return Err(Error::new("the style's pen has no colour of its own")
-                .at("--ink")
+            return Err(Error::new("the style's pen has no fixed colour")
+                .at("--current-colour")
                 .remedy("give it one: --set pen.colour=black"));
         };
         options = options.with_current_ink(ink);

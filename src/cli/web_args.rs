@@ -1,26 +1,46 @@
-//! Options of drawings that are put into web pages.
+//! Options for drawings in web pages.
 
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-/// What a web page needs of a drawing.
+/// The value of `--ink` that `--current-colour` replaced.
+const CURRENT_COLOUR: &str = "currentColor";
+
+/// Options for drawings in web pages, and the inks of PDF.
 #[derive(Debug, Clone, Default, Args)]
 pub(super) struct WebArgs {
-    /// Lay an area over each part that is not painted, but answers the pointer in web pages and has the part's name, in SVG; with --title or --desc it is a button
+    /// Add an invisible SVG area per named part that reacts to the pointer; with --title or --desc, a button
     #[arg(long, help_heading = "Output")]
     pub(super) hotspots: bool,
 
-    /// Title of the drawing, also for screen readers [default: the model's name]
+    /// Title, also for screen readers [default: MODEL's name]
     #[arg(long, value_name = "TEXT", help_heading = "Output")]
     pub(super) title: Option<String>,
 
-    /// What is seen in the drawing, for screen readers, in SVG
+    /// Description in SVG, for screen readers
     #[arg(long, value_name = "TEXT", help_heading = "Output")]
     pub(super) desc: Option<String>,
 
-    /// currentColor: write what has the colour of the style's pen in the colour of the text around the drawing, in SVG; with
-    /// --background none for light pages and dark ones. k: print with black alone, in PDF; cmyk: with four inks, by --icc
-    #[arg(long, value_name = "INK", help_heading = "Output", ignore_case = true, hide_possible_values = true,
-        value_parser = PossibleValuesParser::new(["currentColor", "screen", "k", "cmyk"]))]
-    pub(super) ink: Option<String>,
+    /// Draw what has the pen's colour in the text colour of the web page (SVG currentColor)
+    #[arg(long, alias = "current-color", help_heading = "Output")]
+    current_colour: bool,
+
+    /// PDF inks: screen (RGB), k (black only) or cmyk (four inks, with --icc) [default: screen]
+    #[arg(long, value_name = "INKS", help_heading = "Print", ignore_case = true, hide_possible_values = true,
+        value_parser = PossibleValuesParser::new(["screen", "k", "cmyk", CURRENT_COLOUR]))]
+    ink: Option<String>,
+}
+
+impl WebArgs {
+    /// Whether the pen's colour becomes the text colour of the web page.
+    pub(super) fn uses_current_colour(&self) -> bool {
+        let is_ink = self.ink.as_deref().is_some_and(|ink| ink.eq_ignore_ascii_case(CURRENT_COLOUR));
+        self.current_colour || is_ink
+    }
+
+    /// The inks of PDF, if they are given.
+    #[cfg(feature = "pdf")]
+    pub(super) fn pdf_inks(&self) -> Option<&str> {
+        self.ink.as_deref().filter(|ink| !ink.eq_ignore_ascii_case(CURRENT_COLOUR))
+    }
 }

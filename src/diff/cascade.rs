@@ -98,7 +98,7 @@ impl<'a> Cascade<'a> {
             self.trials += 1 + long.sum::<usize>();
             if self.trials > MOST_TRIALS {
                 let rules = self.sheet.rules.len();
-                return Err(too_much(&format!("{rules} rules of style on so many elements")));
+                return Err(too_much(&format!("{rules} style rules for a drawing of this size")));
             }
             if self.is_in_place(*number, part) && fits(&part.compound, node, first) {
                 level.fits.push(*number);
@@ -118,7 +118,7 @@ impl<'a> Cascade<'a> {
         for block in blocks {
             self.given += block.iter().map(|d| d.name.len() + d.value.len() + 2).sum::<usize>();
             if self.given > MOST_GIVEN {
-                return Err(too_much("declarations of rules of style, on so many elements,"));
+                return Err(too_much("declarations in style rules for a drawing of this size"));
             }
             found.extend_from_slice(block);
         }
@@ -250,8 +250,8 @@ mod tests {
                 .map_or_else(|| "read".to_owned(), |error| error.to_string())
         };
         let many = "<g/>".repeat(20_000);
-        assert!(refused(&"g{fill:red}".repeat(20_000), &many).contains("rules of style"));
-        assert!(refused(&format!("{}g{{fill:red}}", "g,".repeat(20_000)), &many).contains("rules of style"));
+        assert!(refused(&"g{fill:red}".repeat(20_000), &many).contains("style rules"));
+        assert!(refused(&format!("{}g{{fill:red}}", "g,".repeat(20_000)), &many).contains("style rules"));
         let long = format!("g{{{}}}", "a:b;".repeat(20_000));
         assert!(refused(&long, &many).contains("declarations"));
         // What is named is only tried where it may fit.

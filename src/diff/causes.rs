@@ -135,8 +135,8 @@ fn gone(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
             };
             let follows = match (behind.is_empty(), verdict) {
                 (true, _) => String::new(),
-                (_, Verdict::Removed) => format!("; what came to light behind it: {}", whose(diff, &behind)),
-                _ => format!("; what it hides or cuts: {}", whose(diff, &behind)),
+                (_, Verdict::Removed) => format!("; now visible behind it: {}", whose(diff, &behind)),
+                _ => format!("; now hidden or cut by it: {}", whose(diff, &behind)),
             };
             let ink = ink(diff, &own, unit);
             let sentence = format!("part `{part}`: {all} {at}: {ink}{follows}");
@@ -210,7 +210,7 @@ fn moved(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Vec<Cause> {
         let way = movers.first().map(|mover| motion(&mover.motion, place, unit)).unwrap_or_default();
         let follows = match behind.is_empty() {
             true => String::new(),
-            false => format!("; and so what lies round it: {}", whose(diff, &behind)),
+            false => format!("; also changed around it: {}", whose(diff, &behind)),
         };
         findings.extend(behind);
         let sentence = format!("{names} {way}{follows}");

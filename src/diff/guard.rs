@@ -32,7 +32,7 @@ fn in_words(error: roxmltree::Error) -> Error {
     let line = error.pos();
     let text = error.to_string();
     let message = text.split(" at ").next().unwrap_or("cannot be read").to_owned();
-    Error::new(format!("is not well-formed XML: {message}"))
+    Error::new(format!("the file is not well-formed XML: {message}"))
         .at(format!("line {}, column {}", line.row, line.col))
         .remedy("give a whole SVG file")
 }
@@ -72,7 +72,7 @@ impl<'a, 'input> Weights<'a, 'input> {
         let weight = self.of(self.root, 0)?;
         let limit = MOST_REFERRED_BYTES.saturating_add(4 * length as u64);
         if weight.bytes > limit {
-            return Err(too_much("references that multiply to hundreds of megabytes"));
+            return Err(too_much("the references in the file expand to hundreds of megabytes"));
         }
         Ok(())
     }
@@ -84,7 +84,7 @@ impl<'a, 'input> Weights<'a, 'input> {
             Some(Some(_)) => return Err(too_deep()),
             Some(None) => {
                 let name = node.attribute("id").unwrap_or_default();
-                return Err(Error::new(format!("`{name}` refers to itself")).remedy("take the reference out"));
+                return Err(Error::new(format!("`{name}` refers to itself")).remedy("remove the reference"));
             }
             None if depth > DEEPEST => return Err(too_deep()),
             None => {}

@@ -49,7 +49,7 @@ impl Ignore {
                 "widths" => ignore.widths = true,
                 "text" => ignore.text = true,
                 _ => {
-                    return Err(Error::new(format!("`{word}` is nothing that can be ignored"))
+                    return Err(Error::new(format!("`{word}` cannot be ignored"))
                         .remedy("write labels, colours, widths or text, or several with commas between"));
                 }
             }

@@ -46,7 +46,7 @@ impl Picture {
 fn picture(svg: &str) -> Result<Picture, Error> {
     let pool = rayon_core::ThreadPoolBuilder::new().num_threads(1).stack_size(STACK_BYTES).build();
     let pool = pool.map_err(|error| Error::new(format!("cannot start a thread: {error}")))?;
-    let gave_up = |_| Error::new("the reader of SVG gave up").remedy("save it as plain SVG");
+    let gave_up = |_| Error::new("the SVG parser failed").remedy("save it as plain SVG");
     pool.install(|| catch_unwind(|| read(svg))).map_err(gave_up)?
 }
 
@@ -73,7 +73,7 @@ fn read(svg: &str) -> Result<Picture, Error> {
     };
     if let Some(shape) = reader.shapes.iter().find(|shape| far(shape)) {
         return Err(Error::new(format!("a {} lies more than {FARTHEST_PX} px from the page", shape.label))
-            .remedy("take it out of the drawing"));
+            .remedy("remove it from the drawing"));
     }
     let scale = tree.root().children().first().map_or(1.0, |_| root_scale(svg_root(tree)));
     let shapes = Arc::from(reader.shapes);

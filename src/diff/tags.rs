@@ -168,18 +168,18 @@ fn in_words(error: xmlparser::Error) -> Error {
     let text = error.to_string();
     let cause = text.split_once(" cause ").map_or(&*text, |(_, cause)| cause);
     let message = cause.split(" at ").next().unwrap_or("cannot be read").to_owned();
-    Error::new(format!("is not well-formed XML: {message}"))
+    Error::new(format!("the file is not well-formed XML: {message}"))
         .at(format!("line {}, column {}", place.row, place.col))
         .remedy("give a whole SVG file")
 }
 
 pub(super) fn too_much(what: &str) -> Error {
-    Error::new(format!("{what} are more than is read"))
+    Error::new(format!("the file has too many {what}"))
         .remedy("save the drawing as plain SVG, without references that multiply")
 }
 
 pub(super) fn too_deep() -> Error {
-    Error::new(format!("elements nest more than {DEEPEST} deep"))
+    Error::new(format!("elements are nested more than {DEEPEST} deep"))
         .remedy("ungroup the drawing, or save it as plain SVG")
 }
 
@@ -280,7 +280,10 @@ mod tests {
     #[test]
     fn mistakes_have_a_place() {
         let told = refused("<svg>\n<g a/></svg>");
-        assert!(told.contains("line 2, column 3: is not well-formed XML: expected '=' not '/'"), "{told}");
+        assert!(
+            told.contains("line 2, column 3: the file is not well-formed XML: expected '=' not '/'"),
+            "{told}"
+        );
         for broken in ["<svg><!-- ", "<svg><![CDATA[", "<svg a='", "<svg><?x", "<!DOCTYPE svg [", "<svg><"] {
             _ = refused(broken);
         }

@@ -34,7 +34,7 @@ impl Diff {
             return same + &pixels;
         }
         if self.is_brief {
-            return "the marks were not compared one by one".to_owned() + &pixels;
+            return "the marks were not compared individually".to_owned() + &pixels;
         }
         let mut words = Vec::new();
         for verdict in Verdict::ALL {

@@ -50,8 +50,8 @@ impl Tolerances {
     fn put(&mut self, name: Option<&str>, text: &str) -> Result<(), Error> {
         let remedy = "write a length such as 0.1px, or lines=0.05mm,fills=0.2mm";
         let length = Length::parse(text).filter(|length| length.value >= 0.0);
-        let length =
-            length.ok_or_else(|| Error::new(format!("`{}` is no tolerance", text.trim())).remedy(remedy))?;
+        let length = length
+            .ok_or_else(|| Error::new(format!("`{}` is not a tolerance", text.trim())).remedy(remedy))?;
         match name {
             None | Some("all" | "default") => self.all = Some(length),
             Some("") => return Err(Error::new(format!("`={}` has no name", text.trim())).remedy(remedy)),

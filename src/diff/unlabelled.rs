@@ -79,6 +79,6 @@ pub(super) fn findings(labelled: &Picture, others: &[Finding], side: usize) -> V
 pub(super) fn cause(findings: &[Finding], side: usize) -> Option<Cause> {
     let count = findings.len();
     let which = ["new", "old"][side];
-    let sentence = format!("{count} marks: the {which} drawing says of none which part and class it is of");
+    let sentence = format!("{count} marks: the {which} drawing stores no parts and classes");
     (count > 0).then(|| Cause { verdict: Verdict::Relabelled, sentence, findings: Vec::new() })
 }

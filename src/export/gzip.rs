@@ -39,7 +39,7 @@ pub fn plain(bytes: Vec<u8>, most: usize) -> Result<Vec<u8>, Error> {
         return Ok(bytes);
     }
     unpacked(&bytes, most).ok_or_else(|| {
-        Error::new("is packed as gzip, but broken or too large").remedy("unpack it with gunzip to see why")
+        Error::new("the gzip data is damaged or too large").remedy("unpack it with gunzip to see why")
     })
 }
 

@@ -58,7 +58,7 @@ impl Plates {
         };
         if let Some(limit) = options.ink_limit {
             if !(limit.is_finite() && (100.0..=400.0).contains(&limit)) {
-                let message = format!("an ink limit of {limit} % cannot be kept");
+                let message = format!("an ink limit of {limit} % is not possible");
                 return Err(Error::new(message).remedy("give 100 to 400 percent"));
             }
             plates.limit = Some(limit / 100.0);
@@ -68,7 +68,7 @@ impl Plates {
                 ["", "All", "None", "Cyan", "Magenta", "Yellow", "Black"].contains(&spot.name.as_str());
             if taken || spot.name.len() > 127 {
                 return Err(Error::new(format!("`{}` cannot be the name of an ink", spot.name))
-                    .remedy("give the name that the printer knows, such as \"PANTONE 185 C\""));
+                    .remedy("give the name of the ink, such as \"PANTONE 185 C\""));
             }
             if options.spots.iter().take(number).any(|other| same(other.colour, spot.colour)) {
                 return Err(Error::new(format!("the colour {} has two inks", spot.colour.hex()))
@@ -84,7 +84,7 @@ impl Plates {
             ))
         };
         let profile =
-            ColorProfile::new_from_slice(bytes).map_err(|_| refused("the profile is no ICC profile"))?;
+            ColorProfile::new_from_slice(bytes).map_err(|_| refused("the file is not an ICC profile"))?;
         if profile.color_space != wanted.0 {
             return Err(refused(&format!("the profile is not for {}", wanted.2)));
         }
@@ -98,7 +98,7 @@ impl Plates {
             let screen = ColorProfile::new_srgb();
             let transform = screen.create_transform_8bit(Layout::Rgb, &profile, Layout::Rgba, how);
             plates.transform =
-                Some(transform.map_err(|_| refused("the profile does not say how colours are printed"))?);
+                Some(transform.map_err(|_| refused("the profile cannot convert colours to inks"))?);
         }
         let name =
             profile.description.as_ref().and_then(named).unwrap_or_else(|| "a profile without a name".into());
@@ -243,7 +243,7 @@ mod tests {
         let twice = PdfOptions::default().with_spot(Colour::BLACK, "A").with_spot(Colour::BLACK, "B");
         assert!(message(twice).contains("two inks"));
         let none: Arc<[u8]> = Arc::from(&b"no profile"[..]);
-        assert!(message(PdfOptions::default().with_inks(Inks::Cmyk(none))).contains("no ICC profile"));
+        assert!(message(PdfOptions::default().with_inks(Inks::Cmyk(none))).contains("not an ICC profile"));
         let screen = srgb_profile().unwrap();
         let wrong = message(PdfOptions::default().with_inks(Inks::Cmyk(screen.into())));
         assert!(wrong.contains("not for CMYK") && wrong.contains("press"), "{wrong}");

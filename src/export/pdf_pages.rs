@@ -53,7 +53,7 @@ const FIRST_FREE: i32 = 7;
 /// profile is none or of another kind, or a standard wants a profile.
 pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Error> {
     let Some(first) = pages.first() else {
-        return Err(Error::new("a PDF without pages cannot be written").remedy("give a page"));
+        return Err(Error::new("a PDF needs at least one page").remedy("give a page"));
     };
     let plates = Plates::new(options)?;
     let screen = screen(options)?;
@@ -212,12 +212,11 @@ fn intent(plates: &Plates, options: &PdfOptions) -> Result<Option<(Vec<u8>, usiz
 fn screen(options: &PdfOptions) -> Result<Option<Screen>, Error> {
     let Some(screen) = options.screen else { return Ok(None) };
     if !(screen.lpi.is_finite() && (5.0..=200.0).contains(&screen.lpi) && screen.angle_deg.is_finite()) {
-        return Err(Error::new(format!("a screen of {} lines an inch cannot be printed", screen.lpi))
-            .remedy("give 5 to 200 lines an inch"));
+        return Err(Error::new(format!("a screen of {} lines per inch is not possible", screen.lpi))
+            .remedy("give 5 to 200 lines per inch"));
     }
     if options.inks == Inks::Screen {
-        return Err(Error::new("only the inks of a press are printed as dots")
-            .remedy("print with black alone, or with four inks"));
+        return Err(Error::new("a screen needs the inks of a press").remedy("choose the inks k or cmyk"));
     }
     Ok(Some(screen))
 }

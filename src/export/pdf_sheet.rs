@@ -43,7 +43,9 @@ impl Sheet {
     pub fn new(page: &Composition, marks: bool) -> Result<Self, Error> {
         let (width, height) = (page.page.width, page.page.height);
         if !(width.is_finite() && height.is_finite() && width > 0.0 && height > 0.0) {
-            return Err(Error::new(format!("a page cannot be {width} x {height}")).remedy("give it a size"));
+            return Err(
+                Error::new(format!("a page of {width} x {height} is not possible")).remedy("give it a size")
+            );
         }
         let (per_unit, mm) = match page.page.unit {
             Unit::Px => (POINTS_PER_PX, POINTS_PER_MM / POINTS_PER_PX),

@@ -162,7 +162,7 @@ pub(super) fn transform(affine: Affine) -> Transform {
 pub(super) fn canvas(page: &Page, options: &PngOptions) -> Result<(Pixmap, f64), Error> {
     let (width, height, dpi) = page.pixels(options)?;
     let pixmap = Pixmap::new(width, height)
-        .ok_or_else(|| Error::new(format!("there is no memory for {width} x {height} pixels")))?;
+        .ok_or_else(|| Error::new(format!("not enough memory for {width} x {height} pixels")))?;
     Ok((pixmap, dpi))
 }
 
@@ -190,8 +190,10 @@ impl Page {
         let height = (self.height / per_inch * dpi).round();
         let sides = width.max(height);
         if !(width >= 1.0 && height >= 1.0 && sides <= LONGEST_SIDE && width * height <= MOST_PIXELS) {
-            return Err(Error::new(format!("a picture of {width} x {height} pixels cannot be made"))
-                .remedy("choose a size of 1 to 65535 pixels a side and 268 million in all, or other dpi"));
+            return Err(Error::new(format!("a picture of {width} x {height} pixels is not possible"))
+                .remedy(
+                    "choose 1 to 65535 pixels per side and at most 268 million in total, or another --dpi",
+                ));
         }
         Ok((width as u32, height as u32, dpi))
     }

@@ -48,7 +48,7 @@ impl Composition {
 fn paint(item: &Item, pixmap: &mut Pixmap, to: Affine) -> Result<(), Error> {
     let (width, height) = (pixmap.width(), pixmap.height());
     let (Some(mut own), Some(mut frame)) = (Pixmap::new(width, height), Mask::new(width, height)) else {
-        return Err(Error::new(format!("there is no memory for {width} x {height} pixels")));
+        return Err(Error::new(format!("not enough memory for {width} x {height} pixels")));
     };
     item.drawing.paint(&mut own, to * item.place)?;
     let frame = item.clip.as_ref().map(|clip| {

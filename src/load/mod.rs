@@ -125,9 +125,9 @@ fn open_with<T: From<Scene>>(
         Some(ModelFormat::Stl) => stl::read(path).map(T::from),
         Some(ModelFormat::Ply) => ply::read(path).map(T::from),
         None if ["step", "stp"].contains(&&*ending) => {
-            Err(unknown("the library reads no STEP; the program `ligne` does, through a converter"))
+            Err(unknown("the library does not read STEP; the program `ligne` does, through a converter"))
         }
-        None if ending.is_empty() => Err(unknown("the file has no ending that tells its format")),
+        None if ending.is_empty() => Err(unknown("the file name has no ending")),
         None => Err(unknown(format!("the format .{ending} is not known"))),
     });
     scene.map_err(|error| if error.file.is_none() { error.in_file(path) } else { error })
@@ -195,8 +195,9 @@ fn refuse_strange_bytes(bytes: &[u8]) -> Result<(), Error> {
         return Err(Error::new("the file is empty; nothing to draw").of_kind(error::ErrorKind::Empty));
     }
     if begins("version https://git-lfs") {
-        return Err(Error::new("this is a git-lfs pointer, not the model itself")
-            .remedy("fetch it with `git lfs pull`"));
+        return Err(
+            Error::new("this is a Git LFS pointer, not the model").remedy("fetch it with `git lfs pull`")
+        );
     }
     if begins("<!doctype html") || begins("<html") {
         return Err(Error::new("this is a web page, not a model").remedy("download the file itself"));

@@ -33,18 +33,21 @@ pub(super) fn written(record: &Record, scene: &Scene) -> Vec<u8> {
 
 /// The collapses of a scene from the bytes of a file.
 pub(super) fn read(bytes: &[u8], scene: &Scene) -> Result<Record, Error> {
-    let rest = bytes.strip_prefix(MAGIC).ok_or_else(|| Error::new("this is no file of levels of detail"))?;
+    let rest =
+        bytes.strip_prefix(MAGIC).ok_or_else(|| Error::new("this is not a file of levels of detail"))?;
     let (version, rest) = rest.split_first().ok_or_else(cut_off)?;
     if *version != VERSION {
-        return Err(Error::new(format!("levels of detail of version {version} are not read"))
+        return Err(Error::new(format!("levels of detail of version {version} cannot be read"))
             .of_kind(ErrorKind::Unsupported)
-            .remedy("write them anew with ligne lod"));
+            .remedy("write them again with ligne lod"));
     }
     let (sum, mut rest) = rest.split_first_chunk().ok_or_else(cut_off)?;
     let flat = Flat::of(scene);
     if u64::from_le_bytes(*sum) != sum_of(&flat) {
-        return Err(Error::new("these levels of detail are of another model, or of an earlier state of it")
-            .remedy("write them anew with ligne lod"));
+        return Err(Error::new(
+            "these levels of detail belong to another model, or to an older version of it",
+        )
+        .remedy("write them again with ligne lod"));
     }
     let mut surface = Collapser::new(flat);
     let points = surface.sites.len() as u64;
@@ -56,18 +59,18 @@ pub(super) fn read(bytes: &[u8], scene: &Scene) -> Result<Record, Error> {
         // Points are counted in 32 bits.
         let fits = to.is_some_and(|to| surface.replay(from as u32, to as u32));
         if !fits {
-            return Err(Error::new("no two points that an edge joins").at(format!("collapse {step}")));
+            return Err(Error::new("a collapse of two points without an edge").at(format!("collapse {step}")));
         }
     }
     let sum: &[u8; 8] = rest.try_into().map_err(|_| cut_off())?;
     if u64::from_le_bytes(*sum) != sum_of_left(&surface.record) {
-        return Err(Error::new("the collapses do not lead where they did; the file is damaged"));
+        return Err(Error::new("the collapses do not match the model; the file is damaged"));
     }
     Ok(surface.record)
 }
 
 fn cut_off() -> Error {
-    Error::new("the file ends too early or too late; it is damaged").remedy("write it anew with ligne lod")
+    Error::new("the file ends too early or too late; it is damaged").remedy("write it again with ligne lod")
 }
 
 fn put(bytes: &mut Vec<u8>, mut number: u64) {

@@ -176,7 +176,7 @@ impl<'a> Levels<'a> {
         if counts.eq(self.record.ranges.iter().map(ExactSizeIterator::len)) {
             return Ok(());
         }
-        Err(Error::new("these levels of detail are of another scene")
+        Err(Error::new("these levels of detail belong to another scene")
             .remedy("give a pose of the scene they were made for"))
     }
 }

@@ -55,7 +55,7 @@ impl<'de> Visitor<'de> for FactorVisitor {
         if (0.0..=2.0).contains(&number) {
             Ok(Factor([number; 3]))
         } else {
-            Err(E::custom(format!("{number} is not a factor of colours; write a number from 0 to 2")))
+            Err(E::custom(format!("{number} is not a colour factor; write a number from 0 to 2")))
         }
     }
 

@@ -204,13 +204,13 @@ pub fn why_none(
     let name = rigged.scene.parts.get(body.part).map_or("", |part| &part.name);
     let reason = match choice.speed {
         _ if choice.asks_page || choice.takes(body, speed) => {
-            "what moves has no size at this moment".to_owned()
+            "all moving parts have no size at this moment".to_owned()
         }
         Some(least) => format!(
             "the fastest part, '{name}', goes {speed:.3} units a second, not more than {least:.3}; \
              set motion.speed lower, or name parts with motion.parts"
         ),
-        None => format!("what moves, such as part '{name}', is not named by motion.parts"),
+        None => format!("motion.parts does not name the moving parts, such as '{name}'"),
     };
     Some(format!("no motion lines: {reason}"))
 }

@@ -139,7 +139,7 @@ fn count<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
     if (1.0..=f64::from(MOST)).contains(&count) && count.fract() == 0.0 {
         Ok(count as u32)
     } else {
-        Err(D::Error::custom(format!("{count} is not so many; write a whole number from 1 to {MOST}")))
+        Err(D::Error::custom(format!("{count} is not a count; write a whole number from 1 to {MOST}")))
     }
 }
 
@@ -154,7 +154,7 @@ fn frames<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
         Ok(frames as u32)
     } else {
         Err(D::Error::custom(format!(
-            "{frames} frames are not a time to fade in; write a whole number from 0 to {MOST_FRAMES}"
+            "{frames} frames are not possible; write a whole number from 0 to {MOST_FRAMES}"
         )))
     }
 }
@@ -166,7 +166,7 @@ fn rate<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
         Ok(rate)
     } else {
         Err(D::Error::custom(format!(
-            "{rate} segments a second are none; write a number from 0.001 to 10000"
+            "{rate} segments per second are not possible; write a number from 0.001 to 10000"
         )))
     }
 }
@@ -177,7 +177,7 @@ fn angle<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     if (0.0..=180.0).contains(&degrees) {
         Ok(degrees)
     } else {
-        Err(D::Error::custom(format!("{degrees} is not how far a way turns; write degrees from 0 to 180")))
+        Err(D::Error::custom(format!("{degrees} is not an angle; write degrees from 0 to 180")))
     }
 }
 
@@ -241,13 +241,13 @@ impl Visitor<'_> for SpeedVisitor {
         if speed.is_finite() && speed >= 0.0 {
             return Ok(Speed::Model(speed));
         }
-        Err(E::custom(format!("{speed} is no speed; write model units a second, at least 0")))
+        Err(E::custom(format!("{speed} is not a speed; write model units per second, at least 0")))
     }
 
     fn visit_str<E: Error>(self, text: &str) -> Result<Speed, E> {
         let wrong = || {
             E::custom(format!(
-                "`{text}` is no speed; write model units a second, or a length of the page a second, such as \
+                "`{text}` is not a speed; write model units a second, or a length of the page a second, such as \
                  \"200px\""
             ))
         };

@@ -48,7 +48,7 @@ impl Visitor<'_> for MmVisitor {
         if mm.is_finite() && mm.abs() <= LONGEST {
             Ok(Mm(mm))
         } else {
-            Err(E::custom(format!("a length of {mm} mm fits on no page; at most {LONGEST} mm do")))
+            Err(E::custom(format!("a length of {mm} mm is too large; at most {LONGEST} mm are possible")))
         }
     }
 

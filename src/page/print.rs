@@ -29,7 +29,7 @@ pub struct PrintKeys {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(
     untagged,
-    expecting = "this is no ink; write such as { name = \"PANTONE 185 C\", colour = \"#e4002b\" }, or a list of these"
+    expecting = "this is not a spot colour; write { name = \"PANTONE 185 C\", colour = \"#e4002b\" }, or a list of these"
 )]
 pub enum Spots {
     /// One.
@@ -82,10 +82,10 @@ impl Print {
         if let Some(limit) = &keys.ink_limit {
             if !(100.0..=400.0).contains(limit.get_ref()) {
                 let advice = "write percent of one ink, from 100 to 400, such as 300";
-                return Err(source.fault(&limit.span(), "this is no limit of inks", advice));
+                return Err(source.fault(&limit.span(), "this is not an ink limit", advice));
             }
             if let Some(ink) = keys.ink.as_ref().filter(|ink| !ink.get_ref().eq_ignore_ascii_case("cmyk")) {
-                let message = format!("only four inks have a limit, and these are `{}`", ink.get_ref());
+                let message = format!("an ink limit needs four inks, and these are `{}`", ink.get_ref());
                 return Err(source.fault(&limit.span(), &message, "leave it out, or write ink = \"cmyk\""));
             }
             agree(&mut self.ink_limit, *limit.get_ref(), limit, source)?;
@@ -98,12 +98,12 @@ impl Print {
         for spot in several {
             if spot.name.trim().is_empty() {
                 let advice = "write its name, such as name = \"PANTONE 185 C\"";
-                return Err(source.fault(&spots.span(), "an ink of its own has a name", advice));
+                return Err(source.fault(&spots.span(), "a spot colour needs a name", advice));
             }
             let same = self.spots.iter().find(|other| other.colour == spot.colour);
             match same {
                 Some(other) if other.name != spot.name => {
-                    let message = format!("`{}` is printed with `{}` already", spot.colour.hex(), other.name);
+                    let message = format!("`{}` already prints as `{}`", spot.colour.hex(), other.name);
                     return Err(source.fault(&spots.span(), &message, "give each colour one ink"));
                 }
                 Some(_) => {}
@@ -122,12 +122,8 @@ fn agree<T: PartialEq, K>(
     source: &Source,
 ) -> Result<(), Error> {
     if all.as_ref().is_some_and(|all| *all != own) {
-        let message = "an earlier page says another thing, and one file is printed with the same inks";
-        return Err(source.fault(
-            &key.span(),
-            message,
-            "let all pages of a file say the same, or write two files",
-        ));
+        let message = "an earlier page has other inks, and one file has one set of inks";
+        return Err(source.fault(&key.span(), message, "use the same inks on all pages, or write two files"));
     }
     *all = Some(own);
     Ok(())

@@ -94,7 +94,7 @@ impl<'de> Visitor<'de> for SizeVisitor {
         Size::parse(text).ok_or_else(|| {
             let names: Vec<&str> = Size::names().collect();
             E::custom(format!(
-                "`{text}` is no size of a page; write one of {}, or such as \"170x260mm\"",
+                "`{text}` is not a page size; write one of {}, or such as \"170x260mm\"",
                 names.join(", ")
             ))
         })

@@ -148,7 +148,7 @@ impl Rigged {
         let stance = self.rig.stance(playing);
         match stance.world.iter().position(|world| !world.is_finite()) {
             Some(node) => {
-                Err(Error::new("its transform is beyond all numbers at this time").at(format!("node {node}")))
+                Err(Error::new("its transform is not finite at this time").at(format!("node {node}")))
             }
             None => Ok(stance),
         }
@@ -183,8 +183,9 @@ impl Rigged {
                     .zip(&body.positions)
                     .any(|(now, rest)| rest.is_finite() && !now.is_finite())
                 {
-                    return Err(Error::new("a vertex is beyond all numbers at this time")
-                        .at(format!("node {}", form.node)));
+                    return Err(
+                        Error::new("a vertex is not finite at this time").at(format!("node {}", form.node))
+                    );
                 }
                 let range = body.start..body.start + positions.len();
                 let finite = |(to, from): (&mut DVec3, DVec3)| {

@@ -22,9 +22,9 @@ pub(super) fn shows_nothing(layers: &[Layer]) -> bool {
 pub(super) fn reason(scene: &Scene, (mesh, view): (&Mesh, &View), style: &Style, has_chains: bool) -> String {
     let why = of_scene(scene, mesh).or_else(|| of_style(style)).or_else(|| of_view(mesh, view)).unwrap_or(
         if has_chains {
-            "the style draws none of the lines in sight"
+            "the style draws none of the visible lines"
         } else {
-            "no line of the model is in sight"
+            "no line of the model is visible"
         },
     );
     format!("the drawing is empty: {why}")
@@ -36,7 +36,7 @@ fn of_scene(scene: &Scene, mesh: &Mesh) -> Option<&'static str> {
         return Some("the scene has no parts");
     }
     if scene.parts.iter().all(|part| scene.geometry_of(part).is_none()) {
-        return Some("all parts are scaled to nothing, or beyond all numbers");
+        return Some("all parts are scaled to zero, or not finite");
     }
     let has_area = mesh.face_normals.iter().any(|normal| *normal != [0.0; 3]);
     if has_area || !mesh.wires.is_empty() {
@@ -48,7 +48,7 @@ fn of_scene(scene: &Scene, mesh: &Mesh) -> Option<&'static str> {
     } else if mesh.cleaning.short_wires > 0 {
         "no line has a length"
     } else {
-        "all materials are clear"
+        "all materials are transparent"
     })
 }
 
@@ -155,7 +155,7 @@ mod tests {
         let edge_on = warning(&flat, &side, &["lines.enabled=false", "fills.enabled=true"]);
         assert!(edge_on.contains("edge-on"), "{edge_on}");
         let none = warning(&flat, &camera, &["lines.kinds=[\"wire\"]"]);
-        assert!(none.contains("no line of the model is in sight"), "{none}");
+        assert!(none.contains("no line of the model is visible"), "{none}");
     }
 
     #[test]

@@ -160,7 +160,7 @@ pub(super) fn too_dark(style: &Style, unit: Unit) -> Option<String> {
     (style.hatch.enabled && asked > most + SAME_COVERAGE).then(|| {
         let percent = |share: f64| (share * 100.0).round();
         format!(
-            "hatching.coverage asks for {} % of ink, but its layers cover {} % at most: make strokes wider or add a layer",
+            "hatching.coverage is {} % of ink, but its layers cover {} % at most; make strokes wider or add a layer",
             percent(asked),
             percent(most),
         )

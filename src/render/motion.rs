@@ -20,12 +20,11 @@ use crate::view::{Frame, View};
 use crate::viewmap::{self, Beside, ViewMap};
 
 /// What is said where motion lines are asked of a scene of which no moment is drawn.
-pub(super) const NO_MOMENT: &str =
-    "no motion lines: nothing moves; draw a moment of an animation with --animation and --time";
+pub(super) const NO_MOMENT: &str = "no motion lines: nothing moves; give --animation and --time";
 
 /// What is said where things move, and no line of them is seen.
 pub(super) const NONE_SEEN: &str =
-    "no motion lines: they are hidden, outside of the frame, or slower than motion.speed";
+    "no motion lines: they are hidden, outside the frame, or slower than motion.speed";
 
 /// The trails of a view.
 pub(super) struct Trails<'a> {

@@ -67,9 +67,7 @@ pub(super) fn add(
             let of = material.map_or_else(String::new, |name| format!(" of material '{name}'"));
             let lost =
                 if lost > 0 { format!(", and {lost} pieces of it its mean colour") } else { String::new() };
-            format!(
-                "the picture{of} falls into too many pieces: it is drawn within {off} px of its place{lost}"
-            )
+            format!("the picture{of} has too many pieces: it is drawn within {off} px of its place{lost}")
         }));
     }
 }

@@ -19,7 +19,7 @@ const MAX_STEPS: usize = 16;
 /// If the name, or a link it stands for, leads outside the model's folder, or the file cannot be read.
 pub fn read_beside(model: &Path, name: &str) -> Result<Vec<u8>, Error> {
     if !stays_inside(name) {
-        return Err(Error::new(format!("{name} lies outside the model's folder")).in_file(model));
+        return Err(Error::new(format!("{name} is outside the model's folder")).in_file(model));
     }
     let folder = folder_of(model);
     let path = folder.join(name);

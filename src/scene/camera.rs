@@ -90,29 +90,33 @@ impl Camera {
             return Err(wrong(
                 "target",
                 "eye and target are the same point",
-                "put the target where the eye looks",
+                "put the target in front of the eye",
             ));
         }
         if !axis.length().is_normal() {
-            return Err(wrong("target", "eye and target are too far apart or too near", "scale the model"));
+            return Err(wrong(
+                "target",
+                "the distance between eye and target is too large or too small",
+                "scale the model",
+            ));
         }
         let up = self.up.try_normalize().unwrap_or(DVec3::ZERO);
         if axis.normalize().cross(up).length() < PARALLEL_SINE {
             return Err(wrong(
                 "up",
                 "up is zero or parallel to the line from eye to target",
-                "give a direction to the side of it",
+                "give a direction that is not parallel to it",
             ));
         }
         match self.projection {
             Projection::Perspective { fov_y_deg } if !(fov_y_deg > 0.0 && fov_y_deg < 180.0) => Err(wrong(
                 "fov_y_deg",
-                format!("a field of view of {fov_y_deg} degrees cannot be drawn"),
+                format!("a field of view of {fov_y_deg} degrees is not possible"),
                 "give one between 0 and 180, such as 35",
             )),
             Projection::Orthographic { height } if !positive(height) => Err(wrong(
                 "ortho_height",
-                format!("a height of {height} cannot be drawn"),
+                format!("a height of {height} is not possible"),
                 "give the world units that the picture's height spans",
             )),
             Projection::Perspective { .. } if self.near.is_some_and(|near| !positive(near)) => {
@@ -128,7 +132,7 @@ impl Camera {
         }
         for (key, size) in [("width_px", self.width), ("height_px", self.height)] {
             if !positive(size) {
-                return Err(wrong(key, format!("a size of {size} cannot be drawn"), "give one above 0"));
+                return Err(wrong(key, format!("a size of {size} is not possible"), "give one above 0"));
             }
         }
         Ok(())

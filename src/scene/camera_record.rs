@@ -142,7 +142,7 @@ fn point(record: &Map<String, Value>, key: &str) -> Result<DVec3, Error> {
 }
 
 fn missing(key: &str) -> Error {
-    Error::new("the camera record lacks this key").at(format!("key {key}")).remedy(EXAMPLE)
+    Error::new("the camera record has no such key").at(format!("key {key}")).remedy(EXAMPLE)
 }
 
 #[cfg(test)]

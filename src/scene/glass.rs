@@ -106,6 +106,6 @@ fn fraction<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error>
     if (0.0..=1.0).contains(&value) {
         Ok(value)
     } else {
-        Err(D::Error::custom(format!("{value} is no part of a whole; write a number from 0 to 1")))
+        Err(D::Error::custom(format!("{value} is not a share; write a number from 0 to 1")))
     }
 }

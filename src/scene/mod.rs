@@ -126,13 +126,13 @@ impl Scene {
         let positions: Vec<DVec3> = positions.into_iter().map(Into::into).collect();
         let triangles: Vec<[u32; 3]> = triangles.into_iter().collect();
         if let Some(k) = positions.iter().position(|p| !p.is_finite()) {
-            return Err(Error::new(format!("{} is no place", positions[k]))
+            return Err(Error::new(format!("{} is not a position", positions[k]))
                 .at(format!("position {k}"))
                 .remedy("give finite numbers"));
         }
         let count = positions.len();
         if let Some(k) = triangles.iter().position(|t| t.iter().any(|v| *v as usize >= count)) {
-            return Err(Error::new(format!("{:?} points beyond the {count} positions", triangles[k]))
+            return Err(Error::new(format!("{:?} points past the {count} positions", triangles[k]))
                 .at(format!("triangle {k}"))
                 .remedy("indices count from 0"));
         }

@@ -38,7 +38,7 @@ impl CutPlane {
     /// Says what would be right.
     pub fn parse(text: &str) -> Result<Self, String> {
         let wrong = || {
-            "write a plane such as x, y=12.5, z=10mm, x=30% or normal:1,0,1@5; + or - before it takes that side away"
+            "write a plane such as x, y=12.5, z=10mm, x=30% or normal:1,0,1@5; + or - selects the side to remove"
             .to_owned()
         };
         let text = text.trim();
@@ -114,12 +114,12 @@ impl CutPlane {
         };
         if !(least..=most).contains(&at) {
             return Err(Error::new(format!(
-                "the plane lies beside the model, which reaches from {least} to {most} there"
+                "the plane misses the model, which extends from {least} to {most} there"
             ))
             .remedy("move the plane, or give a share of the extent such as x=50%"));
         }
         let plane = Plane::new(self.normal * at, self.normal)
-            .ok_or_else(|| Error::new("this is no plane").remedy("give a plane such as x=50%"))?;
+            .ok_or_else(|| Error::new("this is not a plane").remedy("give a plane such as x=50%"))?;
         let before_it = self.signed || plane.normal().dot(forward) <= 0.0;
         Ok(if before_it { plane } else { plane.turned() })
     }

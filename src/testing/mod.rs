@@ -120,8 +120,8 @@ pub fn check(
         return written.map_err(|error| format!("{}: cannot write: {error}", approved.display()));
     }
     let advice = match approval {
-        Approval::Refused => format!("{BLESS} is not heeded where CI is set: people approve drawings"),
-        _ => format!("look at it, and if it is meant, approve it with {BLESS}=1"),
+        Approval::Refused => format!("{BLESS} has no effect while CI is set"),
+        _ => format!("check the drawing; if the change is intended, approve it with {BLESS}=1"),
     };
     let mut told = match &difference {
         None => format!("`{name}` has no approved drawing {}\n", approved.display()),
@@ -131,7 +131,7 @@ pub fn check(
             let mut text = format!("`{name}` differs from {}: {}\n", approved.display(), diff.summary());
             lines.iter().take(MOST_LINES).for_each(|line| text += &format!("  {line}\n"));
             if more > 0 {
-                text += &format!("  and {more} lines more\n");
+                text += &format!("  and {more} more lines\n");
             }
             text
         }

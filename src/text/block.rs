@@ -115,7 +115,7 @@ impl Block {
     /// Returns an error if no font has a letter, or the text is too long.
     pub fn in_ellipse(text: &str, setting: &Setting, aspect: f64) -> Result<(Self, Vec2), Error> {
         if !(aspect.is_finite() && aspect > 0.0) {
-            return Err(Error::new(format!("an ellipse cannot be {aspect} times as high as wide"))
+            return Err(Error::new(format!("an ellipse with aspect {aspect} is not possible"))
                 .remedy("give a number above 0"));
         }
         let text = tidied(text)?;
@@ -205,7 +205,7 @@ fn tidied(text: &str) -> Result<String, Error> {
     }
     let lines: Vec<&str> = text.trim().lines().map(str::trim).collect();
     if lines.iter().all(|line| line.is_empty()) {
-        return Err(Error::new("a text without letters cannot be set").of_kind(ErrorKind::Empty));
+        return Err(Error::new("the text has no letters").of_kind(ErrorKind::Empty));
     }
     Ok(lines.join("\n"))
 }

@@ -23,7 +23,7 @@ pub(super) struct Break {
 pub(super) fn language(code: &str) -> Result<Lang, Error> {
     let bytes = <[u8; 2]>::try_from(code.to_lowercase().as_bytes()).ok();
     bytes.and_then(Lang::from_iso).ok_or_else(|| {
-        Error::new(format!("words of the language `{code}` cannot be parted"))
+        Error::new(format!("ligne cannot hyphenate the language `{code}`"))
             .remedy("give two letters of ISO 639-1, such as en, de, fr or pl, or none to keep words whole")
     })
 }

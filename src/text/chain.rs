@@ -23,7 +23,7 @@ pub struct Fallback {
 impl fmt::Display for Fallback {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { letter, asked, used } = self;
-        write!(f, "{} is not in the font {asked}; it is set in {used}", spelled(letter))
+        write!(f, "the font {asked} has no {}; {used} is used", spelled(letter))
     }
 }
 
@@ -81,7 +81,9 @@ impl Chain {
             let names: Vec<&str> = self.fonts.iter().map(Font::name).collect();
             let message =
                 format!("the letter {} is in none of the fonts {}", spelled(letter), names.join(", "));
-            return Err(Error::new(message).remedy("name a font file that has it, or write another letter"));
+            return Err(
+                Error::new(message).remedy("name a font file with this letter, or write another letter")
+            );
         };
         self.known.insert(letter.to_owned(), number);
         Ok(number)

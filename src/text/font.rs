@@ -104,7 +104,7 @@ impl Font {
         let data: Arc<[u8]> = Arc::from(bytes);
         let held = Arc::clone(&data);
         let blob: Arc<dyn AsRef<[u8]> + Send + Sync> = Arc::new(held);
-        let face = Face::new(skrifa::font::Blob::from(blob), 0).ok_or_else(|| refused("is no font"))?;
+        let face = Face::new(skrifa::font::Blob::from(blob), 0).ok_or_else(|| refused("is not a font"))?;
         let scaler = ScalerFont::force_unhinted(face.clone(), None);
         if scaler.outline_source().is_none() || face.num_glyphs() == 0 {
             return Err(refused("is a font without outlines"));

@@ -34,7 +34,7 @@ impl<'a> Source<'a> {
         let em = setting.em();
         if !(em.is_finite() && em > 0.0 && setting.leading.is_finite() && setting.leading >= 0.0) {
             return Err(
-                Error::new("letters and the space between lines have no size").remedy("give numbers above 0")
+                Error::new("the letter size or line spacing is not above 0").remedy("give numbers above 0")
             );
         }
         let language = setting.language.as_deref().map(language).transpose()?;
@@ -135,8 +135,8 @@ impl<'a> Source<'a> {
         let word =
             self.text.get(self.breaks[begin].at..self.breaks[end].at).unwrap_or_default().trim().to_owned();
         let own = self.line_width(begin, end).unwrap_or_default() * self.setting.em();
-        Error::new(format!("`{word}` is {own:.2} wide, and has {width:.2}"))
-            .remedy("give it more room, set it smaller, or name the language so that words are parted")
+        Error::new(format!("`{word}` is {own:.2} wide, but the text has a width of {width:.2}"))
+            .remedy("make the text wider, set it smaller, or name the language for hyphenation")
     }
 
     /// An error if the best breaks would be sought among too many.
@@ -144,7 +144,7 @@ impl<'a> Source<'a> {
         if lines.saturating_mul(self.breaks.len()) <= MOST_WAYS {
             return Ok(());
         }
-        Err(Error::new("the text is too long for its lines to be balanced").remedy("set it in a width"))
+        Err(Error::new("the text is too long to balance its lines").remedy("give it a width"))
     }
 
     /// The best ends of so many lines, and what the costliest costs.

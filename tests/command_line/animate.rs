@@ -184,7 +184,7 @@ fn levels_that_a_budget_chose_are_repeated() {
     animate(&folder, horn, "e/%d.svg", "--turntable 7 --levels mine.json").refused("it has 6 levels");
     folder.write("mine.json", "[3]");
     animate(&folder, horn, "e/%d.svg", "--turntable 6 --levels mine.json")
-        .refused("`faces` is missing, or is not a list of whole numbers");
+        .refused("not a list of face counts");
     animate(&folder, horn, "e/%d.svg", "--turntable 6 --budget soon").refused("a time, such as 33ms");
     animate(&folder, horn, "e/%d.svg", "--turntable 6 --budget 9ms --shard 1/2")
         .refused("cannot be used with");
@@ -213,7 +213,7 @@ fn a_path_of_cameras_gives_each_frame_its_own() {
     folder.write("bad.json", "[{\"eye\": 3}]");
     folder.ligne("animate cubes.obj p/%d.svg --path bad.json").refused("camera 0");
     folder.write("none.json", "[]");
-    folder.ligne("animate cubes.obj p/%d.svg --path none.json").refused("no camera on this path");
+    folder.ligne("animate cubes.obj p/%d.svg --path none.json").refused("the list of cameras is empty");
     folder.ligne("animate cubes.obj p/%d.svg --path absent.json").refused("absent.json");
 }
 
@@ -224,40 +224,40 @@ fn what_cannot_be_done_is_refused_and_nothing_is_written() {
         folder.ligne(line).refused(why);
     };
     refused("animate cubes.obj f.svg", "--turntable 36");
-    refused("animate cubes.obj f.svg --animation Walk", "it has no animations; leave out --animation");
-    refused("animate cubes.obj f.pdf --turntable 4", "a PDF does not move");
-    refused("animate cubes.obj f.avi --turntable 4", "films are not written as .avi");
+    refused("animate cubes.obj f.svg --animation Walk", "the model has no animations; leave out --animation");
+    refused("animate cubes.obj f.pdf --turntable 4", "a PDF file cannot hold a film");
+    refused("animate cubes.obj f.avi --turntable 4", "ligne cannot write films as .avi");
     refused("animate cubes.obj - --turntable 4", "standard output");
-    refused("animate cubes.obj %s.svg --turntable 4", "where the number of a frame stands");
+    refused("animate cubes.obj %s.svg --turntable 4", "no place for the number of a frame");
     refused("animate cubes.obj f.svg --turntable 4 --time 2", "--from and --to");
-    refused("animate cubes.obj f.svg --turntable 4 --shard 1/2", "a file for each frame");
-    refused("animate cubes.obj f.gif --turntable 4 --resume", "a file for each frame");
+    refused("animate cubes.obj f.svg --turntable 4 --shard 1/2", "one file per frame");
+    refused("animate cubes.obj f.gif --turntable 4 --resume", "one file per frame");
     refused("animate cubes.obj f.svg --turntable 0", "0");
-    refused("animate cubes.obj f.svg --turntable 4 --fps 0", "frames a second");
-    refused("animate cubes.obj f.svg --turntable 4 --fps nan", "frames a second");
+    refused("animate cubes.obj f.svg --turntable 4 --fps 0", "frames per second");
+    refused("animate cubes.obj f.svg --turntable 4 --fps nan", "frames per second");
     refused("animate cubes.obj f.svg --turntable 4 --hold 0", "0");
     refused("animate cubes.obj f.svg --turntable 4 --path p.json", "cannot be used with");
-    refused("animate cubes.obj cubes.obj --turntable 4", "films are not written as .obj");
+    refused("animate cubes.obj cubes.obj --turntable 4", "ligne cannot write films as .obj");
     refused("animate cubes.obj no/such/f.svg --turntable 4", "there is no folder");
     refused("animate none.obj f.svg --turntable 4", "none.obj");
     let crane = |more: &str, why: &str| {
         animate(&folder, CRANE, "f.svg", more).refused(why);
     };
-    crane("--animation walk", "it has no animation `walk`; it has lift");
-    crane("--from 3 --to 1", "let the end be behind the begin");
+    crane("--animation walk", "no animation `walk`; its animations are lift");
+    crane("--from 3 --to 1", "make the end later than the start");
     crane("--to 1e12", "too many");
     crane("--shard 3/2", "K/N");
     assert_eq!(folder.names(), ["cubes.obj"]);
     let beyond = animate(&folder, CRANE, "f.svg", "--to 6 --fps 1");
     assert!(beyond.done().err.contains("the animation lasts from 0 s to 4 s"), "{beyond:?}");
-    animate(&folder, CRANE, "g.svg", "--to 6 --fps 1 --strict").refused("stands still beyond");
+    animate(&folder, CRANE, "g.svg", "--to 6 --fps 1 --strict").refused("outside that time nothing moves");
 }
 
 #[test]
 fn without_ffmpeg_a_video_is_refused_clearly() {
     let folder = Folder::new("video");
     let run = folder.run_with(&[("PATH", "")], &format!("animate {CRANE} f.mp4 --fps 2"));
-    run.refused("there is no ffmpeg");
+    run.refused("ffmpeg is not installed");
     assert!(folder.names().is_empty());
     if std::process::Command::new("ffmpeg").arg("-version").output().is_err() {
         println!("skipped: no ffmpeg to write a video with");

@@ -13,7 +13,7 @@ fn every_command_has_help_with_an_example() {
         assert!(example.contains(&format!("ligne {command} ")), "{run:?}");
         assert!(run.err.is_empty());
     }
-    assert!(folder.run(&["--help"]).done().out.contains("ligne draw model.obj"));
+    assert!(folder.run(&["--help"]).done().out.contains("ligne model.obj"));
     assert_eq!(folder.run(&["--version"]).done().out, format!("ligne {}\n", env!("CARGO_PKG_VERSION")));
 }
 
@@ -42,7 +42,7 @@ fn wrong_calls_say_what_is_meant() {
     folder.ligne("draw m.obj --scale 2 --size 9").refused("--page");
     folder
         .ligne("draw m.obj m.gif")
-        .refused("m.gif: drawings are not written as .gif; end the name with .svg");
+        .refused("m.gif: ligne cannot write drawings as .gif; end the name with .svg");
     assert!(folder.names().is_empty());
 }
 
@@ -72,7 +72,7 @@ fn the_model_is_never_overwritten() {
     folder.write("model.svg", "not a model");
     folder.ligne("draw model.svg model.svg").refused("would overwrite the model");
     folder.ligne("draw cubes.obj a.svg --report cubes.obj").refused("would overwrite the model");
-    folder.ligne("draw cubes.obj a.svg -o a.svg").refused("a.svg: this output is given twice");
+    folder.ligne("draw cubes.obj a.svg -o a.svg").refused("a.svg: this output is named twice");
     assert_eq!(folder.text("cubes.obj"), crate::folder::CUBES);
 }
 

@@ -202,7 +202,7 @@ fn comparisons_take_the_tolerance_and_how_models_are_drawn() {
     assert!(folder.ligne("diff b.svg cubes.obj").out.contains("knob"));
     assert_eq!(status("b.svg cubes.obj --azimuth 30.2"), Some(0));
     folder.write("ligne.toml", &format!("{draw}\n[diff]\ntolerance = 'wide'\n"));
-    folder.ligne("diff a.svg b.svg").refused("ligne.toml: line 7: `wide` is no tolerance");
+    folder.ligne("diff a.svg b.svg").refused("ligne.toml: line 7: `wide` is not a tolerance");
 }
 
 #[test]

@@ -94,7 +94,7 @@ fn what_cannot_be_compared_is_told() {
         ("diff old.svg no-such.svg", "no-such.svg"),
         ("diff old.svg broken.svg", "broken.svg"),
         ("diff old.svg d", "is a folder"),
-        ("diff old.svg new.svg --tolerance wide", "no tolerance"),
+        ("diff old.svg new.svg --tolerance wide", "not a tolerance"),
         ("diff old.svg new.svg --image out.pdf", ".svg or .png"),
         ("diff old.svg new.svg --side-by-side", "--image"),
         ("diff old.svg new.svg --json --markdown", "cannot be used"),

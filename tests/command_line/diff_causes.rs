@@ -70,12 +70,12 @@ fn an_edit_of_a_model_is_one_sentence() {
         (
             "pump",
             Box::new(moved("terminal-box", [0.0, 0.0, 6.0])),
-            "moved      `terminal-box` 0.268 px right, 8.88 px up; and so what lies round it: ",
+            "moved      `terminal-box` 0.268 px right, 8.88 px up; also changed around it: ",
         ),
         (
             "street",
             Box::new(moved("chimney-15", [0.3, 0.0, 0.0])),
-            "moved      `chimney-15` 5.41 px right, 1.11 px down; and so what lies round it: ",
+            "moved      `chimney-15` 5.41 px right, 1.11 px down; also changed around it: ",
         ),
         ("street", Box::new(gone("chimney-15")), "removed    part `chimney-15`: all its 8 marks"),
         ("street", Box::new(recoloured("tile", [0.5, 0.1, 0.1])), "restyled   material `tile`: colour #"),
@@ -139,5 +139,5 @@ fn an_edit_of_a_whole_drawing_is_one_sentence() {
         assert!(lines.len() == 1 && lines[0].starts_with(wanted), "{wanted}: {}", told.out);
     }
     folder.ligne("diff old.svg new.svg --ignore labels").ends(0).says("the same");
-    folder.ligne("diff old.svg new.svg --ignore shapes").ends(2).says("nothing that can be ignored");
+    folder.ligne("diff old.svg new.svg --ignore shapes").ends(2).says("cannot be ignored");
 }

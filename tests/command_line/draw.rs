@@ -179,7 +179,7 @@ fn the_report_goes_to_standard_output() {
     let report: Value = serde_json::from_str(&run.done().out).expect("a report in JSON");
     assert_eq!(report["counts"]["triangles"], 24);
     assert_eq!(folder.names(), ["a.svg", "cubes.obj"]);
-    folder.ligne("draw cubes.obj - --report -").refused("standard output is given twice");
+    folder.ligne("draw cubes.obj - --report -").refused("standard output is named twice");
 }
 
 #[test]
@@ -204,9 +204,9 @@ fn maps_go_into_a_folder_all_or_none() {
     }
     assert_eq!(folder.text("a.svg"), folder.text("b.svg"));
     for (line, word) in [
-        ("draw cubes.obj c.svg --maps a.svg", "no folder"),
+        ("draw cubes.obj c.svg --maps a.svg", "not a folder"),
         ("draw cubes.obj c.svg --maps none/maps", "there is no folder none"),
-        ("draw cubes.obj maps/depth.png --maps maps", "given twice"),
+        ("draw cubes.obj maps/depth.png --maps maps", "named twice"),
     ] {
         let run = folder.ligne(line);
         run.ends(2).says(word);
@@ -327,7 +327,7 @@ fn an_unknown_stage_is_refused_with_those_there_are() {
         folder.run(&["draw", "cubes.obj", &file, "--stage", stage.name()]).done();
         assert!(folder.text(&file).contains("<path"), "{file}");
     }
-    assert!(folder.ligne("draw --help").out.contains("docs/stages.md"));
+    assert!(folder.ligne("draw --help").out.contains("docs/dev/stages.md"));
 }
 
 #[test]
@@ -345,11 +345,11 @@ fn a_moment_of_an_animation_is_drawn() {
     assert_eq!(drawn("first.svg", &["--animation", "lift"]), drawn("zero.svg", &["--time", "0"]));
     let beyond =
         folder.run(&["draw", crane, "beyond.svg", "--time", "9", "--camera", "camera", "--size", "200"]);
-    assert!(beyond.done().err.contains("the animation `lift` does not last until 9 s"), "{beyond:?}");
+    assert!(beyond.done().err.contains("the animation `lift` ends before 9 s"), "{beyond:?}");
     assert_eq!(folder.text("beyond.svg"), drawn("end.svg", &["--time", "4"]));
     folder
         .run(&["draw", crane, "no.svg", "--animation", "walk"])
-        .refused("it has no animation `walk`; it has lift");
+        .refused("no animation `walk`; its animations are lift");
     folder.run(&["draw", crane, "no.svg", "--time", "soon"]).refused("a number of seconds");
     // All of a clip is itself, none of it is the stored pose, and half of it is neither.
     let weighed =
@@ -363,7 +363,7 @@ fn a_moment_of_an_animation_is_drawn() {
     folder.run(&["draw", crane, "no.svg", "--animation", "lift:much"]).refused("`much` is no weight");
     folder.run(&["draw", crane, "no.svg", "--animation", "lift,walk:2"]).refused("no animation `walk`");
     let pump = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/pump.glb");
-    folder.run(&["draw", pump, "no.svg", "--time", "1"]).refused("it has no animations");
+    folder.run(&["draw", pump, "no.svg", "--time", "1"]).refused("the model has no animations");
     assert!(!folder.names().contains(&"no.svg".to_owned()));
     let info = folder.run(&["info", crane]).done().out.clone();
     assert!(info.contains("lift: 4 s, 1 key a second"), "{info}");

@@ -51,7 +51,7 @@ fn lengths_of_the_model_are_from_its_origin() {
 fn what_is_left_out_is_told() {
     let folder = Folder::with_cubes("dxf-fills");
     let run = folder.ligne("draw cubes.obj a.dxf --style toon");
-    assert!(run.err.contains("--dxf 2000 has fills"), "{}", run.err);
+    assert!(run.err.contains("--dxf 2000 keeps fills"), "{}", run.err);
     let run = folder.ligne("draw cubes.obj b.dxf --style toon --dxf 2000");
     assert!(!run.err.contains("warning"), "{}", run.err);
 }

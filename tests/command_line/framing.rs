@@ -97,8 +97,8 @@ fn a_parallel_record_takes_a_scale_and_a_middle() {
     folder.ligne("draw cubes.obj c.svg --save-camera eye.json").done();
     folder
         .ligne("draw cubes.obj d.svg --camera eye.json --page A4 --scale 1:1")
-        .refused("parallel lines of sight");
-    folder.ligne("draw cubes.obj d.svg --centre 1,1,0").refused("parallel lines of sight");
+        .refused("needs an orthographic view");
+    folder.ligne("draw cubes.obj d.svg --centre 1,1,0").refused("needs an orthographic view");
 }
 
 #[test]
@@ -114,10 +114,10 @@ fn what_a_person_would_wonder_about_is_told() {
     );
     for (options, told) in [
         ("--camera inside.json", "the eye is inside `base`"),
-        ("--camera beside.json", "nothing of it can be seen"),
+        ("--camera beside.json", "the drawing is empty"),
         ("--hide bolt*", "--hide 'bolt*' fits no part"),
         ("--only Knob --only base", "there is `knob`"),
-        ("--page A4 --scale 1:5", "the model is a dot on the page, 0.6 x 0.8 mm"),
+        ("--page A4 --scale 1:5", "the model covers only 0.6 x 0.8 mm"),
         ("--dpi 300", "--dpi changes nothing: no PNG is written"),
     ] {
         let run = folder.ligne(&format!("draw cubes.obj a.svg {options}"));

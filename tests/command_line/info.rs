@@ -121,7 +121,9 @@ fn first_part(folder: &Folder, model: &str) -> (String, Value) {
     let text = folder.ligne(&format!("info --all {model}")).done().out.clone();
     let lines: Vec<&str> = text.lines().collect();
     let heading = lines.iter().position(|line| line.trim() == "1 part:").expect("a list of parts");
-    let (_, said) = lines[heading + 1].split_once(": 12 triangles, ").expect("the precision of the part");
+    let (_, bounds) = lines[heading + 1].split_once(": 12 triangles, ").expect("the bounds of the part");
+    let (_, said) =
+        bounds.split_once(" to (").and_then(|(_, corner)| corner.split_once("), ")).expect("the precision");
     let json = folder.ligne(&format!("info --json {model}")).done().out.clone();
     let json: Value = serde_json::from_str(&json).expect("JSON");
     (said.to_owned(), json["parts"][0].clone())
@@ -215,7 +217,12 @@ fn all_lists_every_part_and_everything_left_out() {
     let full = folder.ligne("info --all many.obj").done().out.clone();
     assert!(!full.contains(" more "), "{full}");
     for k in 0..count {
-        assert!(full.contains(&format!("    part{k}: 1 triangle, exact coordinates\n")), "{full}");
+        assert!(
+            full.contains(&format!(
+                "    part{k}: 1 triangle, 0 x 1 x 1 from ({k}, 0, 0) to ({k}, 1, 1), exact coordinates\n"
+            )),
+            "{full}"
+        );
         assert!(
             full.contains(&format!("  left out: 1 face without area in part{k}, at ({k}, 0, 0)\n")),
             "{full}"
@@ -224,4 +231,14 @@ fn all_lists_every_part_and_everything_left_out() {
     // Programs get everything, with the option or without.
     let json = |options: &str| folder.ligne(&format!("info many.obj --json {options}")).done().out.clone();
     assert_eq!(json(""), json("--all"));
+}
+
+#[test]
+fn all_lists_bounds_of_parts() {
+    let folder = Folder::with_cubes("info-all");
+    let all = folder.ligne("info cubes.obj --all").done().out.clone();
+    assert!(all.contains("knob: 12 triangles, 1 x 1 x 1 from (-0.5, 1.5, -0.5) to (0.5, 2.5, 0.5)"), "{all}");
+    assert!(!folder.ligne("info cubes.obj").done().out.contains("1 x 1 x 1"));
+    let json: Value = serde_json::from_str(&folder.ligne("info cubes.obj --json").done().out).unwrap();
+    assert_eq!(json["parts"][1]["bounds"], json!({"min": [-0.5, 1.5, -0.5], "max": [0.5, 2.5, 0.5]}));
 }

@@ -102,7 +102,7 @@ fn empty_drawings_say_why() {
         ),
         (
             "draw cubes.obj --set lines.kinds=[\"wire\"]",
-            "the drawing is empty: no line of the model is in sight",
+            "the drawing is empty: no line of the model is visible",
         ),
     ] {
         let mut words: Vec<&str> = call.split_whitespace().collect();

@@ -35,19 +35,23 @@ fn levels_of_another_model_are_left_aside() {
     assert_eq!(folder.ligne("lod cubes.obj goose.ligne-lod --quiet").done().err, "");
     let run = folder.ligne("draw goose.obj foreign.svg --faces 200");
     run.done().says(
-        "warning: goose.obj: goose.ligne-lod is left aside: these levels of detail are of another model",
+        "warning: goose.obj: goose.ligne-lod is ignored: these levels of detail belong to another model",
     );
     assert_eq!(folder.text("own.svg"), folder.text("foreign.svg"));
     folder.write("goose.ligne-lod", "nothing of the kind");
-    folder.ligne("draw goose.obj foreign.svg --faces 200").done().says("this is no file of levels of detail");
-    folder.ligne("draw goose.obj strict.svg --faces 200 --strict").refused("left aside");
+    folder
+        .ligne("draw goose.obj foreign.svg --faces 200")
+        .done()
+        .says("this is not a file of levels of detail");
+    folder.ligne("draw goose.obj strict.svg --faces 200 --strict").refused("is ignored");
 }
 
 #[test]
 fn as_many_faces_are_kept_as_the_pieces_need() {
     let folder = with_goose("lod-few");
     let run = folder.ligne("draw cubes.obj --faces 3");
-    run.done().says("warning: cubes.obj: it keeps 8 faces: its pieces cannot be drawn with fewer");
+    run.done()
+        .says("warning: cubes.obj: the model keeps 8 faces, because its pieces cannot be simplified further");
     folder.ligne("draw cubes.obj knob.svg --faces 5 --only knob").done().says(" 4 triangles");
     folder.ligne("draw cubes.obj --faces 0").refused("--faces");
 }

@@ -133,7 +133,7 @@ fn no_drawing_of_another_model_is_written_over() {
     let both = "draw a/m.obj b/m.obj --out-dir d";
     folder
         .ligne(both)
-        .refused("d/m.svg: the drawings of a/m.obj and b/m.obj would both be this file; keep their folders");
+        .refused("d/m.svg: the drawings of a/m.obj and b/m.obj would have the same name; give --folders");
     assert_eq!(folder.names(), ["a", "b"]);
     folder.ligne(&format!("{both} --folders")).done();
     assert_ne!(folder.text("d/a/m.svg"), folder.text("d/b/m.svg"));
@@ -179,7 +179,7 @@ fn statuses_tell_what_is_worth_another_call() {
     folder.write("sub/cubes.obj", CUBES);
     let run = folder.ligne("draw sub/cubes.obj broken.obj cubes.obj --out-dir d --folders");
     run.ends(75).says("d/sub").says("1 model drawn, 1 file, ").says(", 1 refused, 1 to be tried again");
-    folder.ligne("draw cubes.obj --out-dir cubes.obj").refused("this is no folder");
+    folder.ligne("draw cubes.obj --out-dir cubes.obj").refused("this is not a folder");
     #[cfg(target_os = "linux")]
     if fs::metadata("/dev/full").is_ok() {
         std::os::unix::fs::symlink("/dev/full", folder.path("full.svg")).unwrap();
@@ -222,32 +222,35 @@ fn a_model_may_come_on_standard_input() {
     piped(&folder, b"v 0 0 0\nf 1 2 3\n", "draw - a.svg --format obj").refused("standard input: line 2: ");
     piped(&folder, b"", "draw - a.svg --format stl").refused("standard input: the file is empty");
     let refused = |line: &str, why: &str| piped(&folder, b"", line).refused(why);
-    refused("draw - a.svg", "--format: it is not told what standard input holds");
-    refused("draw - a.svg --format obj,stl", "told twice");
-    refused("draw - --format obj,png", "standard output takes one SVG");
-    refused("draw - --format obj --view top,iso", "standard output takes one drawing");
-    refused("draw - a.svg --format obj --watch", "standard input does not change");
-    refused("draw cubes.obj --format obj", "the ending of a model tells its format");
-    refused("draw cubes.obj a.svg --format png", "the name of a drawing tells its format");
-    refused("draw cubes.obj --format gif", "drawings are svg, png, pdf and dxf");
+    refused("draw - a.svg", "--input-format: the format of standard input is missing");
+    refused("draw - a.svg --format obj,stl", "standard input has two formats");
+    refused("draw - --format obj,png", "standard output can hold a single SVG");
+    refused("draw - --format obj --view top,iso", "standard output can hold a single drawing");
+    refused("draw - a.svg --format obj --watch", "standard input cannot be watched");
+    refused("draw cubes.obj --format obj", "no model is read from standard input");
+    refused("draw cubes.obj a.svg --format png", "the names of the drawings already give their formats");
+    refused("draw cubes.obj --format gif", "write svg, png, pdf or dxf");
 }
 
 #[test]
 fn what_does_not_go_together_is_refused() {
     let folder = Folder::with_cubes("many-refused");
     let refused = |line: &str, why: &str| folder.ligne(line).refused(why);
-    refused("draw cubes.obj a.svg b.svg", "--out-dir");
+    refused("draw cubes.obj other.obj", "--out-dir");
     refused("draw cubes.obj --shard 1/2", "--out-dir");
     refused("draw cubes.obj --out-dir d -o a.svg", "cannot be used with");
     refused("draw cubes.obj --out-dir d --shard 3/2", "K/N");
-    refused("draw cubes.obj --out-dir d --shard /2", "no task of a job array");
-    refused("draw cubes.obj --out-dir d --report r.json", "--report: this is written of one drawing");
+    refused("draw cubes.obj --out-dir d --shard /2", "not a task of a job array");
+    refused(
+        "draw cubes.obj --out-dir d --report r.json",
+        "--report: this option works with a single drawing",
+    );
     refused("draw cubes.obj --out-dir d --style nosuch", "error: there is no style `nosuch`");
     refused("draw cubes.obj nowhere/a.svg --view top,iso", "create the folder first");
-    refused("animate cubes.obj f.svg --turntable 3 --view top,iso", "there are several views");
+    refused("animate cubes.obj f.svg --turntable 3 --view top,iso", "one drawing cannot show several views");
     let task = |line: &str| folder.run_with(&[("JOB_COMPLETION_INDEX", "1")], line);
     folder.write("other.obj", CUBES);
-    task("draw cubes.obj other.obj --out-dir d").refused("JOB_COMPLETIONS does not say of how many");
+    task("draw cubes.obj other.obj --out-dir d").refused("JOB_COMPLETIONS is missing");
     assert_eq!(folder.names(), ["cubes.obj", "other.obj"]);
     task("draw cubes.obj other.obj --out-dir d --shard /2").done().says("d: shard 2/2, 1 model drawn, ");
     assert_eq!(folder.names_in("d"), ["other.svg"]);

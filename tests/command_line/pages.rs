@@ -77,13 +77,13 @@ fn several_pages_are_numbered() {
     folder.write("book.toml", "pages = ['page.toml', 'page.toml']\n");
     folder
         .ligne("page book.toml book.svg")
-        .refused("2 pages do not fit into one file of this kind; number them");
+        .refused("one file of this format cannot hold 2 pages; number them");
     folder.ligne("page book.toml b-%02d.svg --quiet").done();
     assert_eq!(folder.read("b-01.svg"), folder.read("b-02.svg"));
     folder.ligne("page book.toml b.dxf").refused("page-%d.svg");
     folder.ligne("page page.toml b.dxf --quiet").done();
     assert!(folder.text("b.dxf").contains("AC1015"));
-    folder.ligne("page page.toml page.toml").refused("drawings are not written as .toml");
+    folder.ligne("page page.toml page.toml").refused("ligne cannot write drawings as .toml");
 }
 
 #[test]
@@ -93,7 +93,7 @@ fn a_page_file_to_start_from_draws_at_once() {
         .ligne("page --new comic start.toml")
         .done()
         .says("example-goose.obj: `ligne page start.toml` draws it");
-    folder.ligne("page --new comic start.toml").refused("this file is there already");
+    folder.ligne("page --new comic start.toml").refused("the file exists already");
     let run = folder.ligne("page start.toml start.svg --strict");
     run.done();
     let svg = folder.text("start.svg");
@@ -120,7 +120,7 @@ fn pages_are_compared_panel_by_panel_and_kept_under_test() {
     // The other panel is the same.
     assert!(!told.contains("`panel-1`"), "{told}");
     folder.write("cases/page.toml", "page-file = '../page.toml'\nview = 'iso'\n");
-    folder.ligne("test cases").ends(2).says("a page is told by its page file alone");
+    folder.ligne("test cases").ends(2).says("a page file already contains all other settings");
 }
 
 #[test]

@@ -41,14 +41,14 @@ fn what_cannot_be_printed_is_refused() {
     for (options, what) in [
         ("a.pdf --ink cmyk", "--icc FILE"),
         ("a.pdf --ink cmyk --icc absent.icc", "absent.icc"),
-        ("a.pdf --ink cmyk --icc no.icc", "no ICC profile"),
+        ("a.pdf --ink cmyk --icc no.icc", "not an ICC profile"),
         ("a.pdf --ink k --ink-limit 200", "--ink cmyk"),
         ("a.pdf --pdf x4", "PDF/X-4 needs a profile"),
         ("a.pdf --spot red", "COLOUR=INK"),
         ("a.pdf --spot red=All", "`All`"),
         ("a.svg --marks", "--marks"),
         ("a.svg --ink k", "--ink"),
-        ("a.png --pdf a2b", "option of PDF"),
+        ("a.png --pdf a2b", "works with PDF only"),
     ] {
         folder.ligne(&format!("draw cubes.obj {options}")).refused(what);
         assert!(!folder.path("a.pdf").exists() && !folder.path("a.svg").exists(), "{options}");

@@ -80,16 +80,18 @@ fn explosions_have_trails() {
 fn wrong_planes_and_axes_are_refused() {
     let folder = Folder::with_cubes("section-wrong");
     folder.ligne("draw cubes.obj a.svg --section w").refused("write a plane such as");
-    folder.ligne("draw cubes.obj a.svg --section x=99").refused("beside the model");
+    folder.ligne("draw cubes.obj a.svg --section x=99").refused("misses the model");
     folder.ligne("draw cubes.obj a.svg --uncut knob").refused("--section");
     folder.ligne("draw cubes.obj a.svg --explode w").refused("or auto");
     folder.ligne("draw cubes.obj a.svg --explode z --explode-part nut").refused("there is no colon");
     folder
         .ligne("draw cubes.obj a.svg --explode z --explode-part wheel:distance=2")
-        .refused("no part of the model");
+        .refused("no part has the name");
     folder.ligne("draw cubes.obj a.svg --explode-part base:distance=2").refused("--explode");
-    folder.ligne("animate cubes.obj a.gif --section x").refused("neither cut open");
-    folder.ligne("animate cubes.obj a.gif --turntable 3 --explode z --faces 20").refused("levels of detail");
+    folder.ligne("animate cubes.obj a.gif --section x").refused("neither cut nor exploded");
+    folder
+        .ligne("animate cubes.obj a.gif --turntable 3 --explode z --faces 20")
+        .refused("cannot be simplified");
 }
 
 #[test]

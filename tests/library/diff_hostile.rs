@@ -163,7 +163,7 @@ fn selectors_that_nest_are_matched_in_one_pass() {
     }
     let many = format!("<style>{}</style>{}", "*{fill:red}".repeat(20_000), path.repeat(20_000));
     let told = refusal(&inside(&many)).unwrap();
-    assert!(told.contains("rules of style"), "{told}");
+    assert!(told.contains("style rules"), "{told}");
 }
 
 /// Styles that say the same over and over, for which readers take the square of their length.

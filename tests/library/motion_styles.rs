@@ -212,17 +212,17 @@ fn without_a_moment_there_are_none_and_a_warning() {
 #[test]
 fn wrong_values_are_refused() {
     for (change, what, remedy) in [
-        ("motion.lines=0", "0 is not so many", "a whole number from 1 to 1000"),
-        ("motion.segments=2.5", "2.5 is not so many", "a whole number from 1 to 1000"),
-        ("motion.rate=0", "0 segments a second", "a number from 0.001 to 10000"),
-        ("motion.turn=200", "200 is not how far a way turns", "degrees from 0 to 180"),
+        ("motion.lines=0", "0 is not a count", "a whole number from 1 to 1000"),
+        ("motion.segments=2.5", "2.5 is not a count", "a whole number from 1 to 1000"),
+        ("motion.rate=0", "0 segments per second", "a number from 0.001 to 10000"),
+        ("motion.turn=200", "200 is not an angle", "degrees from 0 to 180"),
         ("motion.taper=2", "2 is not a fraction", "a number from 0 to 1"),
-        ("motion.speed=-1", "-1 is no speed", "model units a second, at least 0"),
-        ("motion.speed=fast", "`fast` is no speed", "such as \"200px\""),
+        ("motion.speed=-1", "-1 is not a speed", "model units per second, at least 0"),
+        ("motion.speed=fast", "`fast` is not a speed", "such as \"200px\""),
         ("motion.path=way", "unknown value `way`", "known values: vertex, body"),
         ("motion.line=[{ lenght = 3 }]", "unknown key `lenght`", "did you mean `length`?"),
         ("motion.segmnts=3", "unknown key `segmnts`", "did you mean `segments`?"),
-        ("motion.line=[{ length = 0 }]", "0 is not so many", "a whole number"),
+        ("motion.line=[{ length = 0 }]", "0 is not a count", "a whole number"),
     ] {
         let error = Style::load("ink", &[change.to_owned()]).unwrap_err().to_string();
         assert!(error.contains(&format!("--set {change}")) && error.contains(what), "{change}: {error}");
@@ -263,7 +263,7 @@ fn a_moment_without_lines_is_explained() {
     };
     said(0.0, &[], "nothing moves at this moment");
     said(1.0, &["motion.speed=7.5"], "'part 0', goes 1.000 units a second, not more than 7.500");
-    said(1.0, &["motion.parts=door"], "is not named by motion.parts");
+    said(1.0, &["motion.parts=door"], "motion.parts does not name");
     assert_eq!(why(1.0, &["motion.speed=0.5"]), None);
     assert_eq!(why(1.0, &["motion.enabled=false"]), None);
     // Lines that are out of the picture.
@@ -272,5 +272,5 @@ fn a_moment_without_lines_is_explained() {
     aside.target.y += 90.0;
     aside.eye.y += 90.0;
     let drawing = drawn(&model, 1.0, &aside, &own);
-    assert!(drawing.warnings.iter().any(|warning| warning.contains("outside of the frame")));
+    assert!(drawing.warnings.iter().any(|warning| warning.contains("outside the frame")));
 }

@@ -270,34 +270,38 @@ fn what_is_wrong_is_told_with_its_place() {
         ("[pgae]\n", "line 1", "did you mean `page`?"),
         ("[page]\nkind = 'comic'\nlayout = '1 / [2 | 3'\n", "line 3", "a bracket is not closed"),
         ("[page]\nkind = 'comic'\nlayout = '99.99 / *'\n", "line 3", "no size"),
-        ("[page]\nkind = 'comic'\nsize = 'A9'\n", "line 3", "no size of a page"),
-        ("[page]\nkind = 'comic'\nmargin = 200\n", "line 3", "leaves nothing"),
+        ("[page]\nkind = 'comic'\nsize = 'A9'\n", "line 3", "not a page size"),
+        ("[page]\nkind = 'comic'\nmargin = 200\n", "line 3", "leaves no room"),
         (&format!("{panel}model = 'none.obj'\n"), "line 4", "there is no model `none.obj`"),
         (&format!("{panel}style = 'inc'\n"), "line 4", "did you mean `ink`?"),
         (&format!("{panel}set = ['pen.widht=2']\n"), "line 4", "did you mean `width`?"),
         (&format!("{panel}[[page.panel]]\n"), "line 4", "the layout has only 1 panel"),
         (&format!("{panel}at = [0, 0, 50, 50]\n"), "line 4", "overlaps `panel-1`"),
         (&format!("{panel}at = [0, 0, 0, 50]\n"), "line 4", "no size"),
-        (&format!("{panel}at = [200, 0, 50, 50]\ninset = true\n"), "line 4", "beyond the page"),
+        (&format!("{panel}at = [200, 0, 50, 50]\ninset = true\n"), "line 4", "past the page"),
         (
             &format!("{panel}balloon = [{{ text = 'a', tail = 'head' }}]\n"),
             "line 4",
             "no model in this panel",
         ),
-        (&format!("{panel}balloon = [{{ text = '' }}]\n"), "line 4", "says nothing"),
+        (&format!("{panel}balloon = [{{ text = '' }}]\n"), "line 4", "has no text"),
         (&format!("{panel}balloon = [{{ text = '{}' }}]\n", "w".repeat(40_000)), "line 4", "too long"),
         (&format!("{panel}balloon = [{{ text = 'a', at = [nan, 0] }}]\n"), "line 4", "far from the panel"),
         (&format!("{panel}sound = [{{ text = 'a', at = [0, inf] }}]\n"), "line 4", "far from the panel"),
-        (&format!("{panel}sound = [{{ text = 'a', arc = nan }}]\n"), "line 4", "do not turn so far"),
-        (&format!("{panel}sound = [{{ text = 'a', rotate = 1e9 }}]\n"), "line 4", "do not turn so far"),
-        (&format!("{panel}sound = [{{ text = 'a', stretch = inf }}]\n"), "line 4", "not stretched so"),
+        (&format!("{panel}sound = [{{ text = 'a', arc = nan }}]\n"), "line 4", "not an angle for letters"),
+        (&format!("{panel}sound = [{{ text = 'a', rotate = 1e9 }}]\n"), "line 4", "not an angle for letters"),
+        (
+            &format!("{panel}sound = [{{ text = 'a', stretch = inf }}]\n"),
+            "line 4",
+            "not a stretch of letters",
+        ),
         (&format!("{panel}name = ''\n"), "line 4", "has no name"),
-        ("[page]\nkind = 'comic'\ngutter = inf\n", "line 3", "no gutter"),
-        ("[page]\nkind = 'comic'\nsize = [nan, 90]\n", "line 3", "fits on no page"),
+        ("[page]\nkind = 'comic'\ngutter = inf\n", "line 3", "not a gutter"),
+        ("[page]\nkind = 'comic'\nsize = [nan, 90]\n", "line 3", "is too large"),
         (
             &format!("[page]\nkind = 'comic'\nlayout = '{}1'\n", "1 | ".repeat(10_000)),
             "line 3",
-            "more than 10000 panels",
+            "at most 10000 panels",
         ),
         (
             &format!("[page]\nkind = 'comic'\nlayout = '{}'\n", "1 [".repeat(90)),
@@ -382,7 +386,7 @@ fn models_take_the_colours_of_the_page() {
     assert_eq!(seen.len(), 2, "{seen:?}");
     let told = page("{ hed = 'red' }").unwrap_err().to_string();
     assert!(told.contains("line 5") && told.contains("did you mean `head`?") && told.contains('^'), "{told}");
-    assert!(page("'redd'").unwrap_err().to_string().contains("this is no colour"));
+    assert!(page("'redd'").unwrap_err().to_string().contains("this is not a colour"));
     let _ = fs::remove_dir_all(folder);
 }
 
@@ -393,14 +397,14 @@ fn pages_of_a_file_agree_on_their_inks() {
     let found = print(&format!("{one}[[page]]\nkind = 'comic'\n")).unwrap();
     assert_eq!((found.ink.as_deref(), found.spots[0].name.as_str()), (Some("k"), "PANTONE 185 C"));
     for (rest, message) in [
-        ("ink = 'cmyk'\n", "an earlier page says another thing"),
+        ("ink = 'cmyk'\n", "an earlier page has other inks"),
         ("ink = 'cymk'\n", "did you mean `cmyk`?"),
-        ("ink_limit = nan\n", "no limit of inks"),
-        ("ink = 'k'\nink_limit = 300\n", "only four inks have a limit"),
+        ("ink_limit = nan\n", "not an ink limit"),
+        ("ink = 'k'\nink_limit = 300\n", "an ink limit needs four inks"),
         ("icc = 'none.icc'\n", "there is no ICC profile"),
-        ("spot = [{ name = 'Other', colour = '#f00' }]\n", "printed with `PANTONE 185 C` already"),
-        ("spot = [{ name = ' ', colour = 'blue' }]\n", "has a name"),
-        ("spot = 'PANTONE 185 C'\n", "this is no ink"),
+        ("spot = [{ name = 'Other', colour = '#f00' }]\n", "already prints as `PANTONE 185 C`"),
+        ("spot = [{ name = ' ', colour = 'blue' }]\n", "needs a name"),
+        ("spot = 'PANTONE 185 C'\n", "this is not a spot colour"),
     ] {
         let told = print(&format!("{one}[[page]]\nkind = 'comic'\n{rest}")).unwrap_err().to_string();
         assert!(told.contains(message) && told.contains("line ") && told.contains('^'), "{rest}: {told}");

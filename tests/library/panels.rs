@@ -123,7 +123,7 @@ fn panels_without_size_are_refused() {
     for (layout, message) in [
         ("0.001 | 100", "no size"),
         ("99.9 / *", "no size"),
-        ("1 |50° 1 |-50° 1", "gutters beside this panel meet"),
+        ("1 |50° 1 |-50° 1", "gutters around this panel meet"),
     ] {
         let fault = cells(layout, &grid(4.0, Reading::Ltr)).map(|cells| cells.len()).unwrap_err();
         assert!(fault.message.contains(message), "{layout}: {}", fault.message);

@@ -184,7 +184,12 @@ fn broken_pointers_leave_the_stored_value_and_a_warning() {
         ("kind", "/cameras/1/perspective/yfov", one, "camera 1, which is not perspective"),
         ("width", "/cameras/0/perspective/yfov", &[1.0; 9], "accessor"),
         ("light", "/extensions/KHR_lights_punctual/lights/2/color", &[1.0; 9], "it moves light 2"),
-        ("cone", "/extensions/KHR_lights_punctual/lights/0/spot/innerConeAngle", one, "which is no spot"),
+        (
+            "cone",
+            "/extensions/KHR_lights_punctual/lights/0/spot/innerConeAngle",
+            one,
+            "which is not a spot light",
+        ),
         ("colour", "/extensions/KHR_lights_punctual/lights/1/color", &[1.0; 12], "accessor"),
         ("material", "/materials/2/emissiveFactor", &[1.0; 9], "it moves material 2, but the file has 2"),
         ("three", "/materials/0/pbrMetallicRoughness/baseColorFactor", &[1.0; 9], "accessor"),

@@ -332,7 +332,7 @@ fn a_clip_of_no_length_and_one_of_a_million_keys_play() {
 fn skins_without_joints_are_refused_by_name() {
     for (name, skin, expected) in [
         ("no-joints", json!({"joints": []}), "the skin has 0"),
-        ("joints-nowhere", json!({"joints": [0, 77]}), "joint 77 is no node of the file"),
+        ("joints-nowhere", json!({"joints": [0, 77]}), "joint 77 is not a node of the file"),
         ("joints-missing", json!({}), "missing field `joints`"),
     ] {
         let arm = Arm::new(name, |file| file["skins"][0] = skin);

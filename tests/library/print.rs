@@ -208,7 +208,7 @@ fn standards_are_told_and_want_profiles() {
     let error = to_pdf(&one(), &x4).unwrap_err().to_string();
     assert!(error.contains("PDF/X-4 needs a profile"), "{error}");
     assert!(to_pdf(&one(), &k().with_standard(Standard::A2b)).unwrap_err().to_string().contains("PDF/A"));
-    assert!(to_pdf(&[], &x4).unwrap_err().to_string().contains("without pages"));
+    assert!(to_pdf(&[], &x4).unwrap_err().to_string().contains("at least one page"));
     let mut flat = one();
     flat[0].page.height = 0.0;
     assert!(to_pdf(&flat, &k()).unwrap_err().to_string().contains("106 x 0"));

@@ -282,7 +282,7 @@ fn judge(seeds: std::ops::Range<u64>) -> (usize, Vec<String>) {
             Err(error) => {
                 let message = error.to_string();
                 eprintln!("sheet {seed}: {message}");
-                let is_refused = ["fit", "no clear place", "the cut runs beside"]
+                let is_refused = ["fit", "no free place", "the cut runs beside"]
                     .iter()
                     .any(|known| message.contains(known));
                 if !is_refused {

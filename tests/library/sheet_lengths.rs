@@ -192,8 +192,8 @@ fn values_are_rounded_alike_in_all_formats() {
         assert_eq!(of("thin", thin, ""), told(&["0.0005", "0.003", "31.5"], "mm"), "{format}");
     }
     for (keys, wanted) in [
-        ("decimals = 10\n", "no number of decimals"),
-        ("decimals = -1\n", "no number of decimals"),
+        ("decimals = 10\n", "not a number of decimals"),
+        ("decimals = -1\n", "not a number of decimals"),
         ("dimension_unit = 'inch'\n", "no unit `inch`"),
     ] {
         let error = sheet_of_box("wrong-values", [1.0; 3], "obj", keys).expect_err(keys);
@@ -231,7 +231,7 @@ fn pictorial_views_show_true_lengths_or_refuse() {
         ("of = 'exploded'\nfrom = [0, 0, 0]\nto = [70, 0, 0]", "an exploded view has no dimensions"),
         ("of = 'exploded'\nat = [0, 0, 0]\nmeasure = 'diameter'", "an exploded view has no dimensions"),
         ("of = 'front'\nfrom = [0, 0, 0]\nto = [0, 25, 0]", "lie behind each other"),
-        ("of = 'front'\nfrom = [0, 0, 0]\nto = [inf, 25, 0]", "this is no point"),
+        ("of = 'front'\nfrom = [0, 0, 0]\nto = [inf, 25, 0]", "this is not a point"),
     ] {
         let error =
             sheet("refused", &format!("{detail}{exploded}[[page.dimension]]\n{keys}\n")).expect_err(keys);

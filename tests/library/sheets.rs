@@ -237,8 +237,11 @@ fn leaders_of_twenty_assemblies_do_not_cross() {
                 _ => circles.push(mark.path.bounding_box()),
             }
         }
-        let hidden =
-            composed.warnings.iter().filter(|warning| warning.contains("nothing is seen of item")).count();
+        let hidden = composed
+            .warnings
+            .iter()
+            .filter(|warning| warning.contains("is not visible in the view with balloons"))
+            .count();
         assert_eq!([lines.len() + hidden, circles.len() + hidden], [parts.len(); 2], "round {round}");
         for (k, line) in lines.iter().enumerate() {
             for other in &lines[..k] {
@@ -340,8 +343,8 @@ fn parts_lists_come_from_files() {
     assert!(words(item(&composed, "balloons")).contains(&"N".to_owned()));
     for (list, text, told) in [
         ("a.csv", "nme\nplate\n", "no column `nme`"),
-        ("b.csv", "name,qty\nplate,many\n", "`many` is no quantity"),
-        ("c.csv", "name\nplate\ncrank\n", "no part of the model is called `crank`"),
+        ("b.csv", "name,qty\nplate,many\n", "`many` is not a quantity"),
+        ("c.csv", "name\nplate\ncrank\n", "no part has the name `crank`"),
         ("d.toml", "[[item]]\nnam = 'a'\n", "nam"),
     ] {
         let error = compose(list, text).expect_err(text);
@@ -386,16 +389,16 @@ fn what_is_wrong_is_told_with_its_place() {
         ("views = ['frnt']\n", "did you mean `front`?"),
         ("vews = ['front']\n", "vews"),
         ("projection = 'second'\n", "second"),
-        ("scale = 'big'\n", "this is no scale"),
+        ("scale = 'big'\n", "this is not a scale"),
         ("unit = 'furlong'\n", "furlong"),
-        ("[[page.section]]\nplane = 'w'\n", "this is no plane"),
-        ("[[page.section]]\nplane = 'x=1000'\n", "beside the model"),
+        ("[[page.section]]\nplane = 'w'\n", "this is not a plane"),
+        ("[[page.section]]\nplane = 'x=1000'\n", "misses the model"),
         ("[[page.dimension]]\nof = 'back'\nfrom = [0,0,0]\nto = [1,0,0]\n", "no view on this sheet"),
-        ("[[page.detail]]\nat = [0,0,0]\nradius = -1\n", "no radius"),
+        ("[[page.detail]]\nat = [0,0,0]\nradius = -1\n", "not a radius"),
         ("[page.exploded]\naxis = 'w'\n", "no axis"),
-        ("[[page.exploded.part]]\nname = 'wheel'\n", "no part of the model"),
+        ("[[page.exploded.part]]\nname = 'wheel'\n", "no part has"),
         ("[[page.exploded.part]]\nname = '*'\nalong = 'w'\n", "no direction"),
-        ("[[page.exploded.part]]\nname = '*'\ndistance = inf\n", "no number"),
+        ("[[page.exploded.part]]\nname = '*'\ndistance = inf\n", "not a number"),
         ("[page.title]\nheading = 'a'\n", "heading"),
         ("font = 'none such'\n", "none such"),
     ] {
@@ -405,5 +408,5 @@ fn what_is_wrong_is_told_with_its_place() {
     }
     let error =
         PageFile::from_text("[page]\nkind = 'sheet'\n", "a.toml").expect("read").compose().expect_err("none");
-    assert!(error.to_string().contains("shows no model"), "{error}");
+    assert!(error.to_string().contains("has no model"), "{error}");
 }

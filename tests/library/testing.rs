@@ -76,7 +76,9 @@ fn order_and_tolerance_are_forgiven() {
     assert!(check(&drawing(50.3), "lid", &folder, "0.2px", &Approval::None).is_err());
     check(&drawing(50.3), "lid", &folder, "0.5px", &Approval::None).unwrap();
     assert!(
-        check(&drawing(50.3), "lid", &folder, "wide", &Approval::None).unwrap_err().contains("no tolerance")
+        check(&drawing(50.3), "lid", &folder, "wide", &Approval::None)
+            .unwrap_err()
+            .contains("not a tolerance")
     );
 }
 

@@ -223,12 +223,12 @@ fn the_same_text_gives_the_same_marks() {
 fn what_is_no_text_and_no_font_is_refused() {
     let message =
         |text: &str, setting: &Setting| Block::balanced(text, setting, 10.0).unwrap_err().to_string();
-    assert!(message(" \n ", &comic()).contains("without letters"));
+    assert!(message(" \n ", &comic()).contains("has no letters"));
     assert!(message(&"long ".repeat(20_000), &comic()).contains("too long"));
-    assert!(message("a", &comic().with_em(f64::NAN)).contains("no size"));
+    assert!(message("a", &comic().with_em(f64::NAN)).contains("not above 0"));
     assert!(Block::in_ellipse("a", &comic(), -1.0).is_err());
     assert!(Font::named("gothic").unwrap_err().to_string().contains("comic, technical, plain"));
-    assert!(Font::from_bytes(b"not a font").unwrap_err().to_string().contains("is no font"));
+    assert!(Font::from_bytes(b"not a font").unwrap_err().to_string().contains("is not a font"));
     let absent = Font::open("absent.ttf").unwrap_err();
     assert!(absent.to_string().starts_with("absent.ttf: cannot be read"), "{absent}");
     // Damaged fonts are refused or set something, and do no more.

@@ -38,12 +38,13 @@ impl Destination {
     /// Tells it by the name.
     pub(super) fn of(path: &Path) -> Result<Self, Error> {
         if is_stdout(path) {
-            return Err(Error::new("frames are not written to standard output")
-                .remedy("name a file, such as film.svg"));
+            return Err(
+                Error::new("a film cannot go to standard output").remedy("name a file, such as film.svg")
+            );
         }
         let wrong = |message: String| {
             Error::new(message).in_file(path).remedy(format!(
-                "end the name with {FILMS} for one film, or write {NUMBERED} for a file a frame"
+                "end the name with {FILMS} for one film, or write {NUMBERED} for one file per frame"
             ))
         };
         if let Some(numbered) = Numbered::of(path, "a frame", wrong)? {
@@ -57,9 +58,9 @@ impl Destination {
             Some("webp") => FilmFormat::Webp,
             Some("mp4") => FilmFormat::Mp4,
             Some("webm") => FilmFormat::Webm,
-            Some("pdf") => return Err(wrong("a PDF does not move".to_owned())),
-            Some(other) => return Err(wrong(format!("films are not written as .{other}"))),
-            None => return Err(wrong("the name of the film does not tell its format".to_owned())),
+            Some("pdf") => return Err(wrong("a PDF file cannot hold a film".to_owned())),
+            Some(other) => return Err(wrong(format!("ligne cannot write films as .{other}"))),
+            None => return Err(wrong("the name of the film has no format".to_owned())),
         };
         Ok(Self::Film(path.to_path_buf(), format))
     }

@@ -32,20 +32,19 @@ pub(super) fn budget(text: &str) -> Result<f64, String> {
 
 /// The levels of a file: a list of numbers of faces, one a drawing.
 pub(super) fn read_levels(path: &Path, drawings: usize) -> Result<Vec<u64>, Error> {
-    let remedy = "write one with --budget TIME --levels FILE";
+    let remedy = "write one with --budget TIME --save-levels FILE";
     let text =
         std::fs::read_to_string(path).map_err(|error| Error::io("cannot read", error).in_file(path))?;
     let value: Value = serde_json::from_str(&text)
         .map_err(|error| Error::json("this is not JSON", &error).in_file(path).remedy(remedy))?;
     let list = value.get("faces").and_then(Value::as_array);
     let faces: Option<Vec<u64>> = list.and_then(|list| list.iter().map(Value::as_u64).collect());
-    let faces = faces.ok_or_else(|| {
-        Error::new("`faces` is missing, or is not a list of whole numbers").in_file(path).remedy(remedy)
-    })?;
+    let faces =
+        faces.ok_or_else(|| Error::new("this is not a list of face counts").in_file(path).remedy(remedy))?;
     if faces.len() != drawings {
         return Err(Error::new(format!("it has {} levels, and there are {drawings} drawings", faces.len()))
             .in_file(path)
-            .remedy("draw the frames that it was written for"));
+            .remedy("draw the same frames as when the file was written"));
     }
     Ok(faces)
 }

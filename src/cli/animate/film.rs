@@ -86,7 +86,7 @@ impl Film {
             (Writer::Webp(film), Frame::Pixels(pixels)) => film.push(pixels, ticks)?,
             (Writer::Video(film), Frame::Pixels(pixels)) => film.push(pixels, ticks)?,
             (Writer::Svg(_), Frame::Pixels(_)) | (_, Frame::Vector(_)) => {
-                return Err(Error::new("a frame is of another kind than the film"));
+                return Err(Error::new("a frame has another format than the film"));
             }
         }
         Ok(())

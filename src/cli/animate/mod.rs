@@ -40,8 +40,9 @@ use crate::style::Style;
 const HURRIED: &str = "lines.contours=mesh";
 
 /// Draws all frames, and says so in one line.
-pub(super) fn run(args: AnimateArgs) -> Result<(), Error> {
+pub(super) fn run(mut args: AnimateArgs) -> Result<(), Error> {
     let watch = Stopwatch::start();
+    split_levels(&mut args)?;
     let mut request = DrawRequest::of_model(args.model.clone(), args.how.clone())?;
     let destination = if args.contact.contact_sheet {
         request = picture_request(request);
@@ -67,28 +68,41 @@ pub(super) fn run(args: AnimateArgs) -> Result<(), Error> {
     Ok(())
 }
 
-/// Refuses what cannot be done, before any work.
+/// `--levels` with `--budget` is the older spelling of `--save-levels`.
+fn split_levels(args: &mut AnimateArgs) -> Result<(), Error> {
+    if args.budget.is_none() || args.levels.is_none() {
+        return Ok(());
+    }
+    if args.save_levels.is_some() {
+        return Err(Error::new("face counts are either read or found with --budget")
+            .at("--levels")
+            .remedy("leave out --levels or --budget"));
+    }
+    args.save_levels = args.levels.take();
+    Ok(())
+}
+
+/// Refuses contradictions before any work.
 fn check(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) -> Result<(), Error> {
     if request.time.is_some() {
-        return Err(Error::new("frames have times of their own")
+        return Err(Error::new("an animation has no single moment")
             .at("--time")
-            .remedy("say with --from and --to which are drawn, or draw one moment with ligne draw"));
+            .remedy("give --from and --to, or draw one moment with ligne draw"));
     }
     if request.section.is_asked() {
         let goes_round = args.turntable.is_some() || args.path.is_some();
         if !goes_round || !request.animation.is_empty() {
-            return Err(Error::new("what moves is neither cut open nor taken apart")
+            return Err(Error::new("a moving model can be neither cut nor exploded")
                 .at("--section, --explode")
-                .remedy("go round it with --turntable 36, or draw one moment with ligne draw"));
+                .remedy("give --turntable 36, or draw one moment with ligne draw"));
         }
         if args.budget.is_some() || args.levels.is_some() || request.faces.is_some() {
-            return Err(Error::new("levels of detail are of the whole model")
+            return Err(Error::new("a cut or exploded model cannot be simplified")
                 .at("--section, --explode")
                 .remedy("leave out --faces, --budget and --levels"));
         }
     }
-    let levels = args.levels.as_ref().filter(|_| args.budget.is_some());
-    for file in args.report.iter().filter(|path| !is_stdout(path)).chain(levels) {
+    for file in args.report.iter().filter(|path| !is_stdout(path)).chain(&args.save_levels) {
         check_place(file)?;
     }
     match destination {
@@ -100,9 +114,9 @@ fn check(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) -
         Destination::Film(path, _) => {
             let alone = [("--shard", args.shard.is_some()), ("--resume", args.resume)];
             if let Some((option, _)) = alone.into_iter().find(|(_, given)| *given) {
-                return Err(Error::new("one film is not written piece by piece")
+                return Err(Error::new("a single film cannot be split or resumed")
                     .at(option)
-                    .remedy("write a file for each frame, such as 'frames/%04d.svg'"));
+                    .remedy("write one file per frame, such as 'frames/%04d.svg'"));
             }
             check_place(path)?;
             let same = |path: &Path| path.canonicalize().ok();
@@ -127,7 +141,7 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
         style = style.to_scale();
     }
     if hurried && style.motion.fade > 0 {
-        return Err(Error::new("strokes fade by what the frames around have, and these have other faces")
+        return Err(Error::new("fading strokes need the same faces in all frames")
             .at("motion.fade")
             .remedy("leave out --budget and --levels, or --set motion.fade=0"));
     }
@@ -152,6 +166,11 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
         open_up(request, &mut rigged, &mut whole, &mut style)?;
     }
     let plan = Plan::new(args, request, whole.as_ref().unwrap_or(&rigged))?;
+    if !request.quiet {
+        for note in &plan.notes {
+            progress.tell(&format!("note: {}: {note}", request.model.display()));
+        }
+    }
     let timeline = plan.course.timeline;
     let mut total = Total { fps: timeline.fps(), ..Total::default() };
     total.stages_ms.load = watch.lap_ms();
@@ -183,7 +202,7 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
         Destination::Sheet(output) => stage.sheet(output, &mut total)?,
     }
     drop(progress);
-    if let (Some(ms), Some(path)) = (args.budget, &args.levels) {
+    if let (Some(ms), Some(path)) = (args.budget, &args.save_levels) {
         write(path, &detail::written_levels(&total.faces, ms))?;
     }
     let counted = |(warning, drawings): (&String, &usize)| match drawings {

@@ -26,6 +26,8 @@ pub(super) struct Plan {
     eye: Eye,
     paper: Paper,
     pub(super) warnings: Vec<String>,
+    /// Choices made for the user, in words.
+    pub(super) notes: Vec<String>,
 }
 
 /// What moves, and when.
@@ -58,9 +60,9 @@ impl Plan {
         let moves = args.turntable.is_some() || args.path.is_some();
         let still = clips.is_empty() && request.animation.is_empty();
         if still && !moves {
-            return Err(Error::new("nothing moves in this model").in_file(&request.model).remedy(
-                "go round it with --turntable 36, or along a path of cameras with --path FILE.json",
-            ));
+            return Err(Error::new("the model has no animation")
+                .in_file(&request.model)
+                .remedy("give --turntable 36, or a camera path with --path FILE.json"));
         }
         let own = if moves && request.animation.is_empty() {
             None
@@ -68,6 +70,7 @@ impl Plan {
             let blend = Blend::new(clips, &request.animation, request.repeat);
             Some(blend.map_err(|error| without_time(error).in_file(&request.model))?)
         };
+        let notes = own.as_ref().map_or_else(Vec::new, |own| own.notes().to_vec());
         let [begins, ends] = own.as_ref().map_or([0.0, 0.0], Blend::span);
         let cameras = args.path.as_deref().map(open_path).transpose()?;
         let from = args.from.unwrap_or(begins);
@@ -82,7 +85,9 @@ impl Plan {
         let last = timeline.time(timeline.frames() - 1);
         let stands_still = own.as_ref().is_some_and(|own| !own.repeats());
         if stands_still && (from < begins - 1e-9 || last > ends + 1e-9) {
-            warnings.push(format!("the animation lasts from {begins} s to {ends} s; it stands still beyond"));
+            warnings.push(format!(
+                "the animation lasts from {begins} s to {ends} s; outside that time nothing moves"
+            ));
         }
         let rest = rigged.posed(&[])?;
         let turntable = args.turntable.map(|steps| Turntable::round(&rest, steps as usize));
@@ -101,7 +106,7 @@ impl Plan {
             (None, View::Recorded(name)) if named(name) => Eye::OfModel(name.clone()),
             (None, _) => Eye::Still(camera),
         };
-        Ok(Self { course, eye, paper, warnings })
+        Ok(Self { course, eye, paper, warnings, notes })
     }
 
     /// What a frame shows.
@@ -193,7 +198,7 @@ fn open_path(path: &Path) -> Result<Vec<Camera>, Error> {
         return Err(Error::new("this is not a list").in_file(path).remedy(remedy));
     };
     if records.is_empty() {
-        return Err(Error::new("there is no camera on this path").in_file(path).remedy(remedy));
+        return Err(Error::new("the list of cameras is empty").in_file(path).remedy(remedy));
     }
     let camera = |(number, record): (usize, &Value)| {
         Camera::from_json(&record.to_string()).map_err(|error| {

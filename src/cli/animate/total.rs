@@ -48,7 +48,7 @@ pub(super) fn refuse_warnings<'a>(
     match warnings.next().filter(|_| request.strict) {
         Some(warning) => Err(Error::new(warning.clone())
             .in_file(&request.model)
-            .remedy("mend the model, or draw without --strict")),
+            .remedy("repair the model, or draw without --strict")),
         None => Ok(()),
     }
 }

@@ -11,7 +11,7 @@ use crate::export::Pixels;
 
 const PROGRAM: &str = "ffmpeg";
 
-const REMEDY: &str = "install ffmpeg, or write .webp, .gif, .png or an animated .svg, which need nothing";
+const REMEDY: &str = "install ffmpeg, or write .webp, .gif, .png or .svg";
 
 /// What ffmpeg said last, in messages.
 const LAST_WORDS: usize = 400;
@@ -42,7 +42,9 @@ impl Video {
         asked.arg("-version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
         let there = asked.status().is_ok_and(|status| status.success());
         if !there {
-            return Err(Error::new("there is no ffmpeg to write this film").in_file(path).remedy(REMEDY));
+            return Err(Error::new("ffmpeg is not installed, and this film needs it")
+                .in_file(path)
+                .remedy(REMEDY));
         }
         Ok(Self { fps, format, path: path.to_path_buf(), running: None })
     }
@@ -57,7 +59,7 @@ impl Video {
         }
         let Some(running) = &mut self.running else { return Ok(()) };
         if running.size != [pixels.width, pixels.height] {
-            return Err(Error::new("a frame is of another size than the first"));
+            return Err(Error::new("a frame has another size than the first"));
         }
         // Films know no clear pixels that all players show.
         let paper = pixels.on_white();
@@ -75,10 +77,10 @@ impl Video {
     /// If ffmpeg could not write it.
     pub(super) fn end(&mut self) -> Result<(), Error> {
         let Some(Running { mut child, frames, words, .. }) = self.running.take() else {
-            return Err(Error::new("a film needs a frame"));
+            return Err(Error::new("a film needs at least one frame"));
         };
         drop(frames);
-        let status = child.wait().map_err(|error| Error::io("ffmpeg was lost", error))?;
+        let status = child.wait().map_err(|error| Error::io("ffmpeg stopped unexpectedly", error))?;
         let words = words.join().unwrap_or_default();
         if status.success() {
             return Ok(());
@@ -86,9 +88,7 @@ impl Video {
         let from = words.len().saturating_sub(LAST_WORDS);
         let from = (from..=words.len()).find(|at| words.is_char_boundary(*at)).unwrap_or_default();
         let last = words.get(from..).unwrap_or_default().trim().replace('\n', "; ");
-        Err(Error::new(format!("ffmpeg could not write this film: {last}"))
-            .in_file(&self.path)
-            .remedy(REMEDY))
+        Err(Error::new(format!("ffmpeg failed: {last}")).in_file(&self.path).remedy(REMEDY))
     }
 
     fn start(&self, size: [u32; 2]) -> Result<Running, Error> {
@@ -111,7 +111,7 @@ impl Video {
         command.arg(&self.path).stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
         let mut child =
             command.spawn().map_err(|error| Error::io("cannot start ffmpeg", error).remedy(REMEDY))?;
-        let lost = || Error::new("cannot talk to ffmpeg").remedy(REMEDY);
+        let lost = || Error::new("cannot send frames to ffmpeg").remedy(REMEDY);
         let frames = child.stdin.take().ok_or_else(lost)?;
         let words = child.stderr.take().ok_or_else(lost)?;
         // Read all the while: a program whose words nobody reads stands still.

@@ -26,7 +26,7 @@ impl Images {
             if path.is_dir() {
                 return Ok(Self::Folder(path.to_path_buf()));
             }
-            return Err(Error::new("is not a folder, and each drawing that differs needs a picture")
+            return Err(Error::new("each difference needs its own picture, and this is not a folder")
                 .in_file(path)
                 .remedy("create the folder first"));
         }
@@ -34,7 +34,7 @@ impl Images {
         let output = Output::new(path.to_path_buf())?;
         match output.format {
             Format::Svg | Format::Png => Ok(Self::File(output)),
-            _ => Err(Error::new("differences are drawn as SVG or PNG")
+            _ => Err(Error::new("differences can be drawn as SVG or PNG only")
                 .in_file(path)
                 .remedy("end the name with .svg or .png")),
         }

@@ -21,54 +21,52 @@ use crate::diff::{self, DiffOptions, Ignore, Tolerances, View};
 use crate::error::Error;
 
 const EXAMPLES: &str = "Examples:
-  ligne diff old.svg new.svg                           what differs, a line each
+  ligne diff old.svg new.svg                           one line per difference
   ligne diff old.svg new.svg --tolerance lines=0.05mm,fills=0.2mm --image changes.svg
-  ligne diff v1/drive.glb v2/drive.glb --view iso      two models, drawn alike
-  ligne diff approved/ drawn/ --markdown > summary.md  two folders, paired by name
+  ligne diff v1/drive.glb v2/drive.glb --view iso      two models from the same view
+  ligne diff approved/ drawn/ --markdown > summary.md  two folders, paired by file name
 
-Exit status: 0 the same, 1 something differs, 2 the call or a file is wrong.";
+Exit status: 0 no difference, 1 differences, 2 error.";
 
-/// What was typed.
+/// Options of `ligne diff`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct DiffArgs {
-    /// The old drawing (.svg), model (.obj, .gltf, .glb, .stl, .ply, .step) or folder
+    /// Old drawing (.svg), model (.obj, .gltf, .glb, .stl, .ply, .step) or folder
     before: PathBuf,
 
-    /// The new one
+    /// New drawing, model or folder
     after: PathBuf,
 
-    /// How far ink may lie from where it lay: 0.1px, or by class or layer such as
-    /// lines=0.05mm,fills=0.2mm [default: twice the written precision]
+    /// Distance within which ink counts as equal: 0.1px, or lines=0.05mm,fills=0.2mm [default: twice the written precision]
     #[arg(long, value_name = "LENGTH", help_heading = "Comparison", value_parser = tolerances)]
     tolerance: Option<Tolerances>,
 
-    /// What does not count: labels, colours, widths (and dashes, ends, corners) or text; a list, or once
-    /// for each
+    /// Ignore labels, colours, widths or text; a list, or repeatable
     #[arg(long, value_name = "WHAT", help_heading = "Comparison", value_parser = ignore)]
     ignore: Vec<Ignore>,
 
-    /// Compare pixel by pixel as well
+    /// Compare pixels as well
     #[arg(long, help_heading = "Comparison")]
     pixels: bool,
 
-    /// Tell each mark in a line of its own
+    /// List each mark on its own line
     #[arg(long, help_heading = "Comparison", conflicts_with_all = ["json", "markdown"])]
     all: bool,
 
-    /// Tell as JSON
+    /// Print JSON
     #[arg(long, help_heading = "Comparison", conflicts_with = "markdown")]
     json: bool,
 
-    /// Tell as Markdown, for a pull request
+    /// Print Markdown, for a pull request
     #[arg(long, help_heading = "Comparison")]
     markdown: bool,
 
-    /// Draw what differs, if anything does: gone in red, new in green; of folders a folder
+    /// Draw the differences: removed in red, added in green; for folders, a folder
     #[arg(long, value_name = "OUT.svg|png", help_heading = "Comparison")]
     image: Option<PathBuf>,
 
-    /// Draw both beside each other rather than over each other
+    /// Draw both versions side by side instead of overlaid
     #[arg(long, help_heading = "Comparison", requires = "image")]
     side_by_side: bool,
 

@@ -42,7 +42,7 @@ impl Pairing {
                     }
                 }
                 if names.is_empty() {
-                    return Err(Error::new("neither folder has a drawing or a model in it")
+                    return Err(Error::new("neither folder contains a drawing or a model")
                         .in_file(before)
                         .remedy("name folders with .svg files"));
                 }
@@ -50,8 +50,10 @@ impl Pairing {
             }
             (first, _) => {
                 let (folder, file) = if first { (before, after) } else { (after, before) };
-                let remedy = format!("name the drawing in it that {} is to be compared with", file.display());
-                Err(Error::new("is a folder, the other one is not").in_file(folder).remedy(remedy))
+                let remedy = format!("name the drawing in it to compare with {}", file.display());
+                Err(Error::new("this is a folder, and the other argument is a file")
+                    .in_file(folder)
+                    .remedy(remedy))
             }
         }
     }
@@ -100,12 +102,14 @@ fn text(path: &Path) -> Result<String, Error> {
     };
     let size = std::fs::metadata(path).map_err(unread)?.len();
     if size > MOST_BYTES {
-        return Err(Error::new("is larger than a gigabyte").in_file(path).remedy("give a smaller drawing"));
+        return Err(Error::new("the file is larger than 1 GB")
+            .in_file(path)
+            .remedy("give a smaller drawing"));
     }
     let bytes = std::fs::read(path).map_err(unread)?;
     let bytes = gzip::plain(bytes, MOST_BYTES as usize).map_err(|error| error.in_file(path))?;
     String::from_utf8(bytes).map_err(|error| {
-        Error::new("is not SVG: not UTF-8 text")
+        Error::new("the file is not SVG: it is not UTF-8 text")
             .in_file(path)
             .at(format!("byte {}", error.utf8_error().valid_up_to()))
             .remedy("give an SVG file")

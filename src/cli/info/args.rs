@@ -15,18 +15,18 @@ use crate::cli::step::StepArgs;
   ligne info drive.glb --all
   ligne info drive.glb --json | jq '.parts[].name'")]
 pub(in crate::cli) struct InfoArgs {
-    /// The model: .obj, .gltf, .glb, .stl, .ply or .step
+    /// Model: .obj, .gltf, .glb, .stl, .ply or .step
     pub(super) model: PathBuf,
 
-    /// The unit of the model: mm, cm, m, in, ft [default: m in glTF, which demands it; the other formats do not say]
+    /// Unit of the model: mm, cm, m, in, ft [default: m in glTF, unknown otherwise]
     #[arg(long, value_name = "UNIT", value_enum, hide_possible_values = true)]
     pub(super) unit: Option<ModelUnit>,
 
-    /// List everything in full, with the step of each part's coordinates and the rounding that follows from it [default: 20 entries a list]
+    /// List everything, with bounds and precision of each part [default: 20 entries per list]
     #[arg(long)]
     pub(super) all: bool,
 
-    /// Write JSON, for programs; always in full
+    /// Print JSON, always complete
     #[arg(long)]
     pub(super) json: bool,
 

@@ -3,14 +3,15 @@
 use serde::Serialize;
 
 use super::args::InfoArgs;
+use super::joints::{self, JointInfo};
 use super::left_out::{self, LeftOutInfo};
 use super::materials::MaterialInfo;
 use super::parts::{PartInfo, TurnedInfo};
 use super::precision;
 use super::staging::{CameraInfo, ClipInfo, LightInfo};
 use crate::cli::model_unit::{self, ModelUnit};
-use crate::cli::pipeline;
-use crate::pose::Clip;
+use crate::cli::{hints, pipeline};
+use crate::pose::Rig;
 use crate::scene::drawn_points::{DrawnPoints, used_points};
 use crate::scene::framing::bounds;
 use crate::scene::{Geometry, Scene, UpAxis};
@@ -30,15 +31,18 @@ pub(super) struct Info {
     pub materials: Vec<MaterialInfo>,
     pub lights: Vec<LightInfo>,
     pub cameras: Vec<CameraInfo>,
+    pub joints: Vec<JointInfo>,
     pub animations: Vec<ClipInfo>,
     pub bounds: Option<BoundsInfo>,
     /// Faces without area and lines without length, part by part; they count in nothing else.
     pub left_out: Vec<LeftOutInfo>,
     /// Vertices that no face and no line uses.
     pub unused_vertices: u64,
-    /// Length of a unit, where the format or the call says so.
+    /// Unit of the model, if the format or the call gives it.
     pub unit: Option<&'static str>,
     pub warnings: Vec<String>,
+    /// Hints, each with the option that helps.
+    pub notes: Vec<String>,
 }
 
 /// The box around all that is drawn.
@@ -53,18 +57,25 @@ pub(super) struct BoundsInfo {
 
 impl Info {
     /// Collects the contents and defects of a scene.
-    pub fn of(scene: &Scene, clips: &[Clip], args: &InfoArgs) -> Self {
+    pub fn of(scene: &Scene, rig: &Rig, args: &InfoArgs) -> Self {
         let DrawnPoints { points, parts: drawn } = DrawnPoints::of(scene);
         let unused = |own: &Geometry| (own.positions.len() - used_points(own).len()) as u64;
         let unused_vertices = scene.unused_vertices + scene.geometries.iter().map(unused).sum::<u64>();
         let left_out = left_out::by_part(scene, &drawn);
+        let mut boxes = vec![None; scene.parts.len()];
+        for own in &drawn {
+            if let (Some(slot), Some(own)) = (boxes.get_mut(own.part), points.get(own.points.clone())) {
+                *slot = bounds(own);
+            }
+        }
         let (of_mesh, mesh) = pipeline::mesh_findings(scene);
         let parts: Vec<PartInfo> = left_out
             .iter()
             .zip(precision::by_part(scene, &mesh))
+            .zip(boxes)
             .enumerate()
-            .filter_map(|(part, (left_out, precision))| {
-                PartInfo::of(scene, part, left_out, &mesh.turned, precision)
+            .filter_map(|(part, ((left_out, precision), bounds))| {
+                PartInfo::of(scene, part, left_out, &mesh.turned, precision, bounds)
             })
             .collect();
         let left_out = LeftOutInfo::of(scene, &left_out);
@@ -91,7 +102,8 @@ impl Info {
             materials: scene.materials.iter().map(|material| MaterialInfo::of(scene, material)).collect(),
             lights: scene.lights.iter().map(LightInfo::of).collect(),
             cameras: scene.cameras.iter().map(CameraInfo::of).collect(),
-            animations: clips.iter().map(ClipInfo::of).collect(),
+            animations: rig.clips.iter().map(ClipInfo::of).collect(),
+            joints: joints::of_rig(rig),
             bounds: bounds.map(|(min, max)| BoundsInfo {
                 min: min.to_array(),
                 max: max.to_array(),
@@ -101,6 +113,7 @@ impl Info {
             unused_vertices,
             unit: unit.map(ModelUnit::name),
             warnings,
+            notes: hints::of_scene(scene).into_iter().map(|hint| hint.text).collect(),
         }
     }
 }

@@ -1,10 +1,11 @@
 //! [`PartInfo`]: contents and precision of a part.
 
+use glam::DVec3;
 use serde::Serialize;
 
 use super::lists::named;
 use super::precision::PrecisionInfo;
-use crate::cli::number::counted;
+use crate::cli::number::{counted, short};
 use crate::mesh::TurnedFaces;
 use crate::scene::Scene;
 use crate::scene::drawn_points::LeftOut;
@@ -20,8 +21,17 @@ pub(super) struct PartInfo {
     /// Whether its vertices are painted.
     pub vertex_colours: bool,
     pub turned: TurnedInfo,
+    /// The box around the part in world space; none if nothing of it is drawn.
+    pub bounds: Option<PartBounds>,
     #[serde(flatten)]
     pub precision: PrecisionInfo,
+}
+
+/// Lowest and highest corner of a part, world.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub(super) struct PartBounds {
+    min: [f64; 3],
+    max: [f64; 3],
 }
 
 /// How many triangles are turned, and in how many connected surfaces.
@@ -39,6 +49,7 @@ impl PartInfo {
         left_out: &LeftOut,
         turned: &[TurnedFaces],
         precision: PrecisionInfo,
+        bounds: Option<(DVec3, DVec3)>,
     ) -> Option<Self> {
         let part = scene.parts.get(number)?;
         let geometry = scene.geometries.get(part.geometry);
@@ -52,12 +63,13 @@ impl PartInfo {
             texture_coordinates: geometry.is_some_and(|geometry| !geometry.corner_uvs.is_empty()),
             vertex_colours: geometry.is_some_and(|geometry| !geometry.colours.is_empty()),
             turned: TurnedInfo::of(turned),
+            bounds: bounds.map(|(min, max)| PartBounds { min: min.to_array(), max: max.to_array() }),
             precision,
         })
     }
 
-    /// The part's entry in the list for people, with its precision or without.
-    pub fn line(&self, has_precision: bool) -> String {
+    /// The part's entry in the text; a full one has its bounds and precision.
+    pub fn line(&self, is_full: bool) -> String {
         let lines = if self.wires > 0 { format!(", {}", counted(self.wires, "line")) } else { String::new() };
         let painted = match (self.texture_coordinates, self.vertex_colours) {
             (true, true) => ", texture coordinates, coloured vertices",
@@ -66,10 +78,20 @@ impl PartInfo {
             (false, false) => "",
         };
         let turned = self.turned.words().map_or_else(String::new, |turned| format!(", {turned}"));
-        let precision = self.precision.words().filter(|_| has_precision);
+        let precision = self.precision.words().filter(|_| is_full);
         let precision = precision.map_or_else(String::new, |words| format!(", {words}"));
         let triangles = counted(self.triangles, "triangle");
-        format!("{}: {triangles}{lines}{painted}{turned}{precision}", named(&self.name))
+        let bounds = self.bounds.filter(|_| is_full).map_or_else(String::new, |bounds| bounds.words());
+        format!("{}: {triangles}{lines}{painted}{turned}{bounds}{precision}", named(&self.name))
+    }
+}
+
+impl PartBounds {
+    /// `, 20 x 12 x 8 from (0, 0, 0) to (20, 12, 8)`
+    fn words(&self) -> String {
+        let size: Vec<String> = self.min.iter().zip(self.max).map(|(low, high)| short(high - low)).collect();
+        let corner = |corner: [f64; 3]| corner.map(short).join(", ");
+        format!(", {} from ({}) to ({})", size.join(" x "), corner(self.min), corner(self.max))
     }
 }
 

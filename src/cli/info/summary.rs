@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::contents::{BoundsInfo, Info};
+use super::joints::JointInfo;
 use super::left_out;
 use super::lists::{SHOWN, list};
 use super::materials::MaterialInfo;
@@ -10,7 +11,7 @@ use super::staging::{CameraInfo, ClipInfo, LightInfo};
 use crate::cli::number::{counted, short};
 
 impl Info {
-    /// The text for people. A full one lists everything, with the precision of each part; another one stops after [`SHOWN`] entries.
+    /// The text. A full one lists everything, with bounds and precision of each part; a short one stops after [`SHOWN`] entries.
     pub(super) fn text(&self, is_full: bool) -> String {
         let most = if is_full { usize::MAX } else { SHOWN };
         let mut text = String::new();
@@ -29,14 +30,23 @@ impl Info {
         }
         left_out::add(&mut text, &self.left_out, most);
         if let Some(turned) = self.turned.words() {
-            let _ = writeln!(text, "  {turned}: wound inward or against their neighbours in the file");
+            let _ = writeln!(
+                text,
+                "  {turned}: their winding in the file points inward or contradicts their neighbours"
+            );
         }
         list(&mut text, "part", most, self.parts.iter().map(|part| part.line(is_full)));
         list(&mut text, "material", most, self.materials.iter().map(MaterialInfo::line));
         list(&mut text, "light", most, self.lights.iter().map(LightInfo::line));
         list(&mut text, "camera", most, self.cameras.iter().map(CameraInfo::line));
+        if is_full {
+            list(&mut text, "joint", most, self.joints.iter().map(JointInfo::line));
+        } else if !self.joints.is_empty() {
+            let _ = writeln!(text, "  {} (--all lists them)", counted(self.joints.len() as u64, "joint"));
+        }
         list(&mut text, "animation", most, self.animations.iter().map(ClipInfo::line));
         list(&mut text, "warning", most, self.warnings.iter().cloned());
+        list(&mut text, "note", most, self.notes.iter().cloned());
         text
     }
 }

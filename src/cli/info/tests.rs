@@ -5,7 +5,8 @@ use glam::{DAffine3, DVec3};
 use super::args::InfoArgs;
 use super::contents::Info;
 use crate::cli::step::StepArgs;
-use crate::pose::{Channel, Clip, Interpolation, Property, Target, Track};
+use crate::pose::rig::{Node, Placement, Skin};
+use crate::pose::{Channel, Clip, Interpolation, Property, Rig, Target, Track};
 use crate::scene::{Geometry, Material, Part, Scene};
 
 fn scene(parts: usize) -> Scene {
@@ -39,13 +40,17 @@ fn walk() -> Clip {
     }
 }
 
+fn rig(clip: Clip) -> Rig {
+    Rig { clips: vec![clip], ..Rig::default() }
+}
+
 fn args(model: &str) -> InfoArgs {
     InfoArgs { model: model.into(), unit: None, all: false, json: false, step: StepArgs::default() }
 }
 
 #[test]
 fn people_read_lists_of_a_bearable_length() {
-    let text = Info::of(&scene(22), &[walk()], &args("m.obj")).text(false);
+    let text = Info::of(&scene(22), &rig(walk()), &args("m.obj")).text(false);
     let start = "m.obj: OBJ, y up\n  22 triangles, 66 vertices\n  12.5 x 1 x 21, from (0, 0, 0) to (12.5, 1, 21)\n  \
                  22 parts:\n    bolt 0: 1 triangle, 1 line\n";
     assert!(text.starts_with(start), "{text}");
@@ -63,12 +68,12 @@ fn people_read_what_parts_are_painted_by() {
     let mut scene = scene(1);
     scene.geometries[0].corner_uvs = vec![[0; 3]];
     assert!(
-        Info::of(&scene, &[], &args("m.obj"))
+        Info::of(&scene, &Rig::default(), &args("m.obj"))
             .text(false)
             .contains(": 1 triangle, 1 line, texture coordinates\n")
     );
     scene.geometries[0].colours = vec![[1.0; 4]; 3];
-    let text = Info::of(&scene, &[], &args("m.obj")).text(false);
+    let text = Info::of(&scene, &Rig::default(), &args("m.obj")).text(false);
     assert!(text.contains(", texture coordinates, coloured vertices\n"), "{text}");
 }
 
@@ -83,9 +88,9 @@ fn parts_that_are_wound_inward_are_named() -> Result<(), serde_json::Error> {
     right.triangles.iter_mut().for_each(|t| t.swap(1, 2));
     scene.geometries.push(right);
     scene.parts[1].geometry = 1;
-    let info = Info::of(&scene, &[], &args("m.obj"));
+    let info = Info::of(&scene, &Rig::default(), &args("m.obj"));
     let text = info.text(false);
-    let wanted = "  4 triangles turned in 1 surface: wound inward or against their neighbours in the file\n  2 parts:\n    \
+    let wanted = "  4 triangles turned in 1 surface: their winding in the file points inward or contradicts their neighbours\n  2 parts:\n    \
                   bolt 0: 4 triangles, 4 triangles turned in 1 surface\n    bolt 1: 4 triangles\n";
     assert!(text.contains(wanted), "{text}");
     let value: serde_json::Value = serde_json::from_str(&serde_json::to_string(&info)?)?;
@@ -97,7 +102,7 @@ fn parts_that_are_wound_inward_are_named() -> Result<(), serde_json::Error> {
 
 #[test]
 fn programs_read_everything() -> Result<(), serde_json::Error> {
-    let json = serde_json::to_string(&Info::of(&scene(22), &[walk()], &args("m.obj")))?;
+    let json = serde_json::to_string(&Info::of(&scene(22), &rig(walk()), &args("m.obj")))?;
     let value: serde_json::Value = serde_json::from_str(&json)?;
     assert_eq!(value["parts"].as_array().map(Vec::len), Some(22));
     assert_eq!(value["parts"][3]["name"], "bolt\u{1b}3");
@@ -110,7 +115,7 @@ fn programs_read_everything() -> Result<(), serde_json::Error> {
 fn parts_that_are_not_drawn_have_no_precision() -> Result<(), serde_json::Error> {
     let mut scene = scene(2);
     scene.parts[1].world_from_part = DAffine3::from_scale(DVec3::ZERO);
-    let info = Info::of(&scene, &[], &args("m.obj"));
+    let info = Info::of(&scene, &Rig::default(), &args("m.obj"));
     assert!(
         info.text(true).contains(", exact coordinates\n    bolt 1: 1 triangle, 1 line\n"),
         "{}",
@@ -136,13 +141,50 @@ fn parts_of_one_body_have_the_step_of_the_coarsest() {
     other.triangles = vec![[1, 0, 3]];
     scene.geometries.push(other);
     scene.parts[1].geometry = 1;
-    let text = Info::of(&scene, &[], &args("m.obj")).text(true);
+    let text = Info::of(&scene, &Rig::default(), &args("m.obj")).text(true);
     assert_eq!(text.matches(", step 1e-5 (decimals of the file), rounding 9e-6\n").count(), 2, "{text}");
 }
 
 #[test]
 fn an_empty_model_has_no_bounds() {
     assert!(
-        Info::of(&scene(0), &[], &args("m.obj")).text(false).starts_with("m.obj: OBJ, y up\n  0 triangles")
+        Info::of(&scene(0), &Rig::default(), &args("m.obj"))
+            .text(false)
+            .starts_with("m.obj: OBJ, y up\n  0 triangles")
     );
+}
+
+#[test]
+fn joints_are_counted_or_listed() -> Result<(), serde_json::Error> {
+    let node = |name: &str, parent| Node {
+        name: name.to_owned(),
+        leaves_lines: false,
+        parent,
+        rest: Placement::Matrix(DAffine3::IDENTITY),
+        weights: Vec::new(),
+        visible: true,
+    };
+    let rig = Rig {
+        nodes: vec![node("hips", None), node("mesh", None), node("spine", Some(0))],
+        skins: vec![Skin { joints: vec![2, 0], binds: vec![DAffine3::IDENTITY; 2] }],
+        ..rig(walk())
+    };
+    let info = Info::of(&scene(1), &rig, &args("m.glb"));
+    assert!(info.text(false).contains("  2 joints (--all lists them)\n"), "{}", info.text(false));
+    assert!(
+        info.text(true).contains("  2 joints:\n    hips\n    spine, below hips\n"),
+        "{}",
+        info.text(true)
+    );
+    let value: serde_json::Value = serde_json::from_str(&serde_json::to_string(&info)?)?;
+    assert_eq!(value["joints"][1], serde_json::json!({"name": "spine", "parent": "hips"}));
+    Ok(())
+}
+
+#[test]
+fn clips_beyond_twenty_are_listed_in_full_only() {
+    let clips = vec![walk(); 25];
+    let info = Info::of(&scene(1), &Rig { clips, ..Rig::default() }, &args("m.glb"));
+    assert_eq!(info.text(false).matches("    Walk: ").count(), 20);
+    assert_eq!(info.text(true).matches("    Walk: ").count(), 25);
 }

@@ -1,4 +1,4 @@
-//! What was typed after `ligne draw` of several models and views, and of drawing again.
+//! Options of `ligne draw` for several models, several views, and drawing again.
 
 use std::path::{Path, PathBuf};
 
@@ -9,33 +9,35 @@ use crate::cli::shard::Share;
 use crate::error::Error;
 use crate::load::ModelFormat;
 
-/// Several models and views, and drawing again: docs/many.md.
+/// Options for several models, several views, and drawing again.
 #[derive(Debug, Args)]
 pub(in crate::cli) struct ManyArgs {
-    /// Draw all models that are named into this folder: DIR/NAME.svg, or DIR/NAME-VIEW.svg for each of several views
-    #[arg(long, value_name = "DIR", help_heading = "Many", conflicts_with = "outputs")]
+    /// Draw all models into this folder: DIR/NAME.svg, or DIR/NAME-VIEW.svg with several views
+    #[arg(long, value_name = "DIR", help_heading = "Batch", conflicts_with = "outputs")]
     pub(in crate::cli) out_dir: Option<PathBuf>,
 
-    /// Which drawings are written: svg, png, pdf or several [default: svg]; for a model on standard input what it is:
-    /// obj, gltf, glb, stl or ply
-    #[arg(long, value_name = "NAME,...", value_delimiter = ',', help_heading = "Many", value_parser = Named::parse)]
+    /// Formats of the drawings: svg, png, pdf, dxf [default: svg]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', help_heading = "Batch", value_parser = Named::parse)]
     format: Vec<Named>,
 
-    /// Keep the folders that models are named with: DIR/a/m.svg for a/m.obj
-    #[arg(long, help_heading = "Many", requires = "out_dir")]
+    /// Format of a model on standard input: obj, gltf, glb, stl, ply
+    #[arg(long, value_name = "NAME", help_heading = "Batch", value_parser = model_format)]
+    input_format: Option<ModelFormat>,
+
+    /// Keep the models' folders: DIR/a/m.svg for a/m.obj
+    #[arg(long, help_heading = "Batch", requires = "out_dir")]
     pub(super) folders: bool,
 
-    /// Draw the Kth of every N models only, so that N computers share the work; /N: the K of a job array
-    /// [env: SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX]
-    #[arg(long, value_name = "K/N", help_heading = "Many", requires = "out_dir", value_parser = Share::parse)]
+    /// Draw share K of N of the models, or share K of a job array with /N [env: SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX]
+    #[arg(long, value_name = "K/N", help_heading = "Batch", requires = "out_dir", value_parser = Share::parse)]
     pub(super) shard: Option<Share>,
 
-    /// Draw only what is missing, or older than its model, style sheet or camera record
-    #[arg(long, help_heading = "Many")]
+    /// Skip drawings that are newer than their model, style sheet and camera record
+    #[arg(long, help_heading = "Batch")]
     pub(super) resume: bool,
 
-    /// Draw again whenever the model, the style sheet or the camera record changes, until stopped
-    #[arg(long, help_heading = "Many")]
+    /// Draw again after each change of the model, style sheet or camera record
+    #[arg(long, help_heading = "Batch")]
     pub(super) watch: bool,
 }
 
@@ -44,20 +46,21 @@ pub(in crate::cli) struct ManyArgs {
 enum Named {
     /// Of a format that drawings are written in: its ending.
     Drawing(&'static str),
-    /// Of a format of models.
+    /// Of a format of models: the older spelling of `--input-format`.
     Model(ModelFormat),
 }
 
 impl Named {
     fn parse(text: &str) -> Result<Self, String> {
         let drawing = ["svg", "png", "pdf", "dxf"].into_iter().find(|name| text.eq_ignore_ascii_case(name));
-        drawing.map(Self::Drawing).or_else(|| ModelFormat::of_ending(text).map(Self::Model)).ok_or_else(
-            || {
-                "drawings are svg, png, pdf and dxf; models on standard input obj, gltf, glb, stl and ply"
-                    .to_owned()
-            },
-        )
+        let named = drawing.map(Self::Drawing).or_else(|| ModelFormat::of_ending(text).map(Self::Model));
+        named.ok_or_else(|| "write svg, png, pdf or dxf".to_owned())
     }
+}
+
+/// Reads the name of a model format.
+fn model_format(text: &str) -> Result<ModelFormat, String> {
+    ModelFormat::of_ending(text).ok_or_else(|| "write obj, gltf, glb, stl or ply".to_owned())
 }
 
 impl ManyArgs {
@@ -88,24 +91,26 @@ impl ManyArgs {
         models: impl IntoIterator<Item = &'a PathBuf>,
     ) -> Result<Option<ModelFormat>, Error> {
         let piped = models.into_iter().filter(|model| is_stdout(model)).count();
-        let mut formats = self.format.iter().filter_map(|named| match named {
+        let older = self.format.iter().filter_map(|named| match named {
             Named::Model(format) => Some(*format),
             Named::Drawing(_) => None,
         });
-        let wrong = |message: &str, remedy: &str| Err(Error::new(message).at("--format").remedy(remedy));
+        let mut formats = self.input_format.into_iter().chain(older);
+        let wrong =
+            |message: &str, remedy: &str| Err(Error::new(message).at("--input-format").remedy(remedy));
         match (piped, formats.next(), formats.next()) {
             (0, None, _) => Ok(None),
             (0, Some(_), _) => wrong(
-                "the ending of a model tells its format",
-                "name drawings here: svg, png, pdf; or write - for a model on standard input",
+                "no model is read from standard input",
+                "leave the option out, or write - for the model; for drawings use --format svg,png",
             ),
-            (_, Some(_), Some(_)) => wrong("the format of standard input is told twice", "leave one out"),
+            (_, Some(_), Some(_)) => wrong("standard input has two formats", "leave one out"),
             (1, format @ Some(_), None) => Ok(format),
             (1, None, _) => wrong(
-                "it is not told what standard input holds",
-                "write --format with obj, gltf, glb, stl or ply",
+                "the format of standard input is missing",
+                "give --input-format with obj, gltf, glb, stl or ply",
             ),
-            _ => Err(Error::new("standard input is given twice").remedy("leave one `-` out")),
+            _ => Err(Error::new("two models are read from standard input").remedy("leave one `-` out")),
         }
     }
 
@@ -119,14 +124,14 @@ impl ManyArgs {
             return if endings.is_empty() {
                 Ok(typed)
             } else {
-                Err(Error::new("the name of a drawing tells its format")
+                Err(Error::new("the names of the drawings already give their formats")
                     .at("--format")
-                    .remedy("leave it out, or leave the names out"))
+                    .remedy("leave out --format or the names"))
             };
         }
         match (is_stdout(model), endings.as_slice()) {
             (true, [] | ["svg"]) => Ok(vec![PathBuf::from("-")]),
-            (true, _) => Err(Error::new("standard output takes one SVG")
+            (true, _) => Err(Error::new("standard output can hold a single SVG only")
                 .at("--format")
                 .remedy("name the drawing, such as model.png")),
             (false, []) => Ok(vec![named(model, "svg")]),

@@ -49,6 +49,8 @@ pub(super) struct Tally {
 #[derive(Default)]
 struct Made {
     lines: Vec<String>,
+    /// Hints and choices made for the user, each once.
+    notes: Vec<String>,
     files: u64,
     bytes: u64,
 }
@@ -98,6 +100,9 @@ impl Crew<'_> {
                     for warning in warnings {
                         progress.tell(&format!("warning: {}: {warning}", task.job.model().display()));
                     }
+                    for note in made.notes.iter().filter(|_| self.in_detail) {
+                        progress.tell(&format!("note: {}: {note}", task.job.model().display()));
+                    }
                     made.lines.iter().filter(|_| self.in_detail).for_each(|line| progress.tell(line));
                 }
             }
@@ -143,6 +148,11 @@ fn make(task: &Task) -> Result<(Made, Vec<String>), Box<Failure>> {
             for warning in &drawn.report.warnings {
                 if !warnings.contains(warning) {
                     warnings.push(warning.clone());
+                }
+            }
+            for note in &drawn.notes {
+                if !made.notes.contains(note) {
+                    made.notes.push(note.clone());
                 }
             }
             writes.set(true);

@@ -91,16 +91,16 @@ fn check(args: &DrawArgs) -> Result<(), Error> {
         ("--save-camera", args.save.save_camera.is_some()),
     ];
     if let Some((option, _)) = of_one.into_iter().find(|(_, given)| *given) {
-        return Err(Error::new("this is written of one drawing, made once")
+        return Err(Error::new("this option works with a single drawing only")
             .at(option)
-            .remedy("leave it out, or draw one model from one side"));
+            .remedy("leave it out, or draw one model from one view"));
     }
     if args.many.watch && plan::models(args).iter().any(|model| is_stdout(model)) {
-        return Err(Error::new("standard input does not change").at("--watch").remedy("name a file"));
+        return Err(Error::new("standard input cannot be watched").at("--watch").remedy("name a file"));
     }
     match &args.many.out_dir {
         Some(folder) if folder.exists() && !folder.is_dir() => {
-            Err(Error::new("this is no folder").in_file(folder).remedy("name a folder for the drawings"))
+            Err(Error::new("this is not a folder").in_file(folder).remedy("name a folder for the drawings"))
         }
         _ => Ok(()),
     }

@@ -44,12 +44,12 @@ pub(super) fn jobs(args: &DrawArgs) -> Result<Vec<Job>, Error> {
         let plain = match &args.many.out_dir {
             Some(folder) => in_folder(folder, model, args)?,
             None => {
-                let typed = args.out.iter().chain(&args.outputs).cloned().collect();
+                let typed = args.out.iter().chain(&args.more).chain(&args.outputs).cloned().collect();
                 args.many.paths(model, typed)?
             }
         };
         if plain.iter().any(|path| is_stdout(path)) {
-            return Err(Error::new("standard output takes one drawing, made once")
+            return Err(Error::new("standard output can hold a single drawing only")
                 .remedy("name the drawing, such as drawing.svg"));
         }
         let mut job = Job { requests: Vec::new() };
@@ -68,7 +68,7 @@ pub(super) fn jobs(args: &DrawArgs) -> Result<Vec<Job>, Error> {
             how.view = view.into_iter().collect();
             let request = DrawRequest::of_model(model.clone(), how)?.reading(piped);
             #[cfg(feature = "pdf")]
-            let print = args.print.of_outputs(args.web.ink.as_deref(), &outputs)?;
+            let print = args.print.of_outputs(args.web.pdf_inks(), &outputs)?;
             job.requests.push(DrawRequest {
                 #[cfg(feature = "pdf")]
                 print,
@@ -103,9 +103,9 @@ fn in_folder(folder: &Path, model: &Path, args: &DrawArgs) -> Result<Vec<PathBuf
             match part {
                 Component::Normal(name) => place.push(name),
                 Component::ParentDir => {
-                    return Err(Error::new("a path with .. has no place below the folder")
+                    return Err(Error::new("a path with .. would lie outside the output folder")
                         .in_file(model)
-                        .remedy("call from a folder above the model, or leave out --folders"));
+                        .remedy("run ligne from a folder above the model, or leave out --folders"));
                 }
                 _ => {}
             }
@@ -146,11 +146,11 @@ fn key(path: &Path) -> PathBuf {
 fn clash(output: &Output, one: &Path, other: &Path, args: &DrawArgs) -> Error {
     let apart = one.parent() != other.parent() && !args.many.folders;
     let remedy = if apart {
-        "keep their folders with --folders, or draw them into different folders"
+        "give --folders, or draw them into different folders"
     } else {
         "rename one, or draw them into different folders"
     };
-    Error::new(format!("the drawings of {} and {} would both be this file", one.display(), other.display()))
+    Error::new(format!("the drawings of {} and {} would have the same name", one.display(), other.display()))
         .in_file(&output.path)
         .remedy(remedy)
 }

@@ -22,51 +22,50 @@ use crate::export::{DxfOptions, DxfVersion, PngOptions, Resolution, SvgOptions, 
 use crate::page::{Composed, PageFile, Print};
 use crate::render::Stopwatch;
 
-/// What was typed.
+/// Options of `ligne page`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   ligne page --new comic page.toml           writes a page file to start from
   ligne page page.toml page.pdf
-  ligne page book.toml 'pages/%02d.svg'      a file for each page
+  ligne page book.toml 'pages/%02d.svg'      one file per page
   ligne page page.toml print.pdf --ink k --marks
-  ligne page page.toml page.png --watch      again whenever a file changes")]
+  ligne page page.toml page.png --watch      after each change of a file")]
 pub(super) struct PageArgs {
-    /// The page file; or with --new the one to write
+    /// Page file; with --new, the page file to write
     #[arg(value_hint = ValueHint::FilePath)]
     page: PathBuf,
 
-    /// The page: .pdf, which holds all pages of a file, or .svg, .svgz, .png or .dxf, where the name numbers several pages by %d;
-    /// - for SVG on standard output [default: the page file's name with .pdf, in the current folder]
+    /// Output: .pdf, .svg, .svgz, .png or .dxf, with %d for page numbers; - for SVG on standard output [default: PAGE with .pdf]
     out: Option<PathBuf>,
 
-    /// A further output, may be given again
+    /// Further output; repeatable
     #[arg(short = 'o', long = "output", value_name = "OUT")]
     outputs: Vec<PathBuf>,
 
-    /// Write a page file to start from, with a word on each key
+    /// Write a commented page file to start from
     #[arg(long, value_name = "KIND", value_parser = PossibleValuesParser::new(["comic", "sheet"]),
         conflicts_with_all = ["out", "outputs", "watch"])]
     new: Option<String>,
 
-    /// Draw again whenever the page file or one that it names changes
+    /// Draw again after each change of the page file or its inputs
     #[arg(long)]
     watch: bool,
 
-    /// Release of DXF: 2000, or r12, which every program reads, but which has no letters, fills and widths of lines
+    /// DXF release: 2000, or r12 (read by every program; no letters, fills or line widths)
     #[arg(long, value_name = "RELEASE", default_value = "2000", ignore_case = true,
         value_parser = PossibleValuesParser::new(["r12", "2000"])
             .map(|name| if name == "2000" { DxfVersion::R2000 } else { DxfVersion::R12 }))]
     dxf: DxfVersion,
 
-    /// Pixels to the inch in PNG [default: 300]
+    /// PNG resolution in pixels per inch [default: 300]
     #[arg(long, value_name = "N", value_parser = crate::cli::draw_args::dots_per_inch)]
     dpi: Option<f64>,
 
-    /// Decimals of coordinates in SVG [default: 3]
+    /// Decimals of SVG coordinates [default: 3]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(0..=9))]
     precision: Option<u8>,
 
-    /// Inks of PDF: screen (RGB), k (black alone) or cmyk (four inks, by --icc) [default: screen]
+    /// PDF inks: screen (RGB), k (black only) or cmyk (four inks, with --icc) [default: screen]
     #[cfg(feature = "pdf")]
     #[arg(long, value_name = "INKS", help_heading = "Print", ignore_case = true, hide_possible_values = true,
         value_parser = PossibleValuesParser::new(crate::cli::print_args::INKS))]
@@ -79,15 +78,15 @@ pub(super) struct PageArgs {
     #[command(flatten)]
     step: StepArgs,
 
-    /// Number of threads; the page is the same with any [default: one a core]
+    /// Number of threads; never changes the page [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 
-    /// Say nothing but errors
+    /// Print errors only
     #[arg(short, long)]
     quiet: bool,
 
-    /// Take warnings for errors
+    /// Treat warnings as errors
     #[arg(long)]
     strict: bool,
 }
@@ -147,7 +146,7 @@ fn targets(args: &PageArgs) -> Result<Vec<Target>, Error> {
 
 fn target(path: &Path, page: &Path) -> Result<Target, Error> {
     let wrong = |message: String| {
-        Error::new(message).in_file(path).remedy("write such as page-%d.svg for a file a page")
+        Error::new(message).in_file(path).remedy("write a name such as page-%d.svg for one file per page")
     };
     let target = match Numbered::of(path, "a page", wrong)? {
         Some(numbered) => Target::Each(numbered),
@@ -175,7 +174,7 @@ fn draw(args: &PageArgs, targets: &[Target]) -> Result<(), Error> {
     let file = PageFile::open(&args.page)?.reading_models(move |path| open_other(path, &step));
     let several = |target: &&Target| matches!(target, Target::One(output) if needs_numbers(output.format));
     if let Some(Target::One(output)) = targets.iter().find(several).filter(|_| file.len() > 1) {
-        return Err(Error::new(format!("{} do not fit into one file of this kind", pages(file.len())))
+        return Err(Error::new(format!("one file of this format cannot hold {}", pages(file.len())))
             .in_file(&output.path)
             .remedy("number them, such as page-%d.svg, or write .pdf"));
     }
@@ -231,7 +230,7 @@ fn tell_warnings(args: &PageArgs, composed: &[Composed]) -> Result<(), Error> {
         let all: Vec<&str> = warnings.iter().map(|warning| warning.as_str()).collect();
         return Err(Error::new(all.join("; "))
             .in_file(&args.page)
-            .remedy("mend the models, or draw without --strict"));
+            .remedy("repair the models, or draw without --strict"));
     }
     if !args.quiet {
         warnings.iter().for_each(|warning| say(&format!("warning: {}: {warning}", args.page.display())));

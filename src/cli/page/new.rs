@@ -28,9 +28,9 @@ const SHEET: (&str, &[Beside]) = (
 pub(super) fn write(kind: &str, out: &Path, quiet: bool) -> Result<(), Error> {
     check_place(out)?;
     if out.exists() {
-        return Err(Error::new("this file is there already")
+        return Err(Error::new("the file exists already")
             .in_file(out)
-            .remedy("give the page file another name, or remove the old one"));
+            .remedy("choose another name, or remove the file"));
     }
     let (text, models) = if kind == "sheet" { SHEET } else { COMIC };
     let mut staging = Staging::default();

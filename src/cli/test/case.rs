@@ -79,18 +79,18 @@ fn read(path: &Path) -> Result<(Option<PathBuf>, Order), Error> {
     if model.is_none() && page.is_none() {
         return Err(Error::new("there is no `model`")
             .in_file(path)
-            .remedy("write model = \"PATH\", relative to this file; or begin the name of a file that is no case with _"));
+            .remedy("write model = \"PATH\", relative to this file; a file that is not a case needs a name that starts with _"));
     }
     if let Some((_, span)) = page.as_ref().filter(|_| model.is_some() || !given.is_empty()) {
-        let advice = "leave out all keys but `page-file`, `drawing` and `tolerance`";
-        return Err(file.fault(span, "a page is told by its page file alone", Some(advice)));
+        let advice = "with `page-file` use only `drawing` and `tolerance`";
+        return Err(file.fault(span, "a page file already contains all other settings", Some(advice)));
     }
     let drawing = path_of("drawing")?;
     if let Some((drawing, span)) = &drawing
         && drawing.extension().is_none_or(|ending| ending != "svg")
     {
         let shown = drawing.display();
-        return Err(file.fault(span, &format!("{shown} is no SVG"), Some("end the name with .svg")));
+        return Err(file.fault(span, &format!("{shown} is not an SVG file"), Some("end the name with .svg")));
     }
     let tolerances = match table.get("tolerance") {
         Some(value) => Tolerances::parse(&tolerance(&file, value)?)?,

@@ -41,13 +41,13 @@ impl Folder {
             |drawing: &PathBuf| folder.cases.iter().all(|case| !same_place(&case.drawing, drawing));
         folder.orphans = found.drawings.into_iter().filter(of_no_case).collect();
         if folder.cases.is_empty() {
-            return Err(Error::new("there is no case in this folder")
+            return Err(Error::new("this folder contains no case")
                 .in_file(path)
                 .remedy("write a file such as gear.toml with model = \"gear.obj\", then approve its drawing with --bless"));
         }
         folder.cases.retain(|case| only.is_empty() || only.iter().any(|glob| glob.matches(&case.name)));
         if folder.cases.is_empty() {
-            return Err(Error::new("no case has such a name").at("--only").in_file(path));
+            return Err(Error::new("no case has a matching name").at("--cases").in_file(path));
         }
         Ok(folder)
     }
@@ -59,9 +59,9 @@ impl Folder {
             let others = self.cases.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, other)| other);
             let other = others.into_iter().find(|other| same_place(&other.drawing, &case.drawing))?;
             Some(
-                Error::new(format!("the case `{}` has the same drawing", other.name))
+                Error::new(format!("the case `{}` uses the same drawing", other.name))
                     .in_file(&case.drawing)
-                    .remedy("give each a drawing of its own"),
+                    .remedy("give each case its own drawing"),
             )
         };
         let faults: Vec<Option<Error>> = (0..self.cases.len()).map(shared).collect();

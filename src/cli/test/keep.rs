@@ -32,7 +32,7 @@ pub(super) fn keep(
                 Some(text) => {
                     let inner = path.parent().unwrap_or(folder);
                     fs::create_dir_all(inner).map_err(|error| {
-                        Error::new(format!("cannot make this folder: {error}"))
+                        Error::new(format!("cannot create this folder: {error}"))
                             .in_file(inner)
                             .remedy("check the path")
                     })?;

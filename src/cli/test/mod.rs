@@ -27,52 +27,53 @@ use crate::math::glob::Glob;
 /// Findings of a case that are shown at once; the reports have all.
 const SHOWN: usize = 20;
 
-/// What was typed.
+/// Options of `ligne test`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
-  ligne test drawings                            compare every case in drawings/ with its drawing
-  ligne test drawings --report changes.html      and look at what changed
-  ligne test drawings --bless                    approve the drawings as they are now
-  ligne test drawings --junit results.xml        for a service that runs tests
+  ligne test drawings                        compare each case in drawings/ with its approved drawing
+  ligne test drawings --html changes.html    show the changes on a page
+  ligne test drawings --bless                approve the new drawings
+  ligne test drawings --junit results.xml    results for a CI service
 
-A case is a file such as drawings/lid.toml, beside its approved drawing lid.svg:
+A case is a file such as drawings/lid.toml, next to its approved drawing lid.svg:
   model = \"../models/lid.glb\"
   view = \"iso\"
   style = \"technical\"
   tolerance = \"0.1px\"")]
 pub(super) struct TestArgs {
-    /// The folder of cases; or the file of one case
+    /// Folder of case files, or one case file
     folder: PathBuf,
 
-    /// Only the cases whose name matches, may be given again
-    #[arg(long, value_name = "GLOB", value_parser = |glob: &str| Ok::<_, std::convert::Infallible>(Glob::new(glob)))]
-    only: Vec<Glob>,
+    /// Test only cases with a matching name; repeatable
+    #[arg(long, alias = "only", value_name = "GLOB",
+        value_parser = |glob: &str| Ok::<_, std::convert::Infallible>(Glob::new(glob)))]
+    cases: Vec<Glob>,
 
-    /// Approve the drawings that differ or are new; refused where the variable CI is set
+    /// Approve drawings that differ or are new; refused if the variable CI is set
     #[arg(long)]
     bless: bool,
 
-    /// Write a page that shows what changed: before, after and difference
-    #[arg(long, value_name = "FILE.html")]
-    report: Option<PathBuf>,
+    /// Write a page with before, after and difference of each changed case
+    #[arg(long, alias = "report", value_name = "FILE.html")]
+    html: Option<PathBuf>,
 
-    /// Show the drawings that passed as well
-    #[arg(long, requires = "report")]
-    report_all: bool,
+    /// Include passing cases in the page
+    #[arg(long, alias = "report-all", requires = "html")]
+    html_all: bool,
 
     /// Write the results as JUnit XML
     #[arg(long, value_name = "FILE.xml")]
     junit: Option<PathBuf>,
 
-    /// Write NAME.actual.svg and NAME.diff.svg of the cases that fail into this folder
-    #[arg(long, value_name = "FOLDER")]
-    output: Option<PathBuf>,
+    /// Write NAME.actual.svg and NAME.diff.svg of failing cases to this folder
+    #[arg(long, alias = "output", value_name = "FOLDER")]
+    out_dir: Option<PathBuf>,
 
-    /// Number of threads; the results are the same with any [env: LIGNE_THREADS] [default: one a core]
+    /// Number of threads; never changes the results [env: LIGNE_THREADS] [default: one per core]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
     threads: Option<u16>,
 
-    /// Say nothing of cases that pass
+    /// Print failing cases only
     #[arg(short, long)]
     quiet: bool,
 }
@@ -80,15 +81,15 @@ pub(super) struct TestArgs {
 /// Draws, compares, says what came of it, and writes what was asked for.
 pub(super) fn run(args: &TestArgs, no_config: bool, surroundings: &Surroundings) -> Result<ExitCode, Error> {
     if args.bless && surroundings.is_ci {
-        return Err(Error::new("the variable CI is set, and drawings are approved by people")
+        return Err(Error::new("drawings cannot be approved in CI: the variable CI is set")
             .at("--bless")
-            .remedy("look at the drawings, bless them on your own machine and commit them"));
+            .remedy("run --bless on your own machine and commit the drawings"));
     }
-    for file in args.report.iter().chain(&args.junit) {
+    for file in args.html.iter().chain(&args.junit) {
         check_place(file)?;
     }
     let tolerances = tolerances(no_config, surroundings)?;
-    let folder = Folder::read(&args.folder, &args.only)?;
+    let folder = Folder::read(&args.folder, &args.cases)?;
     let progress = Progress::start(args.quiet, &args.folder);
     progress.step("drawing");
     let draw = || folder.cases.par_iter().map(|case| Outcome::of(case, &tolerances)).collect::<Vec<_>>();
@@ -101,7 +102,10 @@ pub(super) fn run(args: &TestArgs, no_config: bool, surroundings: &Surroundings)
     write(args, &outcomes, blessed)?;
     print(told(args, &outcomes, totals, blessed).as_bytes())?;
     for orphan in &folder.orphans {
-        say(&format!("warning: {}: no case draws this; remove it, or write a case for it", orphan.display()));
+        say(&format!(
+            "warning: {}: no case uses this drawing; remove it, or write a case for it",
+            orphan.display()
+        ));
     }
     Ok(match totals {
         Totals { errors: 1.., .. } => ExitCode::from(WRONG),
@@ -140,13 +144,13 @@ fn write(args: &TestArgs, outcomes: &[Outcome<'_>], blessed: bool) -> Result<(),
         }
     }
     let folder = args.folder.to_string_lossy();
-    if let Some(path) = &args.report {
-        staging.add(path, html::page(&folder, outcomes, args.report_all, blessed).as_bytes())?;
+    if let Some(path) = &args.html {
+        staging.add(path, html::page(&folder, outcomes, args.html_all, blessed).as_bytes())?;
     }
     if let Some(path) = &args.junit {
         staging.add(path, junit::document(&folder, outcomes, blessed).as_bytes())?;
     }
-    if let Some(kept) = &args.output {
+    if let Some(kept) = &args.out_dir {
         keep::keep(kept, outcomes, |outcome| passed(outcome, blessed))?;
     }
     staging.commit()
@@ -180,11 +184,9 @@ fn told(args: &TestArgs, outcomes: &[Outcome<'_>], totals: Totals, blessed: bool
         text.push('\n');
     }
     if args.bless && !blessed {
-        text.push_str("Nothing is blessed while a case cannot be drawn.\n");
+        text.push_str("No drawing was approved, because a case cannot be drawn.\n");
     } else if !blessed && differ + new > 0 {
-        text.push_str(
-            "Look at the drawings with --report FILE.html; where they are meant, accept them with --bless.\n",
-        );
+        text.push_str("Look at the changes with --html FILE.html. Accept intended ones with --bless.\n");
     }
     text
 }

@@ -54,9 +54,9 @@ fn page(file: &Path) -> Result<Vec<u8>, Error> {
         PageFile::open(file)?.reading_models(|path| open_other(path, &StepArgs::default())).compose()?;
     match pages.as_slice() {
         [page] => Ok(page.composition.to_svg(&SvgOptions::default()).into_bytes()),
-        pages => Err(Error::new(format!("it has {} pages, and a case is of one", pages.len()))
+        pages => Err(Error::new(format!("it has {} pages, and a case compares one", pages.len()))
             .in_file(file)
-            .remedy("name its pages one by one, each in a page file of its own")),
+            .remedy("write a page file for each page")),
     }
 }
 
@@ -91,7 +91,7 @@ impl<'a> Outcome<'a> {
             return Ok(Verdict::Passed);
         }
         let unfit = |error: Error| {
-            error.in_file(drawing).remedy("remove the file, then approve the drawing anew with --bless")
+            error.in_file(drawing).remedy("remove the file, then approve the drawing with --bless")
         };
         let before = Picture::from_svg(before).map_err(unfit)?;
         let after = Picture::from_svg(after)?;
@@ -114,7 +114,7 @@ impl<'a> Outcome<'a> {
             Verdict::New if blessed => "drawn for the first time".to_owned(),
             Verdict::Passed => String::new(),
             Verdict::Differs(diff) => diff.summary(),
-            Verdict::New => format!("nobody has approved {} yet", self.case.drawing.display()),
+            Verdict::New => format!("{} is not approved yet", self.case.drawing.display()),
             Verdict::Error(error) => error.to_string(),
         }
     }

@@ -88,7 +88,7 @@ pub(in crate::diff) fn unread(document: &Document, more: bool) -> BTreeSet<&'sta
             found.extend(SHEETS.iter().filter(|(word, _)| text.contains(word)).map(|(_, name)| *name));
         }
         if found.len() == before {
-            found.insert("some rules of style sheets");
+            found.insert("some style rules");
         }
     }
     found

@@ -35,11 +35,11 @@ impl<W: Write> ApngFilm<W> {
     /// If it cannot be written, if it is of another size than the first, or one too many.
     pub fn push(&mut self, pixels: &Pixels, ticks: u32) -> Result<(), Error> {
         if self.written == self.frames {
-            return Err(Error::new(format!("this film was to have {} frames", self.frames)));
+            return Err(Error::new(format!("the film should have {} frames", self.frames)));
         }
         let changed = match &self.before {
             Some(before) if [before.width, before.height] != [pixels.width, pixels.height] => {
-                return Err(Error::new("a frame is of another size than the first"));
+                return Err(Error::new("a frame has another size than the first"));
             }
             Some(before) => Changed::between(before, pixels),
             None => Changed::whole(pixels),
@@ -80,7 +80,7 @@ impl<W: Write> ApngFilm<W> {
     /// # Errors
     /// If the end cannot be written, or if frames are missing.
     pub fn finish(self) -> Result<(), Error> {
-        let writer = self.writer.ok_or_else(|| Error::new("a film needs a frame"))?;
+        let writer = self.writer.ok_or_else(|| Error::new("a film needs at least one frame"))?;
         if self.written < self.frames {
             return Err(Error::new(format!("this film has {} of {} frames", self.written, self.frames)));
         }

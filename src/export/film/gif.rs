@@ -59,11 +59,11 @@ impl<W: Write> GifFilm<W> {
         let begin = self.now();
         self.ticks += u64::from(ticks);
         if pixels.width.max(pixels.height) > LONGEST_SIDE {
-            return Err(Error::new("GIF holds no more than 65535 pixels a side").remedy("draw smaller"));
+            return Err(Error::new("GIF is limited to 65535 pixels per side").remedy("choose a smaller size"));
         }
         if let Some((last, at)) = self.waiting.back() {
             if [last.width, last.height] != [pixels.width, pixels.height] {
-                return Err(Error::new("a frame is of another size than the first"));
+                return Err(Error::new("a frame has another size than the first"));
             }
             if begin < at + SHORTEST {
                 self.left_out += 1;
@@ -90,7 +90,7 @@ impl<W: Write> GifFilm<W> {
         while !self.waiting.is_empty() {
             self.write_first()?;
         }
-        let encoder = self.encoder.ok_or_else(|| Error::new("a film needs a frame"))?;
+        let encoder = self.encoder.ok_or_else(|| Error::new("a film needs at least one frame"))?;
         encoder.into_inner().map_err(cannot_write)
     }
 

@@ -46,11 +46,13 @@ impl WebpFilm {
     /// If it is of another size than the first, or larger than the format allows.
     pub fn push(&mut self, pixels: &Pixels, ticks: u32) -> Result<(), Error> {
         if pixels.width.max(pixels.height) > LONGEST_SIDE {
-            return Err(Error::new("WebP holds no more than 16384 pixels a side").remedy("draw smaller"));
+            return Err(
+                Error::new("WebP is limited to 16384 pixels per side").remedy("choose a smaller size")
+            );
         }
         let changed = match &self.before {
             Some(before) if [before.width, before.height] != [pixels.width, pixels.height] => {
-                return Err(Error::new("a frame is of another size than the first"));
+                return Err(Error::new("a frame has another size than the first"));
             }
             Some(before) => Changed::between(before, pixels).even(),
             None => {
@@ -86,7 +88,7 @@ impl WebpFilm {
     /// If there is no frame, or if the film is longer than the format allows.
     pub fn finish(self) -> Result<Vec<u8>, Error> {
         if self.before.is_none() {
-            return Err(Error::new("a film needs a frame"));
+            return Err(Error::new("a film needs at least one frame"));
         }
         let length = u32::try_from(self.chunks.len() + 4)
             .map_err(|_| Error::new("the film is longer than WebP allows").remedy("write fewer frames"))?;

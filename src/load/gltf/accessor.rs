@@ -25,7 +25,7 @@ impl Component {
             5123 => Self::U16,
             5125 => Self::U32,
             5126 => Self::F32,
-            _ => return Err(Error::new(format!("componentType {code} is none of glTF's"))),
+            _ => return Err(Error::new(format!("componentType {code} is not defined in glTF"))),
         })
     }
 
@@ -103,7 +103,7 @@ impl Buffers<'_> {
         let accessor = self.accessor(index)?;
         let found = self.lanes(index)?;
         if found != N {
-            let message = format!("elements of {N} components are wanted here, it has {}", accessor.shape);
+            let message = format!("it has {} components per element, but {N} are needed", accessor.shape);
             return Err(place(Error::new(message)));
         }
         let elements = self.elements(accessor, N).map_err(place)?;
@@ -171,7 +171,7 @@ impl Buffers<'_> {
         let Some(view) = accessor.buffer_view else {
             // Zeros cost the file nothing, so their number is held to what else it holds.
             if accessor.count > self.total().max(1 << 16) {
-                let message = format!("{} elements are announced, but no data for them", accessor.count);
+                let message = format!("it has {} elements without data", accessor.count);
                 return Err(Error::new(message));
             }
             return Ok(elements);
@@ -225,7 +225,7 @@ impl<'a> Elements<'a> {
             return Ok(&[]);
         }
         if self.stride < size {
-            return Err(format!("elements of {size} bytes do not fit the stride {}", self.stride));
+            return Err(format!("elements of {size} bytes do not fit into the stride {}", self.stride));
         }
         let end = (self.count - 1).checked_mul(self.stride).and_then(|last| last.checked_add(size));
         let end = end.and_then(|length| length.checked_add(offset));
@@ -331,6 +331,6 @@ fn lanes(shape: &str) -> Result<usize, Error> {
         "VEC4" | "MAT2" => 4,
         "MAT3" => 9,
         "MAT4" => 16,
-        _ => return Err(Error::new(format!("type `{}` is none of glTF's", super::uri::shown(shape)))),
+        _ => return Err(Error::new(format!("type `{}` is not defined in glTF", super::uri::shown(shape)))),
     })
 }

@@ -71,7 +71,7 @@ impl<'a> Buffers<'a> {
         };
         start.checked_add(length).and_then(|end| bytes.get(start..end)).ok_or_else(|| {
             Error::new(format!(
-                "{length} bytes from byte {start} on do not fit into buffer {buffer} of {} bytes",
+                "{length} bytes from byte {start} do not fit into buffer {buffer} of {} bytes",
                 bytes.len()
             ))
         })
@@ -96,16 +96,16 @@ fn bytes_of<'a>(buffer: &Buffer, bin: Option<&'a [u8]>, fetch: &Fetch) -> Result
     };
     if bytes.len() < buffer.byte_length {
         let (announced, found) = (buffer.byte_length, bytes.len());
-        return Err(Error::new(format!("{announced} bytes are announced, {found} are there")));
+        return Err(Error::new(format!("the file promises {announced} bytes and has {found}")));
     }
     Ok(bytes)
 }
 
 fn external(text: &str, length: usize, fetch: &Fetch) -> Result<Vec<u8>, Error> {
     let path = uri::inside_folder(text).map_err(|message| {
-        Error::new(message).remedy("put the file beside the model and name it by a relative path")
+        Error::new(message).remedy("put the file next to the model and use a relative path")
     })?;
     fetch(&path, length).map_err(|error| {
-        Error::io(format!("`{path}` cannot be read"), error).remedy("keep it beside the model")
+        Error::io(format!("`{path}` cannot be read"), error).remedy("keep it next to the model")
     })
 }

@@ -33,12 +33,12 @@ pub fn split<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<Container<'
 fn stranger(bytes: &[u8]) -> Error {
     let text = bytes.trim_ascii_start();
     if text.starts_with(b"version https://git-lfs") {
-        return Error::new("this is a Git LFS pointer, not the model itself")
+        return Error::new("this is a Git LFS pointer, not the model")
             .remedy("fetch the model with `git lfs pull`");
     }
     if text.starts_with(b"<") {
         return Error::new("this is an HTML or XML page, not a model")
-            .remedy("download the file again; the link may have led to a page about it");
+            .remedy("download the file again; the link may lead to a web page");
     }
     if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"\x1f\x8b") {
         return Error::new("this is a compressed archive, not a model").remedy("unpack it first");
@@ -53,7 +53,7 @@ fn word(bytes: &[u8], at: usize) -> Option<u32> {
 }
 
 fn glb<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<Container<'a>, Error> {
-    let truncated = || "the file may have been cut off on the way; fetch or export it again";
+    let truncated = || "the file may be cut off; download or export it again";
     let (Some(version), Some(total)) = (word(bytes, 4), word(bytes, 8)) else {
         return Err(Error::new(format!("a GLB header has 12 bytes, the file has {}", bytes.len()))
             .at("GLB header")
@@ -66,9 +66,12 @@ fn glb<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<Container<'a>, Er
     }
     let total = total as usize;
     let Some(body) = bytes.get(..total) else {
-        return Err(Error::new(format!("{total} bytes announced, but the file has {}", bytes.len()))
-            .at("GLB header")
-            .remedy(truncated()));
+        return Err(Error::new(format!(
+            "the header promises {total} bytes, but the file has {}",
+            bytes.len()
+        ))
+        .at("GLB header")
+        .remedy(truncated()));
     };
     if total < bytes.len() {
         warnings.count("bytes after the end of the GLB data", (bytes.len() - total) as u64);
@@ -88,7 +91,7 @@ fn glb<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<Container<'a>, Er
         let start = at + 8;
         let Some(data) = start.checked_add(length as usize).and_then(|end| body.get(start..end)) else {
             let left = body.len().saturating_sub(start);
-            return Err(Error::new(format!("the chunk announces {length} bytes, {left} are left"))
+            return Err(Error::new(format!("the chunk promises {length} bytes, but {left} are left"))
                 .at(place())
                 .remedy(truncated()));
         };
@@ -133,7 +136,7 @@ mod tests {
         glb.push(0);
         assert!(split(&glb, &mut warnings).is_ok());
         assert_eq!(warnings.lines(), ["1 bytes after the end of the GLB data"]);
-        assert!(refused(&glb[..20]).contains("announced"));
+        assert!(refused(&glb[..20]).contains("promises"));
         glb[4] = 1;
         assert!(refused(&glb).contains("version 1"));
     }

@@ -206,10 +206,7 @@ pub struct PrimitiveExtensions {
 
 #[derive(Debug, Deserialize)]
 #[serde(rename_all = "camelCase")]
-#[cfg_attr(
-    not(feature = "draco"),
-    expect(dead_code, reason = "what cannot be decoded is told apart all the same")
-)]
+#[cfg_attr(not(feature = "draco"), expect(dead_code, reason = "distinguishes undecodable data"))]
 pub struct Draco {
     pub buffer_view: usize,
     pub attributes: BTreeMap<String, u32>,

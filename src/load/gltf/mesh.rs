@@ -204,7 +204,7 @@ impl<'a> Builder<'a> {
         if let Some(triangles) = ready {
             let wrong = triangles.as_flattened().iter().find(|index| **index >= block.count);
             if let Some(index) = wrong {
-                return Err(Error::new(format!("index {index}, but there are {} vertices", block.count)));
+                return Err(Error::new(format!("index {index}, but the mesh has {} vertices", block.count)));
             }
             shape.triangles = triangles;
             return Ok(shape);
@@ -218,7 +218,8 @@ impl<'a> Builder<'a> {
         let check = |run: &[u32]| match run.iter().copied().max() {
             Some(most) if most >= block.count => {
                 let at = indices.values.iter().position(|index| *index == most).unwrap_or_default();
-                let message = format!("index {most} (number {at}), but there are {} vertices", block.count);
+                let message =
+                    format!("index {most} (number {at}), but the mesh has {} vertices", block.count);
                 Err(Error::new(message).at(format!("accessor {accessor}")))
             }
             _ => Ok(()),

@@ -144,6 +144,6 @@ fn root(json: &[u8], warnings: &mut Warnings) -> Result<Root, Error> {
                 .at("asset")
                 .remedy("export the model again as glTF 2.0"))
         }
-        None => Err(Error::new("no `asset.version`: this is JSON, but no glTF 2.0").at("asset")),
+        None => Err(Error::new("no `asset.version`: this is JSON, but not glTF 2.0").at("asset")),
     }
 }

@@ -134,7 +134,7 @@ fn world_transforms(nodes: &[Node], rest: &[rig::Node]) -> Result<(Vec<DAffine3>
         let own = rest.get(index).map_or(DAffine3::IDENTITY, |node| node.rest.transform());
         let place = above.unwrap_or(DAffine3::IDENTITY) * own;
         if !place.is_finite() {
-            return Err(Error::new("its transform is beyond all numbers").at(format!("node {index}")));
+            return Err(Error::new("its transform is not finite").at(format!("node {index}")));
         }
         if let Some(slot) = world.get_mut(index) {
             *slot = Some(place);
@@ -175,7 +175,7 @@ fn placement(node: &Node, index: usize, warnings: &mut Warnings) -> Placement {
     }
     let rotation = node.rotation.map_or(DQuat::IDENTITY, |quaternion| {
         unit_quaternion(quaternion).unwrap_or_else(|| {
-            warnings.note(format!("node {index}: its rotation is no quaternion of unit length; not turned"));
+            warnings.note(format!("node {index}: its rotation is not a unit quaternion and is ignored"));
             DQuat::IDENTITY
         })
     });

@@ -155,7 +155,7 @@ fn check_size(world_from_part: DAffine3, reach: DVec3) -> Result<(), Error> {
     if farthest <= LARGEST_COORDINATE {
         return Ok(());
     }
-    Err(Error::new(format!("its coordinates reach {farthest:e}, beyond {LARGEST_COORDINATE:e}"))
+    Err(Error::new(format!("its coordinates reach {farthest:e}; at most {LARGEST_COORDINATE:e} is possible"))
         .remedy("scale the model down"))
 }
 

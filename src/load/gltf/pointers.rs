@@ -74,7 +74,7 @@ fn light(root: &Root, number: usize, path: &str) -> Result<Option<Target>, Error
     let lights = root.extensions.lights.as_ref().map_or(&[][..], |lights| &lights.lights);
     let own = lights.get(number).ok_or_else(|| absent("light", number, lights.len()))?;
     if matches!(shine, Shine::InnerAngle | Shine::OuterAngle) && own.kind != "spot" {
-        return Err(Error::new(format!("it moves `{path}` of light {number}, which is no spot")));
+        return Err(Error::new(format!("it moves `{path}` of light {number}, which is not a spot light")));
     }
     Ok(Some(Target::Light(number, shine)))
 }

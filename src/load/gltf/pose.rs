@@ -29,7 +29,7 @@ pub fn skin(buffers: &Buffers, number: usize) -> Result<Skin, Error> {
     }
     binds.truncate(stored.joints.len());
     if let Some(node) = stored.joints.iter().find(|joint| **joint >= buffers.root.nodes.len()) {
-        return Err(place(Error::new(format!("joint {node} is no node of the file"))));
+        return Err(place(Error::new(format!("joint {node} is not a node of the file"))));
     }
     Ok(Skin { joints: stored.joints.clone(), binds })
 }

@@ -88,7 +88,7 @@ fn materials(
         }
         let Some(bytes) = bytes else {
             if !is_inside {
-                let why = "lies outside the model's folder and is left out";
+                let why = "is outside the model's folder and is left out";
                 warnings.note(format!("material library {name} {why}"));
             }
             return !is_inside;

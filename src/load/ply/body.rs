@@ -47,7 +47,7 @@ impl<'a> Body<'a> {
             let Element { count, name, .. } = element;
             let message =
                 format!("{count} rows of {name} do not fit into the {} bytes left", self.rest().len());
-            return Err(Error::new(message).at(format!("element {name}")).remedy("the file is cut off"));
+            return Err(Error::new(message).at(format!("element {name}")).remedy("the file is truncated"));
         }
         // Rows without properties take no room.
         Ok(if least == 0 { 0 } else { element.count as usize })

@@ -170,7 +170,7 @@ impl<'a> Faces<'a> {
         }
         self.cut.clear();
         if polygon::triangulate(&self.points, &mut self.cut) == CutOutcome::TooLarge {
-            self.warnings.count("concave polygons with too many corners, cut roughly", 1);
+            self.warnings.count("concave polygons with too many corners, triangulated roughly", 1);
         }
         let id = |corner: u32| corners.get(corner as usize).copied().unwrap_or_default();
         if self.cut.len() > 1 {

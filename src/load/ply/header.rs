@@ -166,7 +166,7 @@ impl Header {
         loop {
             pass_line_end(&mut cursor);
             if cursor.at_end() {
-                return Err(Error::new("the header has no `end_header`").remedy("the file is cut off"));
+                return Err(Error::new("the header has no `end_header`").remedy("the file is truncated"));
             }
             let place = cursor.clone();
             let fail = |message: String| Err(Error::new(message).at(format!("line {}", place.line())));
@@ -176,7 +176,7 @@ impl Header {
             // What stands after a statement says nothing of the data.
             let (statement, remark) = words.split_at(words.len().min(length(&words)));
             if let [word, ..] = remark {
-                strange.add(|| format!("line {}: `{}` is passed over", place.line(), shown(word)));
+                strange.add(|| format!("line {}: `{}` is ignored", place.line(), shown(word)));
             }
             if let (Some((place, line)), [b"property", ..]) = (&doubt, statement) {
                 return Err(does_not_belong(place, line));
@@ -207,7 +207,7 @@ impl Header {
                             let property =
                                 Property { name: decode(name).into_owned(), list: Some(list), kind };
                             let Some(element) = elements.last_mut() else {
-                                return fail("a property of nothing".into());
+                                return fail("a property without an element".into());
                             };
                             element.properties.push(property);
                         }
@@ -220,7 +220,7 @@ impl Header {
                     };
                     let property = Property { name: decode(name).into_owned(), list: None, kind };
                     let Some(element) = elements.last_mut() else {
-                        return fail("a property of nothing".into());
+                        return fail("a property without an element".into());
                     };
                     element.properties.push(property);
                 }
@@ -231,11 +231,11 @@ impl Header {
                     if is_like_element(&words) {
                         doubt = Some((place.clone(), line));
                     }
-                    strange.add(|| format!("line {}: `{}` is passed over", place.line(), shown(line)));
+                    strange.add(|| format!("line {}: `{}` is ignored", place.line(), shown(line)));
                 }
             }
         }
-        let Some(encoding) = encoding else { return Err(Error::new("the header does not say its format")) };
+        let Some(encoding) = encoding else { return Err(Error::new("the header has no format")) };
         pass_line_end(&mut cursor);
         let mut warnings = Warnings::default();
         strange.warn(&mut warnings);
@@ -244,8 +244,7 @@ impl Header {
 }
 
 fn does_not_belong(place: &Cursor, line: &[u8]) -> Error {
-    Error::new(format!("`{}` does not belong into a header", shown(line)))
-        .at(format!("line {}", place.line()))
+    Error::new(format!("`{}` is not a header line", shown(line))).at(format!("line {}", place.line()))
 }
 
 /// How many words a statement has; all of a line that is none.
@@ -303,7 +302,7 @@ mod tests {
         let header = Header::parse(text.as_bytes()).unwrap();
         let element = &header.elements[0];
         assert_eq!((element.count, element.properties.len(), header.body), (3, 2, text.len() - 1));
-        assert_eq!(header.warnings.lines(), ["line 2: `Made by hand` is passed over; 4 more like it"]);
+        assert_eq!(header.warnings.lines(), ["line 2: `Made by hand` is ignored; 4 more like it"]);
     }
 
     #[test]
@@ -337,7 +336,7 @@ mod tests {
         assert!(error("ply\nformat ascii 1.0\nelement vertex many").contains("line 3: `many`"));
         assert!(error("ply\nformat ascii 9.9\n").contains("line 2: version 9.9"));
         assert!(error("ply\nformat text 1.0\n").contains("`text`"));
-        assert!(error("ply\nproperty int x\n").contains("line 2: a property of nothing"));
+        assert!(error("ply\nproperty int x\n").contains("line 2: a property without an element"));
         assert!(error("ply\nelement v 1\nproperty real x\n").contains("`real` is not a type"));
         assert!(error("ply\nformat ascii 1.0\nelement vertex 3").contains("end_header"));
         assert!(error("ply\nend_header\n").contains("format"));

@@ -69,7 +69,7 @@ pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
         }
     }
     if let Some((element, _)) = waiting.iter().find(|(element, _)| element.count > 0) {
-        return Err(Error::new("the file has no vertices for them").at(format!("element {}", element.name)));
+        return Err(Error::new("the file has no vertices").at(format!("element {}", element.name)));
     }
     model.into_scene(stem)
 }

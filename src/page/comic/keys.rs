@@ -84,7 +84,7 @@ impl From<ReadingKey> for Reading {
 
 /// What is between panels.
 #[derive(Debug, Clone, Copy, Deserialize)]
-#[serde(untagged, expecting = "this is no gutter; write one length, or [between columns, between rows]")]
+#[serde(untagged, expecting = "this is not a gutter; write one length, or [between columns, between rows]")]
 pub enum Gutter {
     /// Everywhere.
     All(Mm),

@@ -63,7 +63,7 @@ impl Sheet {
             let found = trim.inset(-length.get_ref().0);
             if found.width() < 5.0 || found.height() < 5.0 || found.x1 < found.x0 || found.y1 < found.y0 {
                 let message =
-                    format!("this {what} leaves nothing of a page of {} x {} mm", size.width, size.height);
+                    format!("this {what} leaves no room on a page of {} x {} mm", size.width, size.height);
                 return Err(source.fault(&length.span(), &message, "make it smaller, or the page larger"));
             }
             Ok(found)
@@ -88,14 +88,18 @@ pub(super) fn shapes<'a>(
         Gutter::Each([Mm(across), Mm(down)]) => [*across, *down],
     };
     if gutter.iter().any(|gutter| *gutter < 0.0) {
-        return Err(source.fault(&page.gutter.span(), "a gutter is not below 0 wide", "write 0 or more"));
+        return Err(source.fault(
+            &page.gutter.span(),
+            "a gutter cannot be narrower than 0",
+            "write 0 or more",
+        ));
     }
     let grid = Grid { frame: sheet.frame, gutter, reading: page.reading.into() };
     let cells = cells(page.layout.get_ref(), &grid)
         .map_err(|fault| source.within(&page.layout, &fault.span, &fault.message, &fault.advice))?;
     if let Some(extra) = page.panel.get(MOST_PANELS) {
-        let message = format!("these are more than {MOST_PANELS} panels");
-        return Err(source.fault(&head(source, extra), &message, "part them into several pages"));
+        let message = format!("a page can hold at most {MOST_PANELS} panels");
+        return Err(source.fault(&head(source, extra), &message, "spread them over several pages"));
     }
     let (placed, laid): (Vec<_>, Vec<_>) = page.panel.iter().partition(|panel| panel.get_ref().at.is_some());
     if let Some(extra) = laid.get(cells.len()) {
@@ -123,7 +127,7 @@ pub(super) fn shapes<'a>(
         if rect.intersect(sheet.bleed).area() < rect.area() - NOTHING {
             return Err(source.fault(
                 &at.span(),
-                "this panel reaches beyond the page",
+                "this panel extends past the page",
                 "move it, or make it smaller",
             ));
         }
@@ -134,7 +138,7 @@ pub(super) fn shapes<'a>(
             return Err(source.fault(
                 &at.span(),
                 &message,
-                "move it, or say that it is meant to: inset = true",
+                "move it, or allow the overlap with inset = true",
             ));
         }
         let number = shapes.len();
@@ -149,7 +153,7 @@ pub(super) fn shapes<'a>(
             && shapes.iter().take(number).any(|other| other.name == shape.name)
         {
             let message = format!("two panels are called `{}`", shape.name);
-            return Err(source.fault(&named.span(), &message, "give each a name of its own"));
+            return Err(source.fault(&named.span(), &message, "give each panel its own name"));
         }
     }
     Ok(shapes)

@@ -152,7 +152,7 @@ pub fn camera(
             if let Some(key) = keys.elevation.as_ref().filter(|key| !(-90.0..=90.0).contains(key.get_ref())) {
                 return Err(source.fault(
                     &key.span(),
-                    "this is no elevation",
+                    "this is not an elevation",
                     "write degrees from -90 to 90",
                 ));
             }
@@ -190,7 +190,7 @@ fn recorded(name: &Spanned<String>, scene: &Scene, source: &Source) -> Result<Ca
 fn lens(camera: Camera, keys: &AimKeys, source: &Source) -> Result<Camera, Error> {
     match &keys.fov {
         Some(fov) if !(*fov.get_ref() > 0.0 && *fov.get_ref() < 180.0) => {
-            Err(source.fault(&fov.span(), "this is no field of view", "write degrees between 0 and 180"))
+            Err(source.fault(&fov.span(), "this is not a field of view", "write degrees between 0 and 180"))
         }
         Some(fov) => Ok(camera.with_projection(Projection::Perspective { fov_y_deg: *fov.get_ref() })),
         None if keys.ortho => Ok(camera.with_projection(Projection::Orthographic { height: 1.0 })),
@@ -254,7 +254,7 @@ fn upper(points: &[DVec3], up: UpAxis) -> Vec<DVec3> {
 fn nearer(camera: Camera, keys: &AimKeys, source: &Source) -> Result<Camera, Error> {
     let zoom = keys.zoom.as_ref().map_or(1.0, |zoom| *zoom.get_ref());
     if let Some(key) = keys.zoom.as_ref().filter(|_| !(zoom.is_finite() && zoom > 0.0)) {
-        return Err(source.fault(&key.span(), "the picture cannot be zoomed so", "write a number above 0"));
+        return Err(source.fault(&key.span(), "this is not a zoom factor", "write a number above 0"));
     }
     let mut camera = zoomed(camera, zoom);
     let [right, up, forward] = camera.axes();

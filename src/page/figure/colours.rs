@@ -15,7 +15,7 @@ use crate::scene::{Material, Scene};
 #[derive(Debug, Clone, Deserialize)]
 #[serde(
     untagged,
-    expecting = "this is no colour; write one, or a table such as { \"*\" = \"white\", \"leg*\" = \"orange\" }"
+    expecting = "this is not a colour; write one, or a table such as { \"*\" = \"white\", \"leg*\" = \"orange\" }"
 )]
 pub enum Colours {
     /// All parts.

@@ -229,13 +229,13 @@ fn playing(
         }
         (None, _) => {
             let advice = format!("name one with `animation`: {}", names.join(", "));
-            let message = format!("which of its {} animations is drawn?", names.len());
+            let message = format!("the model has {} animations", names.len());
             return Err(source.fault(&keys.file.span(), &message, &advice));
         }
     };
     match time {
         Some(time) if !time.get_ref().is_finite() => {
-            Err(source.fault(&time.span(), "this is no time", "write a number of seconds"))
+            Err(source.fault(&time.span(), "this is not a time", "write a number of seconds"))
         }
         time => Ok(Playing::all(clip, time.map_or(0.0, |time| *time.get_ref()))),
     }
@@ -247,10 +247,10 @@ fn place(keys: &ModelKeys, up: [UpAxis; 2], source: &Source) -> Result<DAffine3,
     let numbers = keys.position.iter().chain(&keys.rotation);
     let scale = keys.scale.as_ref();
     if !numbers.copied().all(f64::is_finite) {
-        return Err(source.fault(&keys.file.span(), "this model has no place", "write finite numbers"));
+        return Err(source.fault(&keys.file.span(), "this is not a position", "write finite numbers"));
     }
     if let Some(scale) = scale.filter(|scale| !(scale.get_ref().is_finite() && *scale.get_ref() > 0.0)) {
-        return Err(source.fault(&scale.span(), "a model cannot be scaled so", "write a number above 0"));
+        return Err(source.fault(&scale.span(), "this is not a scale for a model", "write a number above 0"));
     }
     let half = |angle: f64| (sin(angle / 2.0), cos(angle / 2.0));
     let [(x, of_x), (y, of_y), (z, of_z)] = [x, y, z].map(half);

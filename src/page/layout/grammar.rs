@@ -146,7 +146,7 @@ impl Parser<'_> {
         if number.abs() > 60.0 {
             let fault = Fault {
                 span: from..self.at,
-                message: "a gutter does not lean so far".to_owned(),
+                message: "this is not a slant for a gutter".to_owned(),
                 advice: "write degrees from -60 to 60".to_owned(),
             };
             return Err(fault);
@@ -196,8 +196,8 @@ impl Parser<'_> {
         } else {
             self.panels += 1;
             if self.panels > MOST_PANELS {
-                let message = format!("these are more than {MOST_PANELS} panels");
-                return Err(Fault { span, message, advice: "part them into several pages".to_owned() });
+                let message = format!("a page can hold at most {MOST_PANELS} panels");
+                return Err(Fault { span, message, advice: "spread them over several pages".to_owned() });
             }
             None
         };
@@ -229,7 +229,7 @@ mod tests {
             ("1 ]", 2, "does not belong"),
             ("0 | 1", 0, "leaves no panel"),
             ("-2", 0, "leaves no panel"),
-            ("1 |80° 1", 3, "lean"),
+            ("1 |80° 1", 3, "slant"),
             ("a", 0, "no share"),
         ] {
             let fault = parse(text).unwrap_err();

@@ -82,7 +82,7 @@ pub fn cells(layout: &str, grid: &Grid) -> Result<Vec<Cell>, Fault> {
                     nominal.width().max(0.0),
                     nominal.height().max(0.0)
                 ),
-                advice: "give it a larger share, or make gutters narrower or lean less".to_owned(),
+                advice: "give it a larger share, or make gutters narrower or less slanted".to_owned(),
             });
         }
     }
@@ -124,8 +124,8 @@ fn split(
         if number < last && before.as_ref().is_some_and(|before| meet(before, &side(-1.0), &within)) {
             return Err(Fault {
                 span: item.span.clone(),
-                message: "the gutters beside this panel meet on the page".to_owned(),
-                advice: "let them lean less, or more alike".to_owned(),
+                message: "the gutters around this panel meet on the page".to_owned(),
+                advice: "reduce their slant, or make it more similar".to_owned(),
             });
         }
         let mut own_sides = sides.to_vec();
@@ -170,8 +170,8 @@ fn shares(stack: &Stack) -> Result<Vec<f64>, Fault> {
         let first = stack.items.iter().find(|item| item.share == Share::Rest);
         return Err(Fault {
             span: first.map_or(0..0, |item| item.span.clone()),
-            message: format!("nothing is left for the rest: the others take {told} %"),
-            advice: "beside * shares are percent, which together stay below 100".to_owned(),
+            message: format!("no room is left for the rest: the other shares add up to {told} %"),
+            advice: "with *, shares are percent and must add up to less than 100".to_owned(),
         });
     }
     let rest = (whole - told) / resting.max(1) as f64;

@@ -19,7 +19,7 @@ pub(super) fn explosion(keys: &ExplodedKeys, scene: &Scene, source: &Source) -> 
     let factor = keys.factor.as_ref().map_or(1.0, |factor| *factor.get_ref());
     if let Some(told) = keys.factor.as_ref().filter(|_| !(0.0..=1000.0).contains(&factor)) {
         let advice = "write a number from 0 to 1000";
-        return Err(source.fault(&told.span(), "parts cannot come apart so far", advice));
+        return Err(source.fault(&told.span(), "this is not a factor for an exploded view", advice));
     }
     let parts = keys.part.iter().map(|part| part_explosion(part, scene, source)).collect::<Result<_, _>>()?;
     Ok(Explosion { axis, factor, parts })
@@ -29,12 +29,12 @@ fn part_explosion(keys: &PartExplosionKeys, scene: &Scene, source: &Source) -> R
     let name = keys.name.get_ref();
     if !scene.parts.iter().any(|part| name.matches(&part.name)) {
         let advice = "write a name of the model, or a pattern such as bolt*; `ligne info` lists the names";
-        return Err(source.fault(&keys.name.span(), "no part of the model is called so", advice));
+        return Err(source.fault(&keys.name.span(), "no part has this name", advice));
     }
     let number = |told: &Option<Spanned<f64>>| {
         let is_wrong = |told: &&Spanned<f64>| !told.get_ref().is_finite();
         if let Some(wrong) = told.as_ref().filter(is_wrong) {
-            return Err(source.fault(&wrong.span(), "this is no number", "write a number such as 12.5"));
+            return Err(source.fault(&wrong.span(), "this is not a number", "write a number such as 12.5"));
         }
         Ok(told.as_ref().map(|told| *told.get_ref()))
     };

@@ -62,10 +62,10 @@ pub(super) fn read(path: &Path, scene: &Scene, own: &[Item]) -> Result<(Vec<Item
         parts.sort_unstable();
         if parts.is_empty() && row.quantity.is_none() {
             let wanted = row.part.as_deref().unwrap_or(&row.name);
-            return Err(Error::new(format!("no part of the model is called `{wanted}`"))
+            return Err(Error::new(format!("no part has the name `{wanted}`"))
                 .at(place)
                 .in_file(path)
-                .remedy("name parts by `part`, where * is any text, or give a quantity"));
+                .remedy("name parts by `part`, where * matches any text, or give a quantity"));
         }
         parts.iter().for_each(|part| taken[*part] = true);
         let of_part = |part: &usize| own.iter().find(|item| item.parts.contains(part));
@@ -125,7 +125,7 @@ fn of_csv(text: &str) -> Result<Vec<(String, Row)>, Error> {
                 3 if cell.is_empty() => {}
                 3 => {
                     let wrong = |_| {
-                        Error::new(format!("`{cell}` is no quantity"))
+                        Error::new(format!("`{cell}` is not a quantity"))
                             .at(&*place)
                             .remedy("write a whole number")
                     };

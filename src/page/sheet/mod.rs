@@ -166,7 +166,7 @@ fn compose_sheet(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> 
     if plan.balloons.is_some() {
         for (item, anchor) in items.iter().zip(&laid.anchors) {
             if anchor.is_none() && !item.parts.is_empty() {
-                warnings.push(format!("nothing is seen of item '{}' in the view with balloons", item.name));
+                warnings.push(format!("item '{}' is not visible in the view with balloons", item.name));
             }
         }
         parts.push(whole("balloons", balloons, size));
@@ -312,8 +312,8 @@ impl<'a> Laying<'a> {
                 fill_ring(plan, view, &mut drawn, (scale, &mut laid[view]), board)?;
             }
             if let Some(unplaced) = laid.iter().find_map(|board| board.unplaced.first()) {
-                return Err(Error::new(format!("there is no clear place for {unplaced} on this sheet"))
-                    .remedy("choose a larger size or another scale, or leave some of it out"));
+                return Err(Error::new(format!("this sheet has no free place for {unplaced}"))
+                    .remedy("choose a larger size or another scale, or leave something out"));
             }
             let views = drawn.into_items(plan);
             return Ok(Laid { scale, views, boards: laid, anchors: anchors.unwrap_or_default() });
@@ -329,7 +329,7 @@ impl<'a> Laying<'a> {
         let widest = plan.views.iter().max_by(|a, b| around(a).total_cmp(&around(b)));
         let message = match widest.filter(|placed| around(placed) > 0.0) {
             Some(placed) => format!(
-                "the views do not fit on this sheet; most room around it takes `{}`, for its dimensions, letters and balloons",
+                "the views do not fit on this sheet; `{}` needs the most room for dimensions, letters and balloons",
                 placed.sight.name
             ),
             None => "the views do not fit on this sheet".to_owned(),

@@ -81,7 +81,7 @@ fn point(
         let advice = "write three numbers such as [0, 12.5, 3]";
         let is_finite = p.iter().all(|x| x.is_finite());
         let point = is_finite.then(|| Measured::exact(DVec3::from_array(*p)));
-        point.ok_or_else(|| source.fault(&told.span(), "this is no point", advice))
+        point.ok_or_else(|| source.fault(&told.span(), "this is not a point", advice))
     };
     let name = match told.get_ref() {
         PlaceKeys::Point(p) => return finite(p),
@@ -100,7 +100,11 @@ fn point(
     let points = Measured::of_parts(scene, |part| glob.matches(&part.name));
     if points.is_empty() {
         let message = format!("there is no part `{part}`");
-        return Err(source.fault(&told.span(), &message, "`ligne info MODEL` lists them; * is any text"));
+        return Err(source.fault(
+            &told.span(),
+            &message,
+            "`ligne info MODEL` lists them; * matches any text",
+        ));
     }
     let [right, up, _] = sight.axes();
     let outermost =

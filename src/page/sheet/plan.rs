@@ -92,16 +92,14 @@ impl Plan {
         let mut style = figure::style(&name, &sheet.set, source)?.to_scale();
         style.lines.hidden = if sheet.hidden { HiddenLines::Dashed } else { HiddenLines::None };
         if sheet.model.0.is_empty() {
-            return Err(Error::new("this sheet shows no model")
+            return Err(Error::new("this sheet has no model")
                 .in_file(&source.path)
                 .remedy("name one: model = \"part.glb\""));
         }
         let scene = figure::staged(&sheet.model, None, None, &style, source)?;
         let values = Values::new(sheet, scene.format == "glTF", source)?;
         let (low, high) = scene.bounds().ok_or_else(|| {
-            Error::new("there is nothing to draw in the model")
-                .in_file(&source.path)
-                .remedy("name another one")
+            Error::new("the model has nothing to draw").in_file(&source.path).remedy("name another one")
         })?;
         let points = world_points(&scene);
         let mut plan = Self {
@@ -163,7 +161,7 @@ impl Plan {
         for (k, keys) in sheet.section.iter().enumerate() {
             let whole = &self.sets[0].scene;
             let span = keys.plane.span();
-            let wrong = |message: String| source.fault(&span, "this is no plane", &message);
+            let wrong = |message: String| source.fault(&span, "this is not a plane", &message);
             let told = CutPlane::parse(keys.plane.get_ref()).map_err(wrong)?;
             let (normal, _) = told.normal();
             let forward = |view: &NamedView| Camera::named(*view, whole.up).axes()[2];
@@ -228,7 +226,7 @@ impl Plan {
         if !(radius.is_finite() && radius > 0.0) {
             return Err(source.fault(
                 &keys.radius.span(),
-                "this is no radius",
+                "this is not a radius",
                 "write units of the model above 0",
             ));
         }
@@ -303,7 +301,7 @@ impl Plan {
 /// Reads a scale.
 pub(super) fn read_scale(told: &Spanned<String>, source: &Source) -> Result<f64, Error> {
     scales::read(told.get_ref())
-        .ok_or_else(|| source.fault(&told.span(), "this is no scale", "write such as 1:5 or 2:1"))
+        .ok_or_else(|| source.fault(&told.span(), "this is not a scale", "write such as 1:5 or 2:1"))
 }
 
 fn named(name: &Spanned<String>, source: &Source) -> Result<NamedView, Error> {

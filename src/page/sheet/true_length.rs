@@ -24,14 +24,12 @@ pub(super) enum Foreshortening {
 /// Why a dimension is refused, and what to do.
 pub(super) type Refusal = [&'static str; 2];
 
-pub(super) const IN_EXPLODED: Refusal = [
-    "an exploded view has no dimensions: its parts are not where they are in the model",
-    "name another view with `of`",
-];
+pub(super) const IN_EXPLODED: Refusal =
+    ["an exploded view has no dimensions, because its parts are moved", "name another view with `of`"];
 
 const NOT_ALONG_AXIS: Refusal = [
     "a pictorial view shows true lengths only along the axes of the model",
-    "name points that differ in x, y or z alone and leave `measure` out, or name a view from a side with `of`",
+    "name points that differ only in x, y or z and leave out `measure`, or name a side view with `of`",
 ];
 
 const BEHIND: Refusal =

@@ -88,7 +88,7 @@ impl Values {
             Some(told) => {
                 u8::try_from(*told.get_ref()).ok().filter(|n| *n <= MAX_DECIMALS).ok_or_else(|| {
                     let advice = format!("write a whole number from 0 to {MAX_DECIMALS}");
-                    source.fault(&told.span(), "this is no number of decimals", &advice)
+                    source.fault(&told.span(), "this is not a number of decimals", &advice)
                 })?
             }
         };

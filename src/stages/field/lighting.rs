@@ -115,7 +115,7 @@ impl Lighting {
         if lamps.is_empty() {
             lamps.push(of_source(&LightSource::default(), mesh.origin, frame));
         } else if lamps.iter().all(|lamp| lamp.weight <= 0.0) {
-            warnings.push("no light has any brightness: all surfaces are in the shadow".to_owned());
+            warnings.push("no light has any brightness, so all surfaces are in shadow".to_owned());
         }
 
         let mut casters = Vec::new();

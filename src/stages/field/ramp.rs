@@ -49,7 +49,7 @@ impl Strip {
             }
         }
         if colours.len() > GREATEST_TONES {
-            return Err(format!("has {} colours; {GREATEST_TONES} are the most", colours.len()));
+            return Err(format!("has {} colours; at most {GREATEST_TONES} are possible", colours.len()));
         }
         Ok(Self { levels, colours })
     }
@@ -87,7 +87,7 @@ impl Table {
         colours.sort_by(|a, b| a.luma().total_cmp(&b.luma()).then(a.cmp(b)));
         colours.dedup();
         if colours.len() > GREATEST_TONES {
-            return Err(format!("has {} colours; {GREATEST_TONES} are the most", colours.len()));
+            return Err(format!("has {} colours; at most {GREATEST_TONES} are possible", colours.len()));
         }
         let index = |colour: &Colour| colours.iter().position(|c| c == colour).unwrap_or(0) as u16;
         let levels = |kept: &[usize], count: usize| -> Vec<f64> {

@@ -226,7 +226,7 @@ fn lines_per_inch<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f
         return Ok(Some(value));
     }
     Err(serde::de::Error::custom(format!(
-        "{value} is not a number of lines an inch; write a number from 1 to 300"
+        "{value} is not a number of lines per inch; write a number from 1 to 300"
     )))
 }
 

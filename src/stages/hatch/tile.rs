@@ -56,7 +56,7 @@ impl Tile {
     /// Says what is wrong with them.
     pub fn of_shapes(shapes: &[(BezPath, Filling)], [width, height]: [f64; 2]) -> Result<Self, String> {
         if !(width > 0.0 && height > 0.0 && (1e-3..=1e3).contains(&(height / width))) {
-            return Err("has no size that could be repeated".to_owned());
+            return Err("has no size to repeat".to_owned());
         }
         let rings = |(path, filling): &(BezPath, Filling)| {
             let mut rings = flattened(path, FLAT_SHAPE * width.min(height), width.max(height))?;
@@ -79,7 +79,7 @@ impl Tile {
         }
         let rings = united(&shapes).unwrap_or_default();
         if rings.is_empty() {
-            return Err("has no area that is painted dark".to_owned());
+            return Err("has no dark area".to_owned());
         }
         Self { lines: Vec::new(), shapes: islands(rings), height: height / width }.checked()
     }
@@ -98,7 +98,7 @@ impl Tile {
         let mut tracing =
             Tracing { level, scale: [1.0; 2], tolerance: TOLERANCE, speck: SPECK, repeats: true };
         while tracing.tolerance < wide {
-            let rings = shades.outlines(&tracing).ok_or("is too ragged")?;
+            let rings = shades.outlines(&tracing).ok_or("has an outline with too many corners")?;
             if rings.is_empty() {
                 return Err(format!("has nothing darker than {level}"));
             }
@@ -110,7 +110,7 @@ impl Tile {
             }
             (tracing.tolerance, tracing.speck) = (2.0 * tracing.tolerance, 4.0 * tracing.speck);
         }
-        Err("is too ragged".to_owned())
+        Err("has an outline with too many corners".to_owned())
     }
 
     fn checked(self) -> Result<Self, String> {
@@ -126,7 +126,7 @@ impl Tile {
 /// Control points of curves may be this many sizes of the tile away.
 const FARTHEST: f64 = 100.0;
 
-const FAR: &str = "reaches far beyond its square";
+const FAR: &str = "extends far outside its square";
 
 fn is_near(p: Point) -> bool {
     p.is_finite() && p.x.abs() <= SIDE && p.y.abs() <= SIDE

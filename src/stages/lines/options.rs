@@ -115,7 +115,7 @@ fn tolerance<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error
     if (0.0..=2.0).contains(&distance) {
         Ok(distance)
     } else {
-        Err(D::Error::custom(format!("{distance} is no distance of colours; write a number from 0 to 2")))
+        Err(D::Error::custom(format!("{distance} is not a colour distance; write a number from 0 to 2")))
     }
 }
 
@@ -125,7 +125,7 @@ fn smoothing<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error
     if (0.0..=100.0).contains(&px) {
         Ok(px)
     } else {
-        Err(D::Error::custom(format!("{px} px is no smoothing; write a number from 0 to 100")))
+        Err(D::Error::custom(format!("{px} px is not a smoothing length; write a number from 0 to 100")))
     }
 }
 

@@ -236,7 +236,7 @@ impl TryFrom<ShapeTable> for ShapeSource {
         match (table.path, table.file, table.image) {
             (Some(text), None, None) => {
                 let path =
-                    BezPath::from_svg(&text).map_err(|e| format!("the brush is no SVG path data: {e}"))?;
+                    BezPath::from_svg(&text).map_err(|e| format!("the brush is not SVG path data: {e}"))?;
                 let shape = BrushShape::of_path(&path).map_err(|e| format!("the brush {e}"))?;
                 Ok(Self::Shape(shape))
             }
@@ -271,7 +271,7 @@ impl TryFrom<BrushTable> for BrushChange {
         }
         let degrees = turn.unwrap_or(TURN_DEG);
         if !(0.0..=180.0).contains(&degrees) {
-            return Err(format!("{degrees} is no turn; write degrees from 0 to 180"));
+            return Err(format!("{degrees} is not an angle; write degrees from 0 to 180"));
         }
         let shape = ShapeSource::try_from(ShapeTable { path, file, image, inside })?;
         let [left, right] = [left, right].map(|own| own.map(ShapeSource::try_from).transpose());

@@ -78,7 +78,7 @@ impl Parser<'_> {
             }
             return Err(Stop::FaceFirst);
         }
-        u32::try_from(found).or_else(|_| fail(format!("vertex {index} is beyond what can be drawn")))
+        u32::try_from(found).or_else(|_| fail(format!("vertex {index} has coordinates that are too large")))
     }
 
     #[inline]
@@ -134,7 +134,7 @@ impl Parser<'_> {
         points.extend(corners.iter().map(|c| self.point(c[0])));
         cut.clear();
         if polygon::triangulate(&points, &mut cut) == CutOutcome::TooLarge {
-            self.out.warnings.count("concave polygons with too many corners, cut roughly", 1);
+            self.out.warnings.count("concave polygons with too many corners, triangulated roughly", 1);
         }
         self.diagonals.of(&points);
         for triangle in &cut {

@@ -61,7 +61,7 @@ impl Parser<'_> {
             let Some(read) = self.cursor.number() else {
                 let mut place = self.cursor.clone();
                 self.odd_numbers.add(|| {
-                    format!("line {}: `{}` after a vertex is passed over", place.line(), shown(place.word()))
+                    format!("line {}: `{}` after a vertex is ignored", place.line(), shown(place.word()))
                 });
                 return self.pass_line();
             };

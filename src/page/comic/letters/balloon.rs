@@ -53,7 +53,7 @@ impl Balloon {
     /// If the text is empty, or no font has a letter of it.
     pub fn new(text: &str, kind: BalloonKind, setting: &Setting, aspect: f64) -> Result<Self, Error> {
         if text.trim().is_empty() {
-            return Err(Error::new("this balloon says nothing").remedy("write its text, or leave it out"));
+            return Err(Error::new("this balloon has no text").remedy("write its text, or leave it out"));
         }
         let em = setting.em();
         let pad = Vec2::new(PAD, PAD) * em;

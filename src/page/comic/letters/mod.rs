@@ -110,14 +110,14 @@ impl<'a> Lettering<'a> {
         for turn in [&keys.rotate, &keys.arc] {
             if !(-360.0..=360.0).contains(turn.get_ref()) {
                 let advice = "write degrees from -360 to 360";
-                return Err(self.source.fault(&turn.span(), "letters do not turn so far", advice));
+                return Err(self.source.fault(&turn.span(), "this is not an angle for letters", advice));
             }
         }
         let stretch = keys.stretch.as_ref().map_or(1.0, |stretch| *stretch.get_ref());
         if let Some(key) = keys.stretch.as_ref().filter(|_| !(0.01..=100.0).contains(&stretch)) {
             return Err(self.source.fault(
                 &key.span(),
-                "letters are not stretched so",
+                "this is not a stretch of letters",
                 "write a number from 0.01 to 100",
             ));
         }
@@ -143,8 +143,8 @@ impl<'a> Lettering<'a> {
             return Ok(Vec::new());
         }
         if let Some(extra) = keys.balloon.get(MOST_BALLOONS) {
-            let message = format!("these are more than {MOST_BALLOONS} balloons in one panel");
-            return Err(self.source.fault(&extra.text.span(), &message, "part them among several panels"));
+            let message = format!("a panel can hold at most {MOST_BALLOONS} balloons");
+            return Err(self.source.fault(&extra.text.span(), &message, "spread them over several panels"));
         }
         for keys in &keys.balloon {
             keys.at.as_ref().map_or(Ok(()), |at| within_panel(at, self.source))?;
@@ -197,7 +197,7 @@ impl<'a> Lettering<'a> {
                     if size < 1.0 {
                         let percent = (size * 100.0).round();
                         warnings.push(format!(
-                            "{}: its letters are set at {percent} % of their size, so that all balloons find a place",
+                            "{}: letters are set at {percent} % of their size, so that all balloons fit",
                             shape.name
                         ));
                     }
@@ -208,7 +208,7 @@ impl<'a> Lettering<'a> {
         }
         let text = told.get(stuck).map_or(0..0, |told| told.keys.text.span());
         let advice =
-            "shorten the text, make letters smaller or the panel larger, or tell its place: at = [0.5, 0.2]";
+            "shorten the text, make letters smaller or the panel larger, or give its place: at = [0.5, 0.2]";
         Err(self.source.fault(&text, "there is no room in the panel for this balloon", advice))
     }
 
@@ -223,7 +223,7 @@ impl<'a> Lettering<'a> {
         if keys.kind == BalloonKind::Caption {
             return Err(self.source.fault(
                 &glob.span(),
-                "captions have no tail",
+                "a caption cannot have a tail",
                 "leave it out, or choose another kind",
             ));
         }
@@ -317,7 +317,7 @@ fn within_panel(at: &Spanned<[f64; 2]>, source: &Source) -> Result<(), Error> {
         return Ok(());
     }
     let advice = "write shares of its width and height, such as [0.5, 0.2]";
-    Err(source.fault(&at.span(), "this place is far from the panel", advice))
+    Err(source.fault(&at.span(), "this place is too far from the panel", advice))
 }
 
 /// A length above 0.
@@ -326,7 +326,7 @@ fn above(length: &Spanned<Mm>, source: &Source) -> Result<f64, Error> {
     if mm > 0.0 {
         return Ok(mm);
     }
-    Err(source.fault(&length.span(), "letters and lines have a size above 0", "write such as \"3.4mm\""))
+    Err(source.fault(&length.span(), "sizes of letters and lines must be above 0", "write such as \"3.4mm\""))
 }
 
 fn tell(fallbacks: Vec<String>, warnings: &mut Vec<String>) {

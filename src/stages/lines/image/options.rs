@@ -98,7 +98,7 @@ fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error>
     if value > 0.0 && value <= 100.0 {
         Ok(value)
     } else {
-        Err(D::Error::custom(format!("{value} is no threshold; write a number above 0, at most 100")))
+        Err(D::Error::custom(format!("{value} is not a threshold; write a number above 0, at most 100")))
     }
 }
 
@@ -108,6 +108,6 @@ fn samples<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> 
     if (1.0..=8.0).contains(&value) {
         Ok(value)
     } else {
-        Err(D::Error::custom(format!("{value} pixels cannot stand for a px; write a number from 1 to 8")))
+        Err(D::Error::custom(format!("{value} pixels per px are not possible; write a number from 1 to 8")))
     }
 }

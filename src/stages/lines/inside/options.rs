@@ -54,6 +54,6 @@ fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error>
     if value >= 0.0 && value.is_finite() {
         Ok(value)
     } else {
-        Err(D::Error::custom(format!("{value} is no threshold; write 0 or a number above it")))
+        Err(D::Error::custom(format!("{value} is not a threshold; write 0 or a number above it")))
     }
 }

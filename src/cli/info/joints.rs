@@ -1,0 +1,33 @@
+//! [`JointInfo`]: a joint of a skin.
+
+use std::collections::BTreeSet;
+
+use serde::Serialize;
+
+use super::lists::named;
+use crate::pose::Rig;
+
+/// A joint of a skin.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub(super) struct JointInfo {
+    name: String,
+    /// The node above it.
+    parent: Option<String>,
+}
+
+/// The joints of all skins, each once, in the order of their nodes.
+pub(super) fn of_rig(rig: &Rig) -> Vec<JointInfo> {
+    let numbers: BTreeSet<usize> = rig.skins.iter().flat_map(|skin| skin.joints.iter().copied()).collect();
+    let nodes = numbers.into_iter().filter_map(|number| rig.nodes.get(number));
+    let parent = |number: usize| rig.nodes.get(number).map(|node| node.name.clone());
+    nodes.map(|node| JointInfo { name: node.name.clone(), parent: node.parent.and_then(parent) }).collect()
+}
+
+impl JointInfo {
+    /// The joint's entry in the text.
+    pub fn line(&self) -> String {
+        let parent =
+            self.parent.as_deref().map_or_else(String::new, |parent| format!(", below {}", named(parent)));
+        format!("{}{parent}", named(&self.name))
+    }
+}

@@ -1,0 +1,71 @@
+//! Hints of `ligne draw` and `ligne info`: notes about a model, each with the option that helps.
+
+use crate::folder::Folder;
+
+/// A box from one corner to another as OBJ, as an object with this name; `first` is the number of its first vertex.
+fn block(name: &str, low: [f64; 3], high: [f64; 3], first: usize) -> String {
+    let mut text = format!("o {name}\n");
+    for corner in 0..8 {
+        let [x, y, z] =
+            std::array::from_fn(|axis| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] });
+        text += &format!("v {x} {y} {z}\n");
+    }
+    for face in [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]] {
+        let [a, b, c, d] = face.map(|corner| corner + first);
+        text += &format!("f {a} {b} {c} {d}\n");
+    }
+    text
+}
+
+fn notes(folder: &Folder, line: &str) -> String {
+    let run = folder.ligne(line);
+    run.done();
+    run.err.lines().filter(|line| line.starts_with("note: ")).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn a_model_on_its_back_gets_a_hint() {
+    let folder = Folder::with_cubes("hint-back");
+    folder.write("tower.obj", &block("tower", [-2.0, -1.5, 0.0], [2.0, 1.5, 9.0], 1));
+    let note = notes(&folder, "draw tower.obj a.svg --strict");
+    assert!(note.contains("lie on its back; --up z"), "{note}");
+    for silent in ["--up z", "--up y", "--quiet"] {
+        assert_eq!(notes(&folder, &format!("draw tower.obj b.svg {silent}")), "");
+    }
+    folder.ligne("draw tower.obj c.svg --save-camera camera.json").done();
+    assert_eq!(notes(&folder, "draw tower.obj d.svg --camera camera.json"), "");
+    assert_eq!(notes(&folder, "draw cubes.obj e.svg"), "");
+    folder.ligne("info tower.obj").done().says("1 note:\n    the model seems to have z up");
+    let json: serde_json::Value =
+        serde_json::from_str(&folder.ligne("info tower.obj --json").done().out).unwrap();
+    assert!(json["notes"][0].as_str().unwrap().contains("--up z"), "{json}");
+}
+
+#[test]
+fn no_shipped_model_gets_a_hint() {
+    let models = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models");
+    let folder = Folder::new("hint-none");
+    for entry in std::fs::read_dir(models).unwrap().flatten() {
+        let path = entry.path();
+        let is_model =
+            path.extension().is_some_and(|ending| ["obj", "ply", "stl", "glb"].iter().any(|e| ending == *e));
+        if is_model {
+            let run = folder.run(&["info", &path.to_string_lossy()]);
+            assert!(!run.done().out.contains(" note"), "{run:?}");
+        }
+    }
+}
+
+#[test]
+fn a_ground_that_shrinks_the_rest_gets_a_hint() {
+    let folder = Folder::new("hint-ground");
+    let ground = block("ground plane", [-1000.0, -0.1, -1000.0], [1000.0, 0.0, 1000.0], 9);
+    let house = block("house", [-5.0, 0.0, -4.0], [5.0, 8.0, 4.0], 1);
+    folder.write("village.obj", &(house + &ground));
+    let note = notes(&folder, "draw village.obj a.svg --strict");
+    assert!(note.contains("the part `ground plane` shrinks everything else to 1 %"), "{note}");
+    assert!(note.contains("--hide 'ground plane'"), "{note}");
+    let run = folder.run(&["draw", "village.obj", "b.svg", "--hide", "ground plane"]);
+    assert!(!run.done().err.contains("note: "), "{run:?}");
+    folder.ligne("info village.obj").done().says("--hide 'ground plane'");
+}
