@@ -129,6 +129,6 @@ fn last_words(log: &Path) -> String {
     };
     let text = String::from_utf8_lossy(&read().unwrap_or_default()).into_owned();
     // Bars of progress are parted by tabs and carriage returns.
-    let lines = text.split(['\n', '\r', '\t']).map(str::trim);
-    lines.filter(|line| !line.is_empty()).next_back().unwrap_or_default().to_owned()
+    let mut lines = text.split(['\n', '\r', '\t']).map(str::trim);
+    lines.rfind(|line| !line.is_empty()).unwrap_or_default().to_owned()
 }
