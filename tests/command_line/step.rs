@@ -211,6 +211,9 @@ fn time_and_memory_are_bounded() {
         script(&folder, "bin/killed", "kill -9 $$");
         let killed = run(&folder, &bounds, "draw part.step --step-converter killed");
         killed.refused("it may have needed more than 512 MB; give a larger --step-tolerance");
+        script(&folder, "bin/full", "echo std::bad_alloc >&2; exit 1");
+        let full = run(&folder, &bounds, "draw part.step --step-converter full");
+        full.refused("exit status 1: std::bad_alloc; give a larger --step-tolerance, more memory");
     }
 }
 
@@ -221,7 +224,7 @@ fn what_a_converter_does_wrong_is_reported() {
     for (name, body, what) in [
         (
             "bin/failing",
-            "echo reading; echo no geometry >&2; exit 3",
+            "printf 'reading\\n(50 %%)\\t'; echo no geometry >&2; exit 3",
             "failed with exit status 3: no geometry; export",
         ),
         ("bin/idle", "true", "wrote no GLB; export the STEP file again"),
@@ -266,6 +269,7 @@ fn cascadio_keeps_units_names_and_colours() {
     ] {
         assert!(info.contains(what), "no `{what}` in {info}");
     }
+    assert!(info.contains(": #ff0000") && info.contains(": #0000ff"), "{info}");
     assert!(run("info inch.step").contains("1016 x 762 x 1524 mm"));
     let svg = run("draw mm.step - --quiet --page A4 --scale 1:1 --view front --style toon --only block");
     let [width, height] = extent(&svg);

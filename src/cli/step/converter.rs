@@ -206,17 +206,15 @@ impl Converter {
                 Ok(Converted::NotInstalled(said))
             }
             Outcome::Exited(code, said) => {
+                let remedy = if lacks_memory(&said) { MORE_MEMORY } else { FAILED };
                 let message = format!("{name} failed with exit status {code}{}", with(said));
-                Err(Error::new(message).remedy(FAILED))
+                Err(Error::new(message).remedy(remedy))
             }
             Outcome::Killed(said) => {
-                let message = format!(
-                    "{name} was stopped{}; it may have needed more than {} MB",
-                    with(said),
-                    limits.mb
-                );
-                Err(Error::new(message)
-                    .remedy("give a larger --step-tolerance, or more memory with LIGNE_STEP_MB"))
+                let bound = limits.mb;
+                let message =
+                    format!("{name} was stopped{}; it may have needed more than {bound} MB", with(said));
+                Err(Error::new(message).remedy(MORE_MEMORY))
             }
             Outcome::TimedOut => Err(Error::new(format!("{name} was stopped after {} s", limits.seconds))
                 .remedy("give a larger --step-tolerance, or more time with LIGNE_STEP_SECONDS")),
@@ -228,6 +226,15 @@ impl Converter {
 }
 
 const FAILED: &str = "export the STEP file again (AP214 or AP242), or try another --step-converter";
+
+const MORE_MEMORY: &str =
+    "give a larger --step-tolerance, more memory with LIGNE_STEP_MB, or another --step-converter";
+
+/// Whether the last words of a program say that memory ran out.
+fn lacks_memory(said: &str) -> bool {
+    let said = said.to_ascii_lowercase();
+    ["allocate", "bad_alloc", "memoryerror", "out of memory"].iter().any(|word| said.contains(word))
+}
 
 #[cfg(test)]
 mod tests {

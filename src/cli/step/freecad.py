@@ -20,8 +20,7 @@ def convert(source, target, tolerance, angle):
     document = FreeCAD.newDocument("step")
     Import.insert(source, document.Name)
     # Millimetres and z up become metres and y up.
-    half = 0.5 ** 0.5
-    nodes = [{"rotation": [-half, 0, 0, half], "scale": [0.001] * 3, "children": []}]
+    nodes = [{"matrix": [0.001, 0, 0, 0, 0, 0, -0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1], "children": []}]
     meshes, accessors, views, chunks = [], [], [], []
 
     def accessor(kind, component, values, size, **bounds):

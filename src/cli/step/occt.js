@@ -29,7 +29,7 @@ const gltf = {
   scene: 0,
   scenes: [{ nodes: [0] }],
   // Millimetres and z up become metres and y up.
-  nodes: [{ rotation: [-Math.SQRT1_2, 0, 0, Math.SQRT1_2], scale: [0.001, 0.001, 0.001], children: [] }],
+  nodes: [{ matrix: [0.001, 0, 0, 0, 0, 0, -0.001, 0, 0, 0.001, 0, 0, 0, 0, 0, 1], children: [] }],
   meshes: [],
   materials: [],
   accessors: [],

@@ -128,6 +128,7 @@ fn last_words(log: &Path) -> String {
         Ok::<_, std::io::Error>(bytes)
     };
     let text = String::from_utf8_lossy(&read().unwrap_or_default()).into_owned();
-    let lines: Vec<&str> = text.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
-    lines.last().copied().unwrap_or_default().to_owned()
+    // Bars of progress are parted by tabs and carriage returns.
+    let mut lines = text.split(['\n', '\r', '\t']).map(str::trim);
+    lines.rfind(|line| !line.is_empty()).unwrap_or_default().to_owned()
 }
