@@ -75,6 +75,7 @@ use stages::{
 
 pub use drawing::Drawing;
 pub use error::{Error, ErrorKind};
+pub use math::colour::Colour;
 #[cfg(feature = "png")]
 pub use export::PngOptions;
 pub use export::SvgOptions;
