@@ -173,7 +173,7 @@ impl Weight {
             let (weight, time) =
                 key.split_once('@').map_or((key, None), |(weight, time)| (weight, Some(time)));
             let weight = number(weight).filter(|weight| *weight >= 0.0);
-            let weight = weight.ok_or_else(|| wrong(format!("`{text}` is no weight from 0 on")))?;
+            let weight = weight.ok_or_else(|| wrong(format!("`{text}` is not a weight of 0 or more")))?;
             let time = match time {
                 Some(time) => {
                     Some(number(time).ok_or_else(|| wrong(format!("`{key}` has no time in seconds")))?)
@@ -296,8 +296,8 @@ mod tests {
             ("Jump", "no animation `Jump`"),
             ("Jump:1", "no animation `Jump`"),
             ("Walk,", "no animation ``"),
-            ("Walk:much", "`much` is no weight"),
-            ("Walk:-1", "`-1` is no weight"),
+            ("Walk:much", "`much` is not a weight"),
+            ("Walk:-1", "`-1` is not a weight"),
             ("Walk:1@a", "`1@a` has no time"),
             ("Walk:1@0..1", "some have none"),
             ("Walk:1@1..0@1", "do not rise"),

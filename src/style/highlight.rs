@@ -136,5 +136,5 @@ fn some_near<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, 
     if value == 0.0 || (0.1..=1000.0).contains(&value) {
         return Ok(Some(value));
     }
-    Err(serde::de::Error::custom(format!("{value} is no distance; write 0, or a number from 0.1 to 1000")))
+    Err(serde::de::Error::custom(format!("{value} is not a distance; write 0, or a number from 0.1 to 1000")))
 }

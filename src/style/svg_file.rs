@@ -25,7 +25,7 @@ pub(super) fn read(_: &[u8]) -> Result<SvgPaths, String> {
 #[cfg(feature = "png")]
 pub(super) fn read(bytes: &[u8]) -> Result<SvgPaths, String> {
     let tree =
-        usvg::Tree::from_data(bytes, &usvg::Options::default()).map_err(|e| format!("is no SVG ({e})"))?;
+        usvg::Tree::from_data(bytes, &usvg::Options::default()).map_err(|e| format!("is not SVG ({e})"))?;
     let size = [tree.size().width(), tree.size().height()].map(f64::from);
     let mut found = SvgPaths { size, ..SvgPaths::default() };
     gather(tree.root(), &mut found);

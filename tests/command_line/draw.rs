@@ -360,7 +360,7 @@ fn a_moment_of_an_animation_is_drawn() {
     assert!(![&stored, &lifted].contains(&&weighed("0.5")));
     assert_eq!(weighed("0..1"), weighed("0.375"));
     assert_eq!(lifted, drawn("again.svg", &["--time", "5.5", "--repeat"]));
-    folder.run(&["draw", crane, "no.svg", "--animation", "lift:much"]).refused("`much` is no weight");
+    folder.run(&["draw", crane, "no.svg", "--animation", "lift:much"]).refused("`much` is not a weight");
     folder.run(&["draw", crane, "no.svg", "--animation", "lift,walk:2"]).refused("no animation `walk`");
     let pump = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/pump.glb");
     folder.run(&["draw", pump, "no.svg", "--time", "1"]).refused("the model has no animations");

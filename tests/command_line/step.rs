@@ -237,7 +237,7 @@ fn what_a_converter_does_wrong_is_reported() {
     folder.write("bin/plain", "no program");
     run(&folder, &[], "draw part.step --step-converter bin/plain").refused("bin/plain");
     folder.write("mesh.step", "solid of another format");
-    run(&folder, &CONVERT, "draw mesh.step").refused("mesh.step: this is no STEP file");
+    run(&folder, &CONVERT, "draw mesh.step").refused("mesh.step: this is not a STEP file");
     run(&folder, &CONVERT, "draw gone.step").refused("gone.step: cannot be read");
     assert_eq!(calls(&folder).len(), 3);
 }

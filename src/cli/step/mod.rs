@@ -78,7 +78,7 @@ fn converted(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
     let bytes = fs::read(model).map_err(|error| Error::io("cannot be read", error))?;
     let start = bytes.trim_ascii_start();
     if !start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start).starts_with(MARK) {
-        return Err(Error::new("this is no STEP file: it does not begin with ISO-10303-21")
+        return Err(Error::new("this is not a STEP file: it does not begin with ISO-10303-21")
             .remedy("export it again as STEP (AP214 or AP242)"));
     }
     let cache = Cache::open()?;

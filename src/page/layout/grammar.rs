@@ -183,7 +183,7 @@ impl Parser<'_> {
                 Share::Number(number.unwrap_or(1.0))
             }
             None => return Err(self.fault("the layout ends where a panel is due", wanted)),
-            Some(other) => return Err(self.fault(format!("`{other}` is no share"), wanted)),
+            Some(other) => return Err(self.fault(format!("`{other}` is not a share"), wanted)),
         };
         let mut span = from..self.at;
         let within = if self.takes('[') {

@@ -74,7 +74,7 @@ pub struct SheetPage {
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(
     untagged,
-    expecting = "this is no parts list; write true, false, or the path of a file such as \"parts.csv\""
+    expecting = "this is not a parts list; write true, false, or the path of a file such as \"parts.csv\""
 )]
 pub enum ListKeys {
     /// From the names of parts, or none.
@@ -168,7 +168,7 @@ pub struct DimensionKeys {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(
     untagged,
-    expecting = "this is no place; write a point such as [0, 10, 5], or a name such as \"housing.left\""
+    expecting = "this is not a place; write a point such as [0, 10, 5], or a name such as \"housing.left\""
 )]
 pub enum PlaceKeys {
     /// A point.

@@ -128,7 +128,7 @@ fn tile<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<BezPath>, D
             "the tile {what}; write SVG path data in a square of 10, such as \"M0 0L10 10\""
         ))
     };
-    let path = BezPath::from_svg(&text).map_err(|error| wrong(format!("is no path ({error})")))?;
+    let path = BezPath::from_svg(&text).map_err(|error| wrong(format!("is not a path ({error})")))?;
     Tile::of_path(&path, None).map_err(wrong)?;
     Ok(Some(path))
 }
