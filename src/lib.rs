@@ -75,10 +75,10 @@ use stages::{
 
 pub use drawing::Drawing;
 pub use error::{Error, ErrorKind};
-pub use math::colour::Colour;
 #[cfg(feature = "png")]
 pub use export::PngOptions;
 pub use export::SvgOptions;
+pub use math::colour::Colour;
 pub use render::render;
 pub use scene::{Camera, Scene};
 pub use style::Style;

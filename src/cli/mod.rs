@@ -78,7 +78,7 @@ const USAGE: &str = "ligne [OPTIONS] <COMMAND>
 const SHARED: &str = "Options shared with ligne draw";
 
 /// Commands that take over options from `ligne draw`.
-const SHARING: [&str; 2] = ["animate", "diff"];
+const SHARING: [&str; 3] = ["animate", "diff", "styles"];
 
 /// Arguments of the program.
 #[derive(Debug, Parser)]

@@ -138,7 +138,7 @@ mod tests {
         assert!(warning(&nothing, &camera, &[]).contains("no parts"));
         let mut shrunk = flat.clone();
         shrunk.parts[0].world_from_part.matrix3 *= 0.0;
-        assert!(warning(&shrunk, &camera, &[]).contains("scaled to nothing"));
+        assert!(warning(&shrunk, &camera, &[]).contains("scaled to zero"));
         let mut dot = flat.clone();
         dot.geometries[0].triangles.clear();
         dot.geometries[0].wires.push([1, 1]);

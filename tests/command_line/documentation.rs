@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Programs whose calls the pages show.
-const OTHER_PROGRAMS: [&str; 7] = ["cargo ", "vpype", "pip ", "git ", "npm ", "sbatch", "parallel"];
+const OTHER_PROGRAMS: [&str; 8] = ["axicli", "cargo ", "vpype", "pip ", "git ", "npm ", "sbatch", "parallel"];
 
 /// Options of other programs that stand in lines of their own: of Slurm, and of `ligne --version`.
 const OTHER_OPTIONS: [&str; 6] =

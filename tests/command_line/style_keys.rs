@@ -403,7 +403,7 @@ fn internals_do_not_leak_into_errors() {
     }
     folder.write("levels.json", "{\"faces\": 3}");
     let levels = "animate cubes.obj a.gif --turntable 2 --size 20 --levels levels.json";
-    folder.ligne(levels).refused("levels.json: `faces` is missing, or is not a list of whole numbers");
+    folder.ligne(levels).refused("levels.json: this is not a list of face counts");
     folder.write("levels.json", "{\"faces\"");
     let run = folder.ligne(levels);
     clean(&run, "levels");

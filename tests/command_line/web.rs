@@ -102,8 +102,13 @@ fn hotspots_of_a_drawing_with_a_title_are_buttons() {
 fn the_recipe_of_the_documentation_works_with_prefixes() {
     let folder = Folder::with_cubes("hotspots-recipe");
     let documentation = include_str!("../../docs/how-to/web.md");
-    let begin = documentation.find("```html\n").expect("a recipe") + 8;
-    let recipe = &documentation[begin..begin + documentation[begin..].find("```").expect("an end")];
+    // The page is given as its beginning and its end; drawings stand between them.
+    let part = |name: &str| {
+        let fence = format!("```html file={name}\n");
+        let begin = documentation.find(&fence).expect("a part of the page") + fence.len();
+        &documentation[begin..begin + documentation[begin..].find("```").expect("an end")]
+    };
+    let (head, tail) = (part("head.html"), part("tail.html").replace("</html>", ""));
     let mut drawings = String::new();
     for prefix in ["a-", "b-"] {
         let call = format!(
@@ -113,9 +118,10 @@ fn the_recipe_of_the_documentation_works_with_prefixes() {
         drawings += &folder.text("a.svg");
     }
     let page = format!(
-        "<!DOCTYPE html><body style=\"margin:0\">{drawings}{recipe}<p id=found></p><script>\
+        "{head}{drawings}{tail}<p id=found></p><script>\
+         const chosen = document.getElementById('chosen');\
          const spots = [...document.querySelectorAll('.hotspots [data-part]')];\
-         const after = (spot, event) => {{ location.hash = ''; spot.dispatchEvent(event); return location.hash; }};\
+         const after = (spot, event) => {{ chosen.textContent = ''; spot.dispatchEvent(event); return chosen.textContent; }};\
          const key = (key) => new KeyboardEvent('keydown', {{ key, bubbles: true }});\
          const found = [after(spots[0], new MouseEvent('click', {{ bubbles: true }})),\
              after(spots[1], key('Enter')), after(spots[2], key(' ')), after(spots[3], key('x')) || 'none',\
@@ -132,7 +138,11 @@ fn the_recipe_of_the_documentation_works_with_prefixes() {
         return;
     };
     let page = String::from_utf8_lossy(&output.stdout);
-    assert!(page.contains(">#base #knob #base none true</p>"), "{}", &page[page.len().saturating_sub(600)..]);
+    assert!(
+        page.contains(">Cubes: base Cubes: knob Cubes: base none true</p>"),
+        "{}",
+        &page[page.len().saturating_sub(600)..]
+    );
 }
 
 #[test]

@@ -18,8 +18,7 @@ pub(in crate::cli) struct StyleSheetArgs {
 
 #[derive(Debug, Args)]
 struct SheetArg {
-    /// Draw a model in all styles on one sheet: .svg, .svgz, .png, .pdf or .dxf, or - for SVG on standard output; options of
-    /// ligne draw choose pose, camera, parts and the size of each picture
+    /// Draw a model in all styles, or those of --style, on one sheet: .svg, .svgz, .png, .pdf or .dxf; - for standard output
     #[arg(long, value_name = "OUT", requires = "name")]
     sheet: Option<PathBuf>,
 }
@@ -37,7 +36,7 @@ impl Args for StyleSheetArgs {
                 argument
                     .action(ArgAction::Append)
                     .value_name("NAME|GLOB|FILE.toml,...")
-                    .help("With --sheet, draw these styles only; names take globs, may be given again [default: all built-in styles]")
+                    .help("Styles of --sheet: names, globs and files; repeatable [default: all built-in styles]")
                     .hide_default_value(true)
             } else {
                 argument

@@ -17,8 +17,7 @@ const MAX_ANGLE: f64 = 0.5;
 /// How models in STEP files (.step, .stp) become triangles.
 #[derive(Debug, Clone, Default, Args)]
 pub(in crate::cli) struct StepArgs {
-    /// Converter for STEP models: cascadio, occt-import-js, freecad, a Python or Node that has one of these, or a program
-    /// that is called as PROGRAM IN.step OUT.glb TOLERANCE_MM [default: the first that is found] [env: LIGNE_STEP_CONVERTER]
+    /// Converter of STEP models: a name, or PROGRAM IN.step OUT.glb MM [default: first found] [env: LIGNE_STEP_CONVERTER]
     #[arg(long, value_name = "PROGRAM", help_heading = "STEP", value_parser = program)]
     step_converter: Option<String>,
 
