@@ -78,8 +78,10 @@ impl Error {
             0 => made,
             line => made.at(format!("line {line}, column {}", error.column())),
         };
+        // Advice on a missing key is written for TOML.
+        let missing = |advice: &str| Some(advice.strip_prefix("add ")?.strip_suffix(" = …")?.to_owned());
         match advice {
-            Some(advice) => made.remedy(advice),
+            Some(advice) => made.remedy(missing(&advice).map_or(advice, |key| format!("add \"{key}\": …"))),
             None => made,
         }
     }

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::sources::{IntoParallelIterator, Split};
-use super::steps::{Parallel, Step};
+use super::sources::Split;
+use super::steps::{IntoParallelIterator, Parallel, Step};
 use super::{cut, gather, part_count, put, run, slots, take};
 
 /// What becomes of the items of one part.

@@ -18,6 +18,7 @@
 mod ends;
 mod sort;
 mod sources;
+mod starts;
 mod steps;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -26,8 +27,8 @@ use std::sync::{Mutex, PoisonError};
 pub(crate) use ends::ParallelExtend;
 pub(crate) use sort::ParallelSort;
 use sources::Split;
-pub(crate) use sources::{IntoParallelIterator, ParallelSlice, ParallelSliceMut};
-pub(crate) use steps::{Parallel, Step};
+pub(crate) use starts::{ParallelSlice, ParallelSliceMut};
+pub(crate) use steps::{IntoParallelIterator, Parallel, Step};
 
 /// What a module with parallel loops imports.
 pub(crate) mod prelude {

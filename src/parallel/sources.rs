@@ -3,9 +3,6 @@
 use std::ops::Range;
 use std::{slice, vec};
 
-use super::Parallel;
-use super::steps::Plain;
-
 /// A sequence that can be cut in two.
 pub(crate) trait Split: Sized + Send {
     type Item;
@@ -65,8 +62,8 @@ impl<T: Send> Split for Vec<T> {
 /// Runs of `size` items of a slice; the last may be shorter.
 #[derive(Clone)]
 pub(crate) struct Chunks<'a, T> {
-    items: &'a [T],
-    size: usize,
+    pub(super) items: &'a [T],
+    pub(super) size: usize,
 }
 
 impl<'a, T: Sync> Split for Chunks<'a, T> {
@@ -86,8 +83,8 @@ impl<'a, T: Sync> Split for Chunks<'a, T> {
 
 /// Runs of `size` items of a slice, to be changed; the last may be shorter.
 pub(crate) struct ChunksMut<'a, T> {
-    items: &'a mut [T],
-    size: usize,
+    pub(super) items: &'a mut [T],
+    pub(super) size: usize,
 }
 
 impl<'a, T: Send> Split for ChunksMut<'a, T> {
@@ -123,14 +120,6 @@ macro_rules! split_ranges {
                 self
             }
         }
-
-        impl IntoParallelIterator for Range<$number> {
-            type Source = Self;
-            type Step = Plain;
-            fn into_par_iter(self) -> Parallel<Self, Plain> {
-                Parallel::new(self)
-            }
-        }
     )*};
 }
 
@@ -152,97 +141,5 @@ impl<A: Split, B: Split> Split for Both<A, B> {
     }
     fn items(self) -> Self::Iter {
         self.0.items().zip(self.1.items())
-    }
-}
-
-/// A value over whose items a parallel loop can run.
-pub(crate) trait IntoParallelIterator {
-    type Source: Split;
-    type Step: super::steps::Step<Self::Source>;
-    fn into_par_iter(self) -> Parallel<Self::Source, Self::Step>;
-}
-
-impl<S: Split, F: super::steps::Step<S>> IntoParallelIterator for Parallel<S, F> {
-    type Source = S;
-    type Step = F;
-    fn into_par_iter(self) -> Self {
-        self
-    }
-}
-
-impl<T: Send> IntoParallelIterator for Vec<T> {
-    type Source = Self;
-    type Step = Plain;
-    fn into_par_iter(self) -> Parallel<Self, Plain> {
-        Parallel::new(self)
-    }
-}
-
-impl<'a, T: Sync> IntoParallelIterator for &'a [T] {
-    type Source = Self;
-    type Step = Plain;
-    fn into_par_iter(self) -> Parallel<&'a [T], Plain> {
-        Parallel::new(self)
-    }
-}
-
-impl<'a, T: Sync> IntoParallelIterator for &'a Vec<T> {
-    type Source = &'a [T];
-    type Step = Plain;
-    fn into_par_iter(self) -> Parallel<&'a [T], Plain> {
-        Parallel::new(self.as_slice())
-    }
-}
-
-impl<'a, T: Send> IntoParallelIterator for &'a mut [T] {
-    type Source = Self;
-    type Step = Plain;
-    fn into_par_iter(self) -> Parallel<&'a mut [T], Plain> {
-        Parallel::new(self)
-    }
-}
-
-impl<'a, T: Send> IntoParallelIterator for &'a mut Vec<T> {
-    type Source = &'a mut [T];
-    type Step = Plain;
-    fn into_par_iter(self) -> Parallel<&'a mut [T], Plain> {
-        Parallel::new(self.as_mut_slice())
-    }
-}
-
-/// Parallel loops over the items of a slice.
-pub(crate) trait ParallelSlice<T> {
-    fn par_iter(&self) -> Parallel<&[T], Plain>;
-    /// Runs of `size` items; the last may be shorter.
-    fn par_chunks(&self, size: usize) -> Parallel<Chunks<'_, T>, Plain>;
-    /// Runs of neighbours for which `same` holds.
-    fn par_chunk_by(&self, same: impl FnMut(&T, &T) -> bool) -> Parallel<Vec<&[T]>, Plain>;
-}
-
-impl<T: Sync> ParallelSlice<T> for [T] {
-    fn par_iter(&self) -> Parallel<&[T], Plain> {
-        Parallel::new(self)
-    }
-    fn par_chunks(&self, size: usize) -> Parallel<Chunks<'_, T>, Plain> {
-        Parallel::new(Chunks { items: self, size })
-    }
-    fn par_chunk_by(&self, same: impl FnMut(&T, &T) -> bool) -> Parallel<Vec<&[T]>, Plain> {
-        Parallel::new(self.chunk_by(same).collect())
-    }
-}
-
-/// Parallel loops over the items of a slice that change them.
-pub(crate) trait ParallelSliceMut<T> {
-    fn par_iter_mut(&mut self) -> Parallel<&mut [T], Plain>;
-    /// Runs of `size` items; the last may be shorter.
-    fn par_chunks_mut(&mut self, size: usize) -> Parallel<ChunksMut<'_, T>, Plain>;
-}
-
-impl<T: Send> ParallelSliceMut<T> for [T] {
-    fn par_iter_mut(&mut self) -> Parallel<&mut [T], Plain> {
-        Parallel::new(self)
-    }
-    fn par_chunks_mut(&mut self, size: usize) -> Parallel<ChunksMut<'_, T>, Plain> {
-        Parallel::new(ChunksMut { items: self, size })
     }
 }

@@ -1,6 +1,6 @@
 //! Steps of parallel loops: what happens to the items of a part on their way to the end.
 
-use super::sources::{Both, IntoParallelIterator, Split};
+use super::sources::{Both, Split};
 
 /// A parallel loop that has not run: a source, the steps that its items pass, and the limits of its parts.
 #[must_use]
@@ -17,6 +17,21 @@ pub(crate) trait Step<S: Split>: Sync {
     type Item;
     /// The items that a part of the source gives; `first` items come before the part.
     fn pass(&self, part: S, first: usize) -> impl Iterator<Item = Self::Item>;
+}
+
+/// A value over whose items a parallel loop can run.
+pub(crate) trait IntoParallelIterator {
+    type Source: Split;
+    type Step: Step<Self::Source>;
+    fn into_par_iter(self) -> Parallel<Self::Source, Self::Step>;
+}
+
+impl<S: Split, F: Step<S>> IntoParallelIterator for Parallel<S, F> {
+    type Source = S;
+    type Step = F;
+    fn into_par_iter(self) -> Self {
+        self
+    }
 }
 
 /// No step.

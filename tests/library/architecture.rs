@@ -8,10 +8,11 @@ use std::path::{Path, PathBuf};
 use crate::support::imports::{File, circles, imports};
 
 /// The rooms from the ground up; a room may use itself and the rooms before it.
-const ROOMS: [&str; 33] = [
-    "error", "math", "mesh", "trees", "shape", "scene", "section", "explode", "lod", "pose", "load", "view",
-    "raster", "field", "lines", "viewmap", "shadow", "drawing", "text", "chain", "export", "region",
-    "picture", "diff", "testing", "stroke", "hatch", "motion", "style", "render", "animate", "page", "cli",
+const ROOMS: [&str; 34] = [
+    "error", "parallel", "math", "mesh", "trees", "shape", "scene", "section", "explode", "lod", "pose",
+    "load", "view", "raster", "field", "lines", "viewmap", "shadow", "drawing", "text", "chain", "export",
+    "region", "picture", "diff", "testing", "stroke", "hatch", "motion", "style", "render", "animate",
+    "page", "cli",
 ];
 
 /// The folder of those rooms that are stages; it is no room itself.

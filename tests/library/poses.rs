@@ -333,7 +333,7 @@ fn skins_without_joints_are_refused_by_name() {
     for (name, skin, expected) in [
         ("no-joints", json!({"joints": []}), "the skin has 0"),
         ("joints-nowhere", json!({"joints": [0, 77]}), "joint 77 is not a node of the file"),
-        ("joints-missing", json!({}), "missing field `joints`"),
+        ("joints-missing", json!({}), "`joints` is missing; add \"joints\": …"),
     ] {
         let arm = Arm::new(name, |file| file["skins"][0] = skin);
         let error = Rigged::open(&arm.0).unwrap_err().to_string();

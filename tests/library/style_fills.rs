@@ -153,7 +153,7 @@ fn mistakes_are_named() {
         ("fills.palette = [\"#12\"]\n", "line 1: `#12` is not a colour"),
         ("fills.table = [[\"#000\"], []]\n", "line 1: the table needs rows"),
         ("fills.highlight.exponent = 0\n", "line 1: 0 is not the exponent"),
-        ("fills.lit = 9\n", "line 1: 9 is not a factor of colours"),
+        ("fills.lit = 9\n", "line 1: 9 is not a colour factor"),
         ("[[fills.material]]\nshadow = 1\n", "`name` is missing; add name = …"),
         ("light.sources = [{ kind = \"point\" }]\n", "line 1: a point light needs a `position`"),
         ("light.oclusion = 1\n", "did you mean `occlusion`?"),

@@ -127,8 +127,8 @@ fn missing_letters_are_told() {
     assert_eq!(
         told,
         [
-            "`Ω` (U+03A9) is not in the font Comic Neue Bold; it is set in B612 Regular",
-            "`⌀` (U+2300) is not in the font Comic Neue Bold; it is set in Routed Gothic"
+            "the font Comic Neue Bold has no `Ω` (U+03A9); B612 Regular is used",
+            "the font Comic Neue Bold has no `⌀` (U+2300); Routed Gothic is used"
         ]
     );
     let fonts: Vec<String> = block

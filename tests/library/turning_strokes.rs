@@ -109,7 +109,7 @@ fn strokes_that_cannot_turn_are_refused() {
             "{ path = 'M0 0H1V1Z', right = { inside = 'solid', path = 'M0 0H1V1Z' }, mode = 'repeat' }",
             "image",
         ),
-        ("{ path = 'M0 0H1V1Z', right = 3, mode = 'repeat' }", "turn"),
+        ("{ path = 'M0 0H1V1Z', right = 3, mode = 'repeat' }", "path data"),
         ("{ path = 'M0 0H1V1Z', turn = 200, mode = 'repeat' }", "0 to 180"),
     ] {
         let error = Style::load("ink", &[format!("pen.brush={brush}")]).unwrap_err().to_string();
