@@ -72,6 +72,7 @@ pub(crate) fn from_table<T: DeserializeOwned>(table: Table) -> Result<T, Fault> 
 }
 
 /// Reads options from a part of a parsed text.
+#[cfg(feature = "page")]
 pub(crate) fn from_value<T: DeserializeOwned>(value: Spanned<DeValue>) -> Result<T, Fault> {
     T::deserialize(Node::spanned(value)?)
 }
