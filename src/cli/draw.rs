@@ -1,24 +1,21 @@
 //! `ligne draw`: one drawing of one model, in one or several formats.
 
 use std::borrow::Cow;
-use std::io::Read;
 
 use glam::DVec3;
 
 use super::framing_args::Frame;
-use super::moment::scene_at;
+use super::opened::{Opened, open};
 use super::output::{Format, Staging, check_place, is_stdout};
 #[cfg(feature = "pdf")]
 use super::print_args;
 use super::progress::Progress;
 use super::request::DrawRequest;
-use super::step::{open_rigged, open_scene};
 use super::viewpoint::{View, Viewpoint, viewpoint};
-use super::{dxf_args, hints, lod, number, pipeline, print, say, web, wonder};
+use super::{dxf_args, hints, number, pipeline, print, say, web, wonder};
 use crate::drawing::{Drawing, Page, Unit};
 use crate::error::Error;
 use crate::export::gzip;
-use crate::load::ModelFormat;
 use crate::pose::Rigged;
 use crate::render::{MapFiles, Prepared, Report, Stopwatch, hatched_for, trailed};
 use crate::scene::framing::world_points;
@@ -251,54 +248,6 @@ fn draw_view(
     report.warnings.extend(left_out);
     let notes = of_scene.notes.clone();
     Ok(Drawn { drawing, seen: View::Fixed(camera, paper), report, notes, encoded, maps })
-}
-
-/// A model that was read.
-struct Opened {
-    scene: Scene,
-    /// The points that the frame is to hold, where they are not those of the scene.
-    framed: Option<Vec<DVec3>>,
-    /// Warnings about the options.
-    warnings: Vec<String>,
-    /// Choices made for the user.
-    notes: Vec<String>,
-}
-
-/// The model: at the moment, with the parts, and with as many faces as asked for.
-fn open(request: &DrawRequest, model: Option<Rigged>, style: &Style) -> Result<Opened, Error> {
-    let mut rigged = model.map_or_else(|| read(request), Ok)?;
-    // Levels of detail are of the model as it is stored, whatever moves and whatever is shown of it.
-    let coarse = request.faces.map(|faces| (lod::detail(&request.model, &mut rigged.scene, faces), faces));
-    let (mut scene, notes) = scene_at(rigged, request, style)?;
-    let warnings = wonder::unmatched(&scene, &request.only, &request.hide);
-    let parts_left_out = !(request.only.is_empty() && request.hide.is_empty());
-    let framed = (request.frame == Frame::All && parts_left_out).then(|| world_points(&scene));
-    pipeline::keep_parts(&mut scene, &request.only, &request.hide)?;
-    let scene = match coarse {
-        Some((detail, faces)) => lod::reduced(&scene, &detail, faces)?,
-        None => scene,
-    };
-    Ok(Opened { scene, framed, warnings, notes })
-}
-
-/// The model as it is stored, with its animations if one of them is drawn.
-pub(super) fn read(request: &DrawRequest) -> Result<Rigged, Error> {
-    match (request.piped, request.stands()) {
-        (Some(format), stands) => read_piped(format, stands).map_err(|error| error.in_file(&request.model)),
-        (None, true) => open_scene(&request.model, &request.step).map(Rigged::from),
-        (None, false) => open_rigged(&request.model, &request.step),
-    }
-}
-
-/// The model on standard input.
-fn read_piped(format: ModelFormat, stands: bool) -> Result<Rigged, Error> {
-    let mut bytes = Vec::new();
-    std::io::stdin().lock().read_to_end(&mut bytes).map_err(|error| Error::io("cannot be read", error))?;
-    if stands {
-        Scene::from_bytes(&bytes, format).map(Rigged::from)
-    } else {
-        Rigged::from_bytes(&bytes, format)
-    }
 }
 
 pub(super) fn default_dpi(unit: Unit) -> f64 {

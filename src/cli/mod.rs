@@ -24,6 +24,7 @@ mod moment;
 mod number;
 mod numbered;
 mod offered;
+mod opened;
 mod output;
 mod page;
 mod paper;

@@ -2,6 +2,7 @@
 
 mod folder;
 
+mod advice;
 mod animate;
 mod calls;
 mod cases;

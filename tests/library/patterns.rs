@@ -277,7 +277,7 @@ fn patterns_that_cannot_be_are_refused_by_name() {
         ("{ kind = 'tile', path = 'M0 0H9', fill = true }", "no dark area"),
         ("{ image = 'a.png' }", "kind"),
         ("{ kind = 'tile', image = 'lost.png' }", "lost.png"),
-        ("{ kind = 'tile', file = 'Cargo.toml' }", "no SVG"),
+        ("{ kind = 'tile', file = 'Cargo.toml' }", "not SVG"),
     ] {
         let error = Style::load("toon", &[format!("fills.pattern=[{pattern}]")]).unwrap_err().to_string();
         assert!(error.contains(word), "{pattern}: {error}");

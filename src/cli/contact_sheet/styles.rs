@@ -7,7 +7,7 @@ use super::{Sheet, check_outputs, picture_request};
 use crate::cli::output::Output;
 use crate::cli::progress::Progress;
 use crate::cli::request::{DrawRequest, check_apart};
-use crate::cli::{draw, pipeline};
+use crate::cli::{draw, opened, pipeline};
 use crate::error::Error;
 use crate::math::glob::Glob;
 use crate::render::Stopwatch;
@@ -39,7 +39,7 @@ pub(in crate::cli) fn run(args: &StyleSheetArgs, out: &Path, model: &str) -> Res
     pipeline::in_threads(first.threads, || {
         let progress = Progress::start(first.quiet, &model);
         progress.step("reading");
-        let read = draw::read(first)?;
+        let read = opened::read(first)?;
         for (style, request) in styles.iter().zip(&requests) {
             let add = |_: &DrawRequest, drawn| {
                 sheet.add(drawn, style.clone(), key(style));

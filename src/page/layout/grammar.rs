@@ -230,7 +230,7 @@ mod tests {
             ("0 | 1", 0, "leaves no panel"),
             ("-2", 0, "leaves no panel"),
             ("1 |80° 1", 3, "slant"),
-            ("a", 0, "no share"),
+            ("a", 0, "not a share"),
         ] {
             let fault = parse(text).unwrap_err();
             assert!(fault.span.start == at && fault.message.contains(message), "{text}: {fault:?}");
