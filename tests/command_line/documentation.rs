@@ -8,9 +8,9 @@ use std::process::Command;
 /// Programs whose calls the pages show.
 const OTHER_PROGRAMS: [&str; 8] = ["axicli", "cargo ", "vpype", "pip ", "git ", "npm ", "sbatch", "parallel"];
 
-/// Options of other programs that stand in lines of their own: of Slurm, and of `ligne --version`.
-const OTHER_OPTIONS: [&str; 6] =
-    ["--array", "--cpus-per-task", "--job-name", "--open-mode", "--requeue", "--version"];
+/// Options that no help of a command lists: of Slurm, `ligne --version`, and the hidden one that writes the reference of style keys.
+const OTHER_OPTIONS: [&str; 7] =
+    ["--array", "--cpus-per-task", "--job-name", "--open-mode", "--reference", "--requeue", "--version"];
 
 pub fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
