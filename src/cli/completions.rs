@@ -25,7 +25,7 @@ pub(super) fn run(args: &CompletionsArgs) -> Result<(), Error> {
     super::print(&script)
 }
 
-/// The script for bash, in which a value follows a key of `--set` at once.
+/// The script for bash, without a space between a key of `--set` and its value.
 fn without_space_after_keys(script: Vec<u8>) -> Vec<u8> {
     let case = "--set)\n";
     let text = String::from_utf8_lossy(&script);

@@ -252,7 +252,7 @@ pub(super) fn fault_of(
     }
 }
 
-/// What a parser of numbers says of a value, in plain words; what other parsers say stays.
+/// The message of a number parser in plain words; other messages stay.
 fn plain_advice(text: &str) -> String {
     if let Some((_, range)) = text.split_once(" is not in ")
         && let Some((low, high)) = range.split_once("..")

@@ -30,7 +30,7 @@ pub(super) struct Opened {
 /// The model: at the moment, with the parts, and with as many faces as asked for.
 pub(super) fn open(request: &DrawRequest, model: Option<Rigged>, style: &Style) -> Result<Opened, Error> {
     let mut rigged = model.map_or_else(|| read(request), Ok)?;
-    // Levels of detail are of the model as it is stored, whatever moves and whatever is shown of it.
+    // Levels of detail belong to the stored model, with all parts and before any motion.
     let coarse = request.faces.map(|faces| (lod::detail(&request.model, &mut rigged.scene, faces), faces));
     let (mut scene, notes) = scene_at(rigged, request, style)?;
     let warnings = wonder::unmatched(&scene, &request.only, &request.hide);
@@ -44,7 +44,7 @@ pub(super) fn open(request: &DrawRequest, model: Option<Rigged>, style: &Style) 
     Ok(Opened { scene, framed, warnings, notes })
 }
 
-/// The model as it is stored, with its animations if one of them is drawn.
+/// The stored model, with its animations if one of them is drawn.
 pub(super) fn read(request: &DrawRequest) -> Result<Rigged, Error> {
     match (request.piped, request.stands()) {
         (Some(format), stands) => read_piped(format, stands).map_err(|error| error.in_file(&request.model)),

@@ -8,11 +8,11 @@ use super::spelling::without_american;
 pub(crate) struct Explained {
     pub message: String,
     pub advice: Option<String>,
-    /// What sort of mistake it is.
+    /// Kind of the mistake.
     pub mistake: Mistake,
 }
 
-/// What sort of mistake a message is about.
+/// Kind of mistake that a message reports.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Mistake {
     /// A key that is not known, and the keys that are.

@@ -198,7 +198,7 @@ impl Converter {
                 Err(Error::new(format!("{name} wrote no GLB{}", with(said))).remedy(FAILED))
             }
             Outcome::Exited(0, _) => Ok(Converted::Done(match self.kind {
-                // It writes the axes of STEP as they are.
+                // It keeps the axes of STEP.
                 Kind::Cascadio => UpAxis::Z,
                 Kind::Occt | Kind::Freecad | Kind::Own => UpAxis::Y,
             })),

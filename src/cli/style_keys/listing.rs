@@ -28,7 +28,7 @@ fn row(key: &StyleKey) -> [String; 4] {
     [key.path.clone(), key.kind.name().to_owned(), default(key), key.full_help()]
 }
 
-/// The default as it is shown.
+/// The default in the form that is shown.
 pub(super) fn default(key: &StyleKey) -> String {
     match (key.default, &key.inherits) {
         (Some(default), _) => default.to_owned(),

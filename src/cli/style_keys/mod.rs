@@ -41,7 +41,7 @@ pub(super) fn list(glob: &str, json: bool, reference: bool) -> Result<String, Er
     Ok(if json { listing::json(&keys) } else { listing::text(&keys) })
 }
 
-/// What shells offer for `--set`: the keys that it sets, each with `=`.
+/// Completions of shells for `--set`: the keys that it sets, each with `=`.
 pub(super) fn settings() -> &'static [&'static str] {
     static SETTINGS: OnceLock<Vec<&'static str>> = OnceLock::new();
     SETTINGS.get_or_init(|| {
