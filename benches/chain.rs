@@ -2,13 +2,13 @@
 
 use divan::{Bencher, black_box};
 use kurbo::Point;
+use ligne::chains::{ChainOptions, link};
 use ligne::drawing::Unit;
-use ligne::math::function::{cos, sin};
-use ligne::stages::chain::{ChainOptions, link};
-use ligne::stages::lines::{HiddenLines, LineKind};
-use ligne::stages::mesh::{MaterialId, PartId};
-use ligne::stages::shape::Origin;
-use ligne::stages::viewmap::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::lines::{HiddenLines, LineKind};
+use ligne::mesh::{MaterialId, PartId};
+use ligne::surface::Origin;
+use ligne::visibility::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 
 fn main() {
     divan::main();

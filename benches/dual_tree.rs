@@ -21,11 +21,12 @@ use std::time::{Duration, Instant};
 
 use glam::{DAffine3, DVec3};
 
+use ligne::lines::edges::edge_lines;
+use ligne::lines::{Contours, EdgeSearch, LineKind, LineOptions, Surface};
+use ligne::mesh::Mesh;
+use ligne::mesh::bvh::ToneTree;
 use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
-use ligne::stages::lines::{Contours, EdgeSearch, LineKind, LineOptions, Surface, edge_lines};
-use ligne::stages::mesh::Mesh;
-use ligne::stages::trees::ToneTree;
-use ligne::stages::view::View;
+use ligne::view::View;
 use rayon::prelude::*;
 use solids::Solid;
 

@@ -21,12 +21,12 @@ use std::time::{Duration, Instant};
 
 use glam::{DAffine3, DVec3};
 use ligne::drawing::{Page, Unit};
-use ligne::math::function::{atan2, cos, sin};
-use ligne::render::Prepared;
+use ligne::geometry::numbers::portable_math::{atan2, cos, sin};
+use ligne::mesh::Mesh;
+use ligne::pipeline::Prepared;
 use ligne::scene::{Geometry, Part};
-use ligne::stages::mesh::Mesh;
-use ligne::stages::raster::{FaceBuffer, Screen};
-use ligne::stages::view::View;
+use ligne::view::View;
+use ligne::view::raster::{FaceBuffer, Screen};
 use ligne::{Camera, Scene, Style};
 use rayon::ThreadPool;
 use solids::Solid;

@@ -16,7 +16,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use ligne::drawing::{Page, Unit};
-use ligne::render::{Prepared, Report, render_reported};
+use ligne::pipeline::{Prepared, Report, render_reported};
 use ligne::{Camera, Scene, Style};
 
 /// Everything is measured this often; the least time counts.

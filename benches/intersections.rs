@@ -10,8 +10,8 @@ mod solids;
 use divan::Bencher;
 use glam::DVec3;
 use ligne::Scene;
-use ligne::stages::mesh::Mesh;
-use ligne::stages::trees::intersect::{IntersectionInput, intersections};
+use ligne::mesh::Mesh;
+use ligne::mesh::intersect::intersection_curves::{IntersectionInput, intersections};
 use solids::Solid;
 
 fn main() {

@@ -19,7 +19,7 @@ use std::time::Instant;
 
 use glam::DAffine3;
 use ligne::drawing::{Page, Unit};
-use ligne::render::Prepared;
+use ligne::pipeline::Prepared;
 use ligne::scene::{Geometry, Part};
 use ligne::{Camera, Scene, Style, SvgOptions};
 

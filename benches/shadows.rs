@@ -12,10 +12,10 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use glam::DVec3;
+use ligne::light::openness;
+use ligne::mesh::{FaceId, Mesh};
 use ligne::scene::Scene;
-use ligne::stages::field::openness;
-use ligne::stages::mesh::{FaceId, Mesh};
-use ligne::stages::shadow::{Caster, Shadows};
+use ligne::shadows::{Caster, Shadows};
 
 const SHARED: [&str; 7] = [
     "cad/drive.glb",

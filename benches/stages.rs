@@ -4,14 +4,16 @@ use divan::{Bencher, black_box};
 use glam::{DAffine3, DVec3};
 use ligne::drawing::Drawing;
 use ligne::export::SvgOptions;
-use ligne::render;
+use ligne::lines::zero_sets::interior;
+use ligne::lines::{self, FeatureLines, InsideOptions, LineKind, LineOptions, Surface};
+use ligne::mesh::{Edges, Extents, Mesh};
+use ligne::pipeline;
 use ligne::scene::{Camera, Geometry, NamedView, Part, Scene, UpAxis};
-use ligne::stages::lines::{self, FeatureLines, InsideOptions, LineKind, LineOptions, Surface, inside};
-use ligne::stages::mesh::{Edges, Extents, Mesh};
-use ligne::stages::shape::{HardEdges, SmoothNormals};
-use ligne::stages::view::{Frame, View};
-use ligne::stages::viewmap::{self, ViewMap, doubles};
 use ligne::style::Style;
+use ligne::surface::{HardEdges, SmoothNormals};
+use ligne::view::{Frame, View};
+use ligne::visibility::overlap::coincident_lines;
+use ligne::visibility::{self, ViewMap};
 
 #[allow(dead_code)]
 #[path = "../examples/make_stress/scenes.rs"]
@@ -61,11 +63,11 @@ fn made(name: &str) -> Made {
 
 impl Made {
     fn view_map(&self) -> ViewMap {
-        viewmap::build(&self.surface.mesh, &self.view, &self.lines, &self.style.lines)
+        visibility::build(&self.surface.mesh, &self.view, &self.lines, &self.style.lines)
     }
 
     fn drawing(&self) -> Drawing {
-        render::render(&self.scene, &self.camera, &self.style).unwrap()
+        pipeline::render(&self.scene, &self.camera, &self.style).unwrap()
     }
 }
 
@@ -108,14 +110,14 @@ fn hard_edges(bencher: Bencher, name: &str) {
 #[divan::bench(args = SCENES)]
 fn edge_lines(bencher: Bencher, name: &str) {
     let made = made(name);
-    bencher.bench(|| lines::edge_lines::find(black_box(&made.surface), &made.view, &made.style.lines));
+    bencher.bench(|| lines::edges::edge_lines::find(black_box(&made.surface), &made.view, &made.style.lines));
 }
 
 #[divan::bench(args = SCENES)]
 fn curvature(bencher: Bencher, name: &str) {
     let made = made(name);
     let smooth = SmoothNormals::rounded(&made.surface.mesh);
-    bencher.bench(|| inside::curvature(black_box(&made.surface.mesh), &smooth, &InsideOptions::default()));
+    bencher.bench(|| interior::curvature(black_box(&made.surface.mesh), &smooth, &InsideOptions::default()));
 }
 
 #[divan::bench(args = SCENES)]
@@ -123,10 +125,10 @@ fn suggestive_contours(bencher: Bencher, name: &str) {
     let made = made(name);
     let smooth = SmoothNormals::rounded(&made.surface.mesh);
     let options = LineOptions { kinds: vec![LineKind::Suggestive], ..LineOptions::default() };
-    let curvature = inside::curvature(&made.surface.mesh, &smooth, &options.inside);
+    let curvature = interior::curvature(&made.surface.mesh, &smooth, &options.inside);
     bencher.bench(|| {
         let mut lines = FeatureLines::default();
-        inside::find(black_box(&made.surface.mesh), &made.view, &smooth, &curvature, &options, &mut lines);
+        interior::find(black_box(&made.surface.mesh), &made.view, &smooth, &curvature, &options, &mut lines);
         lines
     });
 }
@@ -151,7 +153,7 @@ fn doubles(bencher: Bencher, name: &str) {
     let frame = Frame::new(&camera, DVec3::ZERO);
     bencher
         .with_inputs(|| map.clone())
-        .bench_refs(|map| doubles::remove(map, 0.02, &frame, &Extents::default()));
+        .bench_refs(|map| coincident_lines::remove(map, 0.02, &frame, &Extents::default()));
 }
 
 #[divan::bench(args = SCENES)]

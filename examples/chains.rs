@@ -4,12 +4,12 @@
 //! cargo run --example chains [-- MODEL]
 //! ```
 
+use ligne::chains::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
-use ligne::stages::chain::{self, ChainOptions};
-use ligne::stages::lines::{self, HiddenLines, LineOptions, Surface};
-use ligne::stages::mesh::Mesh;
-use ligne::stages::view::View;
-use ligne::stages::viewmap;
+use ligne::lines::{self, HiddenLines, LineOptions, Surface};
+use ligne::mesh::Mesh;
+use ligne::view::View;
+use ligne::visibility;
 use ligne::{Camera, Error, Scene};
 
 fn main() -> Result<(), Error> {
@@ -19,7 +19,7 @@ fn main() -> Result<(), Error> {
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
     let surface = Surface::new(Mesh::build(scene.to_soup()), &options).finer_for(&camera);
     let view = View::new(&surface.mesh, &camera);
-    let map = viewmap::build(&surface.mesh, &view, &lines::extract(&surface, &view, &options), &options);
+    let map = visibility::build(&surface.mesh, &view, &lines::extract(&surface, &view, &options), &options);
     let visible = map.edges.iter().filter(|edge| edge.invisibility == 0).count();
     println!("{visible} visible view edges");
 
@@ -39,7 +39,7 @@ fn main() -> Result<(), Error> {
     ];
     for (name, options) in ways {
         // Hidden contours are linked as well, but not drawn.
-        let mut chains = chain::link(&map, &options, Unit::Px, HiddenLines::None);
+        let mut chains = chains::link(&map, &options, Unit::Px, HiddenLines::None);
         chains.retain(|chain| chain.invisibility == 0);
         let closed = chains.iter().filter(|chain| chain.closed).count();
         // The path is what is drawn: one element moves the pen, each further one is a line or a curve.

@@ -4,10 +4,10 @@
 //! cargo run --example feature_lines [-- MODEL]
 //! ```
 
+use ligne::lines::{self, LineKind, LineOptions, Surface};
+use ligne::mesh::Mesh;
 use ligne::scene::NamedView;
-use ligne::stages::lines::{self, LineKind, LineOptions, Surface};
-use ligne::stages::mesh::Mesh;
-use ligne::stages::view::View;
+use ligne::view::View;
 use ligne::{Camera, Error, Scene};
 
 fn main() -> Result<(), Error> {

@@ -7,8 +7,8 @@
 use std::collections::BTreeMap;
 
 use ligne::drawing::{Page, Unit};
-use ligne::render::Prepared;
-use ligne::stages::hatch::clip::length;
+use ligne::hatching::clip::line_clip::length;
+use ligne::pipeline::Prepared;
 use ligne::{Camera, Scene, Style};
 
 fn main() -> Result<(), ligne::Error> {

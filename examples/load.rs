@@ -4,8 +4,8 @@
 //! cargo run --example load [-- MODEL]
 //! ```
 
-use ligne::render::defects;
-use ligne::stages::mesh::Mesh;
+use ligne::mesh::Mesh;
+use ligne::pipeline::report::mesh_defects;
 use ligne::{Error, Scene};
 
 fn main() -> Result<(), Error> {
@@ -40,7 +40,7 @@ fn main() -> Result<(), Error> {
     println!("{} faces, {} vertices, {} edges", mesh.triangles.len(), mesh.positions.len(), mesh.edges.len());
     println!("  {} vertices were joined to another at their place", cleaning.welded);
     println!("  {} edges have one face, {} three or more", cleaning.borders, cleaning.non_manifold);
-    for line in defects::of_mesh(&mesh, &scene).lines() {
+    for line in mesh_defects::of_mesh(&mesh, &scene).lines() {
         println!("  cleaning it: {line}");
     }
     Ok(())

@@ -9,14 +9,14 @@ use std::sync::Arc;
 
 use ligne::drawing::{Drawing, Page, Unit};
 use ligne::kurbo::Vec2;
+use ligne::lines::{EdgeSearch, Known, Surface};
+use ligne::mesh::Mesh;
 use ligne::scene::NamedView;
-use ligne::stages::lines::{EdgeSearch, Known, Surface};
-use ligne::stages::mesh::Mesh;
-use ligne::stages::stroke::{self, InkContext};
-use ligne::stages::view::View;
-use ligne::stages::viewmap::Ahead;
-use ligne::stages::{chain, lines, viewmap};
+use ligne::strokes::{self, InkContext};
+use ligne::view::View;
+use ligne::visibility::Ahead;
 use ligne::{Camera, Scene, Style, SvgOptions};
+use ligne::{chains, lines, visibility};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let folder = std::env::args().nth(1).map_or_else(std::env::temp_dir, PathBuf::from);
@@ -58,11 +58,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let surface = surface.clone().finer_for(&camera);
         let view = View::new(&surface.mesh, &camera);
         let feature_lines = lines::extract_with(&surface, known, &view, &style.lines);
-        let map = viewmap::build(&surface.mesh, &view, &feature_lines, &style.lines);
+        let map = visibility::build(&surface.mesh, &view, &feature_lines, &style.lines);
         let whole = (&surface.mesh, surface.pieces.as_slice());
         let ahead = Ahead::new(whole, &view, &feature_lines, &map.seen_contours, Vec2::ZERO);
-        let chains = chain::link_behind(&ahead, &map, &style.chain, page.unit, style.lines.hidden);
-        let layers = stroke::ink(&chains, &context, &style.stroke);
+        let chains = chains::link_behind(&ahead, &map, &style.chain, page.unit, style.lines.hidden);
+        let layers = strokes::ink(&chains, &context, &style.stroke);
 
         let drawing = Drawing::new(format!("pump, {}", named.name()), page, layers);
         let file = folder.join(format!("pump-{}.svg", named.name()));

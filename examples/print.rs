@@ -5,13 +5,13 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use ligne::colour::srgb::Colour;
 use ligne::drawing::{
     Boxes, Cap, Composition, Drawing, Item, Join, Layer, LayerKind, Mark, Page, Paint, Provenance,
     StrokePaint, Unit,
 };
 use ligne::export::{Inks, PdfOptions, PngOptions, Resolution, Standard, SvgOptions, to_pdf};
 use ligne::kurbo::{Affine, Ellipse, Point, Rect, Shape};
-use ligne::math::colour::Colour;
 use ligne::page::PageFile;
 use ligne::text::{Block, Font, Setting};
 use ligne::{Camera, Error, Scene, Style, render};

@@ -6,9 +6,9 @@
 
 use std::path::PathBuf;
 
+use ligne::colour::srgb::Colour;
 use ligne::drawing::Length;
-use ligne::math::colour::Colour;
-use ligne::stages::lines::{HiddenLines, LineKind};
+use ligne::lines::{HiddenLines, LineKind};
 use ligne::{Camera, Scene, Style, SvgOptions, render};
 
 const BLUEPRINT: &str = r##"

@@ -6,10 +6,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use ligne::stages::lines::{self, HiddenLines, LineOptions, Surface};
-use ligne::stages::mesh::Mesh;
-use ligne::stages::view::View;
-use ligne::stages::viewmap::{self, ViewVertexKind};
+use ligne::lines::{self, HiddenLines, LineOptions, Surface};
+use ligne::mesh::Mesh;
+use ligne::view::View;
+use ligne::visibility::{self, ViewVertexKind};
 use ligne::{Camera, Error, Scene};
 
 fn main() -> Result<(), Error> {
@@ -22,7 +22,7 @@ fn main() -> Result<(), Error> {
     let surface = Surface::new(Mesh::build(scene.to_soup()), &options).finer_for(&camera);
     let view = View::new(&surface.mesh, &camera);
     let feature_lines = lines::extract(&surface, &view, &options);
-    let map = viewmap::build(&surface.mesh, &view, &feature_lines, &options);
+    let map = visibility::build(&surface.mesh, &view, &feature_lines, &options);
 
     // Each edge of the map is a straight piece of one line, behind so many surfaces throughout.
     let mut lengths: BTreeMap<u16, f64> = BTreeMap::new();

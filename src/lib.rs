@@ -19,12 +19,12 @@
 //!
 //! The pipeline is one function, [`render()`]: a [`scene::Scene`] is flattened to one
 //! welded [`mesh::Mesh`]; a [`view::View`] projects it; [`lines`] finds the feature lines; the
-//! [`viewmap::ViewMap`] decides what is visible; [`chain`] links the pieces to long chains;
-//! [`stroke`] gives them ink; and the result is a [`drawing::Drawing`], a 2-D document that
-//! [`export`] writes as SVG, PDF or PNG. Where a style paints surfaces, [`field`] lights them, their
-//! tone borders join the lines, and [`region`] gathers what lies between those that are seen; [`hatch`] shades
+//! [`viewmap::ViewMap`] decides what is visible; [`chains`] links the pieces to long chains;
+//! [`strokes`] gives them ink; and the result is a [`drawing::Drawing`], a 2-D document that
+//! [`export`] writes as SVG, PDF or PNG. Where a style paints surfaces, [`light`] lights them, their
+//! tone borders join the lines, and [`regions`] gathers what lies between those that are seen; [`hatching`] shades
 //! it with strokes. Many views
-//! of one scene share a [`render::Prepared`]. Each stage can be called by itself; the programs in
+//! of one scene share a [`pipeline::Prepared`]. Each stage can be called by itself; the programs in
 //! `examples/` show how.
 //!
 //! # Decisions not taken
@@ -40,46 +40,51 @@
 #![warn(missing_docs, clippy::unwrap_used)]
 
 pub mod animate;
+pub mod animation;
+pub mod chains;
 #[cfg(feature = "cli")]
 #[doc(hidden)]
 pub mod cli;
+pub mod colour;
 #[cfg(feature = "diff")]
 pub mod diff;
 pub mod drawing;
+pub mod edit;
 mod error;
-pub mod explode;
 pub mod export;
-pub mod load;
-pub mod lod;
 #[doc(hidden)]
-pub mod math;
+pub mod geometry;
+pub mod hatching;
+pub mod images;
+pub mod light;
+pub mod lines;
+pub mod load;
+pub mod mesh;
 pub mod motion;
 #[cfg(feature = "page")]
 pub mod page;
 mod parallel;
-pub mod pose;
-pub mod render;
+pub mod pipeline;
+pub mod regions;
 pub mod scene;
-pub mod section;
-pub mod stages;
+pub mod shadows;
+pub mod strokes;
 pub mod style;
+pub mod surface;
 #[cfg(feature = "diff")]
 pub mod testing;
 #[cfg(feature = "page")]
 pub mod text;
+pub mod view;
+pub mod visibility;
 
-// Inside, each stage goes by its own name.
-use stages::{
-    chain, field, hatch, lines, mesh, picture, raster, region, shadow, shape, stroke, trees, view, viewmap,
-};
-
+pub use colour::srgb::Colour;
 pub use drawing::Drawing;
 pub use error::{Error, ErrorKind};
 #[cfg(feature = "png")]
 pub use export::PngOptions;
 pub use export::SvgOptions;
-pub use math::colour::Colour;
-pub use render::render;
+pub use pipeline::render;
 pub use scene::{Camera, Scene};
 pub use style::Style;
 

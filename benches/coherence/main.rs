@@ -20,9 +20,9 @@ mod seen;
 use change::Change;
 use inked::Inked;
 use ligne::animate::{Animator, Moment, Timeline, Turntable, reach};
+use ligne::animation::{Playing, Rigged};
 use ligne::drawing::{Page, Unit};
 use ligne::glam::DAffine3;
-use ligne::pose::{Playing, Rigged};
 use ligne::{Camera, Style};
 use seen::Seen;
 

@@ -5,9 +5,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use glam::DVec3;
+use ligne::mesh::{Edges, Soup};
 use ligne::scene::{Camera, Scene};
-use ligne::stages::mesh::{Edges, Soup};
-use ligne::stages::view::Frame;
+use ligne::view::Frame;
 
 /// Pixels of the depth raster, each way.
 const SIDE: usize = 1024;

@@ -15,11 +15,11 @@ mod plain;
 use std::time::Instant;
 
 use ligne::animate::{Animator, Level, Moment, Timeline, Turntable, reach};
+use ligne::animation::{Playing, Rigged};
 use ligne::drawing::{Page, Unit};
+use ligne::edit::simplify::Detail;
+use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::glam::{DAffine3, DVec3};
-use ligne::lod::Detail;
-use ligne::math::function::{cos, sin};
-use ligne::pose::{Playing, Rigged};
 use ligne::{Camera, Scene, Style, SvgOptions};
 
 const FACES: [u64; 5] = [1_200, 6_280, 10_396, 26_000, 40_000];

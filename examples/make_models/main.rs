@@ -2,54 +2,18 @@
 //!
 //! The files come out the same to the byte on every machine; DIR is `examples/models` unless given.
 
-mod bear;
-mod bevels;
-mod biplane;
-mod bracket;
-mod brick;
-mod brush;
-mod castle;
-mod castle_parts;
-mod cogs;
-mod crane;
-mod creased;
-mod drive;
-mod drum;
-mod easter;
-mod elbow;
-mod gear;
-mod glb;
-mod goose;
-mod helmet;
-mod horn;
-mod jar;
-mod knot;
-mod obj;
-mod outline;
-mod part;
-mod patches;
-mod picnic;
-mod ply;
-mod polygon;
-mod pump;
-mod pump_motor;
-mod pump_parts;
-mod rack;
-mod shaft;
-mod shelf;
-mod shop;
-mod solid;
-mod stl;
-mod street;
-mod sweep;
-mod teapot;
-mod trellis;
+mod buildings;
+mod figures;
+mod geometry;
+mod machines;
+mod objects;
+mod writers;
 
 use std::path::PathBuf;
 
 use glam::DVec3;
 
-use part::{Material, Part};
+use geometry::part::{Material, Part};
 
 const STEEL: Material = Material { name: "steel", colour: [0.7, 0.72, 0.75], metallic: 1.0, roughness: 0.4 };
 
@@ -64,58 +28,62 @@ fn main() -> std::io::Result<()> {
         std::fs::write(folder.join(name), bytes)
     };
 
-    let (parts, normals) = teapot::teapot();
+    let (parts, normals) = objects::teapot::teapot();
     write(
         "teapot.obj",
-        obj::text("The Utah teapot, from its published patches", None, &parts, &normals).as_bytes(),
+        writers::obj::text("The Utah teapot, from its published patches", None, &parts, &normals).as_bytes(),
     )?;
-    let gear = Part::new("gear", STEEL, gear::gear());
-    write("gear.obj", obj::text("A spur gear of 24 teeth, in mm", None, &[gear], &[]).as_bytes())?;
-    write("bracket.stl", &stl::bytes("angle bracket, in mm", &bracket::bracket()))?;
-    write("pump.glb", &glb::bytes("ligne make_models", &pump::pump()))?;
-    write("drive.glb", &glb::bytes("ligne make_models", &drive::drive()))?;
-    let castle = castle::castle();
+    let gear = Part::new("gear", STEEL, machines::gear::gear());
+    write("gear.obj", writers::obj::text("A spur gear of 24 teeth, in mm", None, &[gear], &[]).as_bytes())?;
+    write("bracket.stl", &writers::stl::bytes("angle bracket, in mm", &machines::bracket::bracket()))?;
+    write("pump.glb", &writers::glb::bytes("ligne make_models", &machines::pump::pump_assembly::pump()))?;
+    write("drive.glb", &writers::glb::bytes("ligne make_models", &machines::drive::drive()))?;
+    let castle = buildings::castle::castle();
     let title = "A little castle, in metres";
-    write("castle.obj", obj::text(title, Some("castle.mtl"), &castle, &[]).as_bytes())?;
-    write("castle.mtl", obj::library(title, &castle).as_bytes())?;
-    let (knot, normals) = knot::knot();
-    write("knot.ply", &ply::bytes("a trefoil knot", &knot, &normals))?;
-    let (bear, normals) = bear::bear();
-    write("bear.ply", &ply::bytes("a bear of soft blobs", &bear, &normals))?;
+    write("castle.obj", writers::obj::text(title, Some("castle.mtl"), &castle, &[]).as_bytes())?;
+    write("castle.mtl", writers::obj::library(title, &castle).as_bytes())?;
+    let (knot, normals) = objects::knot::knot();
+    write("knot.ply", &writers::ply::bytes("a trefoil knot", &knot, &normals))?;
+    let (bear, normals) = figures::bear::bear();
+    write("bear.ply", &writers::ply::bytes("a bear of soft blobs", &bear, &normals))?;
 
     // Small models that are hard to see right.
-    let text = |title: &str, parts: &[Part], normals: &[Vec<DVec3>]| obj::text(title, None, parts, normals);
-    write("shaft.obj", text("A shaft in its bearing, in mm", &shaft::parts(), &[]).as_bytes())?;
-    write("drum.obj", text("Planetary gears in a drum, in mm", &drum::parts(), &[]).as_bytes())?;
-    let elbow = Part::new("elbow", STEEL, elbow::elbow());
+    let text =
+        |title: &str, parts: &[Part], normals: &[Vec<DVec3>]| writers::obj::text(title, None, parts, normals);
+    write("shaft.obj", text("A shaft in its bearing, in mm", &machines::shaft::parts(), &[]).as_bytes())?;
+    write("drum.obj", text("Planetary gears in a drum, in mm", &machines::drum::parts(), &[]).as_bytes())?;
+    let elbow = Part::new("elbow", STEEL, machines::elbow::elbow());
     write("elbow.obj", text("A pipe elbow with flanges, in mm", &[elbow], &[]).as_bytes())?;
-    let (blocks, normals) = bevels::parts();
+    let (blocks, normals) = machines::bevels::parts();
     write("bevels.obj", text("Bevelled blocks with smooth normals, in mm", &blocks, &normals).as_bytes())?;
-    write("horn.obj", text("A post horn", &horn::parts(), &[]).as_bytes())?;
-    write("goose.obj", text("A goose of few faces", &goose::parts(), &[]).as_bytes())?;
-    write("biplane.obj", text("A biplane with doubled skins", &biplane::parts(), &[]).as_bytes())?;
-    let (helmet, normals) = helmet::parts();
+    write("horn.obj", text("A post horn", &objects::horn::parts(), &[]).as_bytes())?;
+    write("goose.obj", text("A goose of few faces", &figures::goose::parts(), &[]).as_bytes())?;
+    write("biplane.obj", text("A biplane with doubled skins", &machines::biplane::parts(), &[]).as_bytes())?;
+    let (helmet, normals) = figures::helmet::parts();
     let title = "A helmet, one part of four materials";
-    write("helmet.obj", obj::text(title, Some("helmet.mtl"), &helmet, &normals).as_bytes())?;
-    write("helmet.mtl", obj::library(title, &helmet).as_bytes())?;
+    write("helmet.obj", writers::obj::text(title, Some("helmet.mtl"), &helmet, &normals).as_bytes())?;
+    write("helmet.mtl", writers::obj::library(title, &helmet).as_bytes())?;
     let title = "A jar of marbles, in cm";
-    let jar = jar::parts();
-    write("jar.obj", obj::text(title, Some("jar.mtl"), &jar, &[]).as_bytes())?;
-    write("jar.mtl", jar::library(title, &jar).as_bytes())?;
-    write("street.glb", &glb::bytes("ligne make_models", &street::street()))?;
-    write("crane.glb", &glb::bytes("ligne make_models", &crane::crane()))?;
-    write("brick.glb", &glb::bytes("ligne make_models", &brick::brick()))?;
-    write("shelf.ply", &ply::bytes("a scanned vase and a machined gear", &shelf::shelf(), &[]))?;
-    write("rack.stl", &stl::bytes("rods behind a wall", &rack::rack()))?;
-    write("picnic.obj", picnic::text().as_bytes())?;
-    write("picnic.mtl", picnic::library().as_bytes())?;
-    write("picnic-ball.png", &picnic::sectors())?;
-    write("picnic-cloth.png", &picnic::checks())?;
-    write("easter.obj", easter::text().as_bytes())?;
-    write("trellis.obj", trellis::text().as_bytes())?;
-    write("trellis.mtl", trellis::library().as_bytes())?;
-    write("trellis-hole.png", &trellis::hole())?;
-    write("trellis-leaf.png", &trellis::leaf())?;
+    let jar = objects::jar::parts();
+    write("jar.obj", writers::obj::text(title, Some("jar.mtl"), &jar, &[]).as_bytes())?;
+    write("jar.mtl", objects::jar::library(title, &jar).as_bytes())?;
+    write("street.glb", &writers::glb::bytes("ligne make_models", &buildings::street::street()))?;
+    write("crane.glb", &writers::glb::bytes("ligne make_models", &machines::crane::crane()))?;
+    write("brick.glb", &writers::glb::bytes("ligne make_models", &figures::brick::brick()))?;
+    write(
+        "shelf.ply",
+        &writers::ply::bytes("a scanned vase and a machined gear", &objects::shelf::shelf(), &[]),
+    )?;
+    write("rack.stl", &writers::stl::bytes("rods behind a wall", &buildings::rack::rack()))?;
+    write("picnic.obj", objects::picnic::text().as_bytes())?;
+    write("picnic.mtl", objects::picnic::library().as_bytes())?;
+    write("picnic-ball.png", &objects::picnic::sectors())?;
+    write("picnic-cloth.png", &objects::picnic::checks())?;
+    write("easter.obj", objects::easter::text().as_bytes())?;
+    write("trellis.obj", buildings::trellis::text().as_bytes())?;
+    write("trellis.mtl", buildings::trellis::library().as_bytes())?;
+    write("trellis-hole.png", &buildings::trellis::hole())?;
+    write("trellis-leaf.png", &buildings::trellis::leaf())?;
     // No model, but a brush to draw one with.
-    write("brush-dry.png", &brush::dry())
+    write("brush-dry.png", &objects::brush::dry())
 }

@@ -1,9 +1,16 @@
-//! Frames: a scene drawn again and again while clips play or the camera moves.
+//! Frames: a scene drawn repeatedly while clips play or the camera moves.
+//!
+//! 1. A [`Timeline`] lists the frames and their times; a [`Turntable`] moves the camera round the model.
+//! 2. The scene is prepared once at rest and posed for each frame ([`Animator`]).
+//! 3. Strokes that appear or disappear fade over several frames ([`fade`]).
+//!
+//! Files, in reading order: [`timeline`]; [`turntable`]; [`film_extent`] points that the frame must hold;
+//! [`detail_level`] scenes with fewer faces; [`face_budget`] faces per frame in real time; [`stroke_fade`].
 //!
 //! ```
 //! use ligne::animate::{Animator, Moment, Timeline};
 //! use ligne::drawing::{Page, Unit};
-//! use ligne::pose::{Playing, Rigged};
+//! use ligne::animation::{Playing, Rigged};
 //! use ligne::{Camera, Style};
 //!
 //! let crane = Rigged::open("examples/models/crane.glb")?;
@@ -21,27 +28,27 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 
-mod budget;
-mod fade;
-mod level;
-mod reach;
+mod detail_level;
+mod face_budget;
+pub(crate) mod film_extent;
+pub(crate) mod stroke_fade;
 mod timeline;
 mod turntable;
 
 use std::sync::OnceLock;
 
-pub use budget::Budget;
-pub use fade::{Trace, fade};
-pub use level::Level;
-pub use reach::reach;
+pub use detail_level::Level;
+pub use face_budget::Budget;
+pub use film_extent::reach;
+pub use stroke_fade::{Trace, fade};
 pub use timeline::Timeline;
 pub use turntable::Turntable;
 
+use crate::animation::{Playing, Rigged};
 use crate::drawing::{Drawing, Page};
 use crate::error::Error;
 use crate::motion;
-use crate::pose::{Playing, Rigged};
-use crate::render::{Report, Resting, Stopwatch};
+use crate::pipeline::{Report, Resting, Stopwatch};
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
 

@@ -2,8 +2,8 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use crate::math::function::{cos, sin};
-use crate::scene::framing::world_points;
+use crate::geometry::numbers::portable_math::{cos, sin};
+use crate::scene::cameras::framing::world_points;
 use crate::scene::{Camera, Scene, UpAxis};
 
 /// A turn round an upright axis in equal steps; the camera goes to its right, so that the model turns clockwise seen from above.

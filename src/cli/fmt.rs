@@ -6,11 +6,11 @@ use std::process::ExitCode;
 
 use clap::Args;
 
-use super::output::{Staging, check_place};
 use super::{DIFFERENCES, print};
+use crate::cli::output::output_files::{Staging, check_place};
 use crate::diff::canonical_svg;
 use crate::error::Error;
-use crate::export::gzip;
+use crate::export::encoding::gzip;
 
 /// No drawing is larger unpacked.
 const MOST_BYTES: usize = 1 << 30;
@@ -24,7 +24,7 @@ const MOST_BYTES: usize = 1 << 30;
 
 The picture stays the same. Marks that do not overlap are sorted, paths start at their upper end, and numbers are rounded.
 Version control then shows small differences. Drawings of ligne draw are already in canonical form.")]
-pub(super) struct FmtArgs {
+pub(crate) struct FmtArgs {
     /// SVG files
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
@@ -43,7 +43,7 @@ pub(super) struct FmtArgs {
 }
 
 /// Rewrites the files, all or none.
-pub(super) fn run(args: &FmtArgs) -> Result<ExitCode, Error> {
+pub(crate) fn run(args: &FmtArgs) -> Result<ExitCode, Error> {
     if args.files.len() > 1 && args.output.is_some() {
         return Err(Error::new("one output cannot hold several files")
             .at("--output")

@@ -1,51 +1,34 @@
-//! The command line: arguments, requests, and one module for each command.
+//! Command line of `ligne`: parsing, requests, and one module or folder for each command.
+//!
+//! A call runs in these steps:
+//! 1. [`shorthand`] turns `ligne MODEL` into `ligne draw MODEL`.
+//! 2. [`config`] adds options from environment variables and `ligne.toml`.
+//! 3. clap parses the words into the argument structs of [`options`].
+//! 4. [`request`] checks them and makes a `DrawRequest`.
+//! 5. The command draws, compares or lists. Files are staged in [`output`] and renamed at the end, all or
+//!    none.
+//!
+//! Commands: [`draw`], [`animate`], [`page`], [`diff`], [`test`], [`fmt`], [`info`], [`styles`], [`manual`]
+//! (`man`, `completions`); `lod` is in [`models`], which opens models. [`step`] converts STEP files.
+//! [`library_calls`] wraps the library calls that several commands share.
 
 mod animate;
-mod blend;
-mod completions;
 mod config;
-mod contact_sheet;
-mod conventions;
-mod defaults;
 mod diff;
 mod draw;
-mod draw_args;
-mod dxf_args;
 mod fmt;
-mod framing_args;
-mod hints;
 mod info;
-mod keys;
-mod lod;
-mod man;
-mod many;
-mod model_unit;
-mod moment;
-mod number;
-mod numbered;
-mod offered;
-mod opened;
+mod library_calls;
+mod manual;
+mod models;
+mod options;
 mod output;
 mod page;
-mod paper;
-mod pipeline;
-#[cfg(feature = "pdf")]
-mod print_args;
-mod progress;
-mod reference;
 mod request;
-mod section_args;
-mod shard;
 mod shorthand;
-mod status;
 mod step;
-mod style_keys;
 mod styles;
 mod test;
-mod viewpoint;
-mod web;
-mod web_args;
-mod wonder;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -103,7 +86,7 @@ struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Draw a model
-    Draw(Box<draw_args::DrawArgs>),
+    Draw(Box<options::draw_args::DrawArgs>),
     /// Draw an animation or a turntable as frames or a film
     Animate(Box<animate::AnimateArgs>),
     /// Compose drawings on pages: comic pages, technical sheets
@@ -117,18 +100,18 @@ enum Command {
     /// List contents and defects of a model file
     Info(info::InfoArgs),
     /// Precompute the simplification of a model, for --faces
-    Lod(lod::LodArgs),
+    Lod(models::lod::LodArgs),
     /// List or print built-in styles, or draw a model in all of them
     Styles(Box<styles::StylesArgs>),
     /// Print a completion script for a shell
-    Completions(completions::CompletionsArgs),
+    Completions(manual::completions::CompletionsArgs),
     /// Print a manual page
-    Man(man::ManArgs),
+    Man(manual::man_page::ManArgs),
 }
 
 /// The program's commands and options, as the parser, help, manual pages and completions use them.
 fn program() -> Program {
-    let of_drawing = draw_args::HowArgs::augment_args(Program::new("draw"));
+    let of_drawing = options::draw_args::HowArgs::augment_args(Program::new("draw"));
     let shared: Vec<_> = of_drawing.get_arguments().map(|option| option.get_id().clone()).collect();
     let mut program = Cli::command();
     // `Command::mut_subcommand` would move the command to the end of the list.
@@ -143,10 +126,10 @@ fn program() -> Program {
 /// Runs the program with the arguments of the process.
 #[must_use]
 pub fn main() -> ExitCode {
-    let surroundings = defaults::Surroundings::of_process();
+    let surroundings = config::call_defaults::Surroundings::of_process();
     let program = program();
     let typed = shorthand::expanded(std::env::args_os().collect(), &program);
-    let words = match defaults::complete(typed, &program, &surroundings) {
+    let words = match config::call_defaults::complete(typed, &program, &surroundings) {
         Ok(words) => words,
         Err(error) => {
             say(&format!("error: {error}"));
@@ -157,7 +140,7 @@ pub fn main() -> ExitCode {
     let cli = match parsed.and_then(|matches| Cli::from_arg_matches(&matches)) {
         Ok(cli) => cli,
         Err(error) => {
-            let error = style_keys::with_tip(error, &words, &program);
+            let error = options::style_keys::with_tip(error, &words, &program);
             // There is no other place to report a failure of standard error.
             let _ = error.print();
             return ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(WRONG));
@@ -165,27 +148,29 @@ pub fn main() -> ExitCode {
     };
     let success = |()| ExitCode::SUCCESS;
     let done = match cli.command {
-        Command::Draw(args) if args.contact.contact_sheet => contact_sheet::of_views(*args).map(success),
-        Command::Draw(args) if many::is_asked(&args) => many::run(*args),
-        Command::Draw(args) => {
-            request::DrawRequest::new(*args).and_then(|request| draw::run(&request)).map(success)
+        Command::Draw(args) if args.contact.contact_sheet => {
+            draw::contact_sheet::of_views(*args).map(success)
         }
+        Command::Draw(args) if draw::batch::is_asked(&args) => draw::batch::run(*args),
+        Command::Draw(args) => request::draw_request::DrawRequest::new(*args)
+            .and_then(|request| draw::model_drawing::run(&request))
+            .map(success),
         Command::Animate(args) => animate::run(*args).map(success),
         Command::Page(args) => page::run(&args).map(success),
         Command::Diff(args) => diff::run(&args),
         Command::Test(args) => test::run(&args, cli.no_config, &surroundings),
         Command::Fmt(args) => fmt::run(&args),
         Command::Info(args) => info::run(&args).map(success),
-        Command::Lod(args) => lod::run(&args).map(success),
+        Command::Lod(args) => models::lod::run(&args).map(success),
         Command::Styles(args) => styles::run(&args).map(success),
-        Command::Completions(args) => completions::run(&args).map(success),
-        Command::Man(args) => man::run(&args).map(success),
+        Command::Completions(args) => manual::completions::run(&args).map(success),
+        Command::Man(args) => manual::man_page::run(&args).map(success),
     };
     match done {
         Ok(status) => status,
         Err(error) => {
             say(&format!("error: {error}"));
-            ExitCode::from(status::of_error(&error))
+            ExitCode::from(output::exit_status::of_error(&error))
         }
     }
 }

@@ -12,7 +12,7 @@ use clap::Command;
 use super::say;
 
 /// The words of a call, with `draw` in front of a model. Notes on standard error if a command hides a file of the same name.
-pub(super) fn expanded(mut words: Vec<OsString>, program: &Command) -> Vec<OsString> {
+pub(crate) fn expanded(mut words: Vec<OsString>, program: &Command) -> Vec<OsString> {
     let is_global = |word: &OsString| word == "--no-config";
     let Some(at) = words.iter().skip(1).position(|word| !is_global(word)).map(|at| at + 1) else {
         return words;
@@ -61,7 +61,7 @@ mod tests {
 
     fn expanded_line(line: &str) -> String {
         let words = std::iter::once("ligne").chain(line.split_whitespace()).map(OsString::from).collect();
-        let words = expanded(words, &crate::cli::program());
+        let words = expanded(words, &super::super::program());
         let words: Vec<_> = words.iter().skip(1).map(|word| word.to_string_lossy()).collect();
         words.join(" ")
     }

@@ -2,8 +2,10 @@
 
 use clap::Args;
 
-use super::contact_sheet::{self, StyleSheetArgs};
-use super::{print, style_keys};
+use super::draw::contact_sheet;
+use super::options::style_keys;
+use super::print;
+use crate::cli::draw::contact_sheet::StyleSheetArgs;
 use crate::error::Error;
 use crate::style::Style;
 
@@ -16,7 +18,7 @@ use crate::style::Style;
   ligne styles --keys 'lines.*'           list keys with type, default and allowed values
   ligne styles --sheet all.svg gear.obj   draw a model in all styles, side by side
   ligne styles --sheet some.png gear.obj --style 'ink,*pencil*,mine.toml' --azimuth -20 --size 400")]
-pub(super) struct StylesArgs {
+pub(crate) struct StylesArgs {
     /// Style to print; with --sheet, the model to draw
     #[arg(value_name = "NAME|MODEL")]
     name: Option<String>,
@@ -43,7 +45,7 @@ pub(super) struct StylesArgs {
 }
 
 /// Lists the styles with the idea of each, or shows a sheet.
-pub(super) fn run(args: &StylesArgs) -> Result<(), Error> {
+pub(crate) fn run(args: &StylesArgs) -> Result<(), Error> {
     if let (Some(out), Some(model)) = (&args.sheet.sheet, &args.name) {
         return contact_sheet::of_styles(&args.sheet, out, model);
     }

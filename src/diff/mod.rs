@@ -1,7 +1,9 @@
-//! [`Diff`]: what differs between two drawings. Their pictures decide whether they are the same, their geometry says what differs.
+//! Differences between two drawings. Pixels decide whether the drawings are the same; geometry describes the
+//! differences.
 //!
-//! Any SVG can be compared. Two drawings are the same if they look the same within the tolerance, and say the same of their marks: how
-//! paths are ordered, grouped, split or joined, whether curves are written as curves, and how numbers look makes no difference.
+//! Any SVG can be compared. Two drawings are the same if they look the same within the tolerance and have the
+//! same labels. The order, grouping, splitting and joining of paths, the kind of curve command and the format
+//! of numbers make no difference.
 //!
 //! ```
 //! use ligne::diff::{self, DiffOptions, Picture};
@@ -15,80 +17,45 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 //!
-//! 1. [`Picture::from_svg`] reads a file, refusing what would take unbounded time, into shapes in px with ink and label.
-//! 2. Shapes that are equal point for point are set aside (`exact`), so that only what differs costs time.
-//! 3. The others become chains: flattened within a stated error, and joined where they were split (`chain`).
-//! 4. Of each chain of the one drawing, the pieces within tolerance of the other drawing's are found exactly, as
-//!    intervals (`cover`): the directed Hausdorff distance, cut off at the tolerance, with an index (`grid`).
-//! 5. Chains left with uncovered pieces are paired by their nearest likes (`pair`), and each pair is judged (`judge`).
-//! 6. Both drawings are rasterised (`pictures`). Where they look the same, findings about the picture are left out; where they
-//!    look different and nothing was found, that is a finding too.
+//! 1. [`read`] turns a file into shapes in px, each with ink and label. It refuses files that would take
+//!    unbounded time.
+//! 2. [`matching`] sets equal shapes aside. The others become chains: polylines, joined where they were
+//!    split.
+//! 3. [`matching`] computes the intervals of each chain within tolerance of the other drawing. This is the
+//!    directed Hausdorff distance, cut off at the tolerance. Chains with uncovered intervals are paired.
+//! 4. [`changes`] turns the events of chains into one finding per mark.
+//! 5. [`raster_check`] rasterises both drawings. If they look the same, findings about their look are
+//!    dropped. If they look different and geometry found nothing, the place becomes a finding.
+//! 6. [`causes`] explains many findings by one sentence, such as a moved part.
+//!
+//! Folders, in reading order: [`shapes`] the data compared; [`markup`] XML and CSS in bounded time; [`read`]
+//! SVG to shapes; [`curves`] chains, distances, indexes; [`findings`] the result; [`matching`], [`changes`],
+//! [`raster_check`], [`causes`] as above; [`report`] text, JSON, Markdown and overlay; [`canonical`] one form
+//! for any SVG file. [`comparison`] runs the steps.
 
-mod align;
-mod another_side;
-mod area;
-mod bundles;
 mod canonical;
-mod cascade;
 mod causes;
-mod chain;
-mod cover;
-mod distance;
-mod events;
-mod exact;
-mod finding;
-mod grid;
-mod groups;
-mod guard;
-mod ignore;
-mod inherited;
-mod ink;
-mod json;
-mod judge;
-mod label;
-mod legend;
-mod lines;
-mod markdown;
+mod changes;
+mod comparison;
+mod curves;
+mod findings;
 mod markup;
-mod motion;
-mod movers;
-mod numbers;
-mod outlines;
-mod overlay;
-mod paint_words;
-mod pair;
-mod parts;
-mod path_data;
-mod picture;
-mod pictures;
-mod pixels;
-mod plain;
+mod matching;
+mod raster_check;
 mod read;
-mod regions;
-mod said;
-mod segment;
-mod sheet;
-mod stacking;
-mod styled;
-mod tags;
-mod teller;
-mod text;
-mod tolerance;
-mod totals;
-mod unlabelled;
-mod whole;
-mod words;
+mod report;
+mod shapes;
 
-pub use canonical::canonical_svg;
-pub use finding::{Cause, Change, Diff, Finding, Place, Stage, Verdict};
-pub use ignore::Ignore;
-pub use ink::{Ink, Paint};
-pub use label::Label;
-pub use overlay::View;
-pub use picture::{Picture, Shape, ShapeKind};
-pub use pixels::PixelDiff;
-pub use tolerance::Tolerances;
-pub use totals::{Measure, Totals};
+pub use canonical::canonical_document::canonical_svg;
+pub use findings::finding::{Cause, Change, Diff, Finding, Place, Stage, Verdict};
+pub use findings::ink_totals::{Measure, Totals};
+pub use findings::pixel_count::PixelDiff;
+pub use report::overlay::View;
+pub use shapes::ignore_options::Ignore;
+pub use shapes::ink::{Ink, Paint};
+pub use shapes::label::Label;
+pub use shapes::picture::{Picture, Shape, ShapeKind};
+pub use shapes::tolerances::Tolerances;
 
 /// How two drawings are compared.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -154,5 +121,5 @@ impl DiffOptions {
 /// ```
 #[must_use]
 pub fn compare(before: &Picture, after: &Picture, options: &DiffOptions) -> Diff {
-    judge::compare(before, after, options)
+    comparison::compare(before, after, options)
 }

@@ -6,8 +6,8 @@ use kurbo::{Affine, BezPath, Point};
 use serde::{Deserialize, Serialize};
 
 use super::TextRun;
-use crate::math::colour::Colour;
-use crate::math::picture::Picture;
+use crate::colour::pixel_picture::Picture;
+use crate::colour::srgb::Colour;
 
 /// How a line ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]

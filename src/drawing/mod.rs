@@ -1,4 +1,10 @@
-//! [`Drawing`]: a pure 2-D document that knows nothing of 3-D, all that an exporter needs.
+//! [`Drawing`]: a 2-D document of painted paths, all that an exporter needs. It contains nothing of the 3-D
+//! scene.
+//!
+//! Files, in reading order: [`page`] (size and unit), [`length`], [`mark`] (one painted path), [`text_run`]
+//! (its words), [`hotspot`] (clickable areas), [`composition`] (several drawings on one page);
+//! `mark_transform`, `region_clip` (clipping) and `flat_composition` (a composition as one drawing);
+//! `stroke_font` (single-stroke letters).
 //!
 //! ```
 //! use ligne::SvgOptions;
@@ -9,16 +15,16 @@
 //! assert!(sheet.to_svg(&SvgOptions::default()).contains(r#"width="210mm""#));
 //! ```
 
-pub(crate) mod clipped;
 pub mod composition;
-mod flattened;
+mod flat_composition;
 pub mod hotspot;
 pub mod length;
-#[cfg(feature = "cli")]
-pub(crate) mod lettering;
 pub mod mark;
-mod moved;
+mod mark_transform;
 pub mod page;
+pub(crate) mod region_clip;
+#[cfg(feature = "cli")]
+pub(crate) mod stroke_font;
 pub mod text_run;
 
 pub use composition::{Boxes, Composition, Item};

@@ -1,4 +1,7 @@
-//! The one error of the crate: of which kind, which file, which place in it, what is wrong, what to do.
+//! [`Error`], the error type of the crate: kind, file, place, message and remedy.
+//!
+//! Files: [`messages`] rewrites messages of the TOML and JSON parsers in plain words; [`nearest`] finds the
+//! known word nearest to a misspelt one; [`spelling`] maps American to British spelling of keys and options.
 
 pub(crate) mod messages;
 pub(crate) mod nearest;

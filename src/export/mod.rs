@@ -1,4 +1,4 @@
-//! Bytes: a [`crate::drawing::Drawing`] as SVG, PDF, DXF or PNG.
+//! Drawings as files: a [`crate::drawing::Drawing`] as SVG, PDF, DXF, PNG or an animation.
 //!
 //! ```
 //! use ligne::{Camera, Scene, Style, SvgOptions, render};
@@ -11,75 +11,27 @@
 //! assert!(drawing.to_pdf().starts_with(b"%PDF"));
 //! # Ok::<(), ligne::Error>(())
 //! ```
+//!
+//! Folders, in reading order: [`encoding`] numbers, XML text, embedded pictures; [`paths`] canonical path
+//! data; [`svg`]; `pdf`; [`dxf`]; `raster` PNG from the SVG text; `film` animations. PDF, PNG and animations
+//! build on SVG, never the other way round.
 
-mod attributes;
-pub(crate) mod canonical;
 pub mod dxf;
+pub(crate) mod encoding;
 #[cfg(feature = "film")]
 pub mod film;
-#[cfg(feature = "cli")]
-pub(crate) mod gzip;
-mod hotspots;
-pub(crate) mod number;
-pub(crate) mod order;
-mod part_groups;
-mod path_data;
-#[cfg(feature = "pdf")]
+pub(crate) mod paths;
 pub mod pdf;
-#[cfg(feature = "pdf")]
-mod pdf_content;
-#[cfg(feature = "pdf")]
-mod pdf_document;
-#[cfg(feature = "pdf")]
-mod pdf_dots;
-#[cfg(feature = "pdf")]
-mod pdf_fonts;
-#[cfg(feature = "pdf")]
-mod pdf_inks;
-#[cfg(feature = "pdf")]
-mod pdf_masks;
-#[cfg(feature = "pdf")]
-pub mod pdf_options;
-#[cfg(feature = "pdf")]
-pub mod pdf_pages;
-#[cfg(feature = "pdf")]
-mod pdf_paints;
-#[cfg(feature = "pdf")]
-mod pdf_pictures;
-#[cfg(feature = "pdf")]
-mod pdf_resources;
-#[cfg(feature = "pdf")]
-pub mod pdf_screen;
-#[cfg(feature = "pdf")]
-mod pdf_sheet;
-#[cfg(feature = "pdf")]
-mod pdf_standard;
-mod pictures;
-pub(crate) mod piece;
-#[cfg(feature = "png")]
-pub mod png;
-#[cfg(feature = "png")]
-mod png_composition;
-#[cfg(feature = "png")]
-mod png_coverage;
-#[cfg(feature = "png")]
-mod png_image;
-#[cfg(feature = "png")]
-pub(crate) mod png_tree;
+pub mod raster;
 pub mod svg;
-mod svg_composition;
-mod svg_image;
-mod svg_options;
-mod touching;
-pub(crate) mod xml;
 
+#[cfg(feature = "pdf")]
+pub use self::pdf::composition_pages::to_pdf;
+#[cfg(feature = "pdf")]
+pub use self::pdf::press::halftone_screen::Screen;
+#[cfg(feature = "pdf")]
+pub use self::pdf::press::pdf_options::{Inks, PdfOptions, Spot, Standard};
 pub use dxf::{DxfLength, DxfOptions, DxfVersion};
-#[cfg(feature = "pdf")]
-pub use pdf_options::{Inks, PdfOptions, Spot, Standard};
-#[cfg(feature = "pdf")]
-pub use pdf_pages::to_pdf;
-#[cfg(feature = "pdf")]
-pub use pdf_screen::Screen;
 #[cfg(feature = "png")]
-pub use png::{Pixels, PngOptions, Resolution};
-pub use svg_options::{Grouping, SvgOptions};
+pub use raster::png_drawing::{Pixels, PngOptions, Resolution};
+pub use svg::svg_options::{Grouping, SvgOptions};

@@ -10,25 +10,32 @@
 //! assert_eq!(Scene::from_bytes(&bytes, ModelFormat::Stl)?.format, "STL");
 //! # Ok::<(), ligne::Error>(())
 //! ```
+//!
+//! 1. The file ending chooses the format; files that are no model, such as web pages, are refused.
+//! 2. The reader of the format makes a scene.
+//! 3. The precision of the coordinates is measured, for the tolerances of the mesh.
+//!
+//! Readers: [`obj`], [`ply`], [`stl`], [`gltf`]. Shared: [`text_cursor`] numbers and words of a text;
+//! [`parallel_file_read`] large files on several threads; [`polygons`] polygons into triangles;
+//! [`triangle_colours`]; [`coordinate_precision`].
 
-mod diagonals;
+mod coordinate_precision;
 pub mod gltf;
-mod large_file;
 pub mod obj;
+mod parallel_file_read;
 pub mod ply;
-mod polygon;
-mod precision;
+mod polygons;
 pub mod stl;
-mod text;
+mod text_cursor;
 mod triangle_colours;
 
 use std::fs;
 use std::io::{ErrorKind, Read};
 use std::path::Path;
 
-use self::text::decode;
+use self::text_cursor::decode;
+use crate::animation::Rigged;
 use crate::error::{self, Error};
-use crate::pose::Rigged;
 use crate::scene::Scene;
 
 const FORMATS: &str = "ligne reads .obj, .gltf, .glb, .stl and .ply";
@@ -154,11 +161,11 @@ fn unknown(message: impl Into<String>) -> Error {
 }
 
 /// Reads a file and hands its bytes and the stem of its name to a reader.
-pub(super) fn read_with(
+pub(crate) fn read_with(
     path: &Path,
     reader: impl FnOnce(&[u8], &str) -> Result<Scene, Error>,
 ) -> Result<Scene, Error> {
-    let bytes = large_file::read(path).map_err(|e| cannot_be_read(e).in_file(path))?;
+    let bytes = parallel_file_read::read(path).map_err(|e| cannot_be_read(e).in_file(path))?;
     let stem = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
     let mut scene = measured(reader(&bytes, &stem)).map_err(|error| error.in_file(path))?;
     scene.file = Some(path.to_path_buf());
@@ -168,7 +175,7 @@ pub(super) fn read_with(
 /// A scene that was read, with the precision of its coordinates.
 fn measured(scene: Result<Scene, Error>) -> Result<Scene, Error> {
     scene.map(|mut scene| {
-        precision::measure(&mut scene);
+        coordinate_precision::measure(&mut scene);
         scene
     })
 }
@@ -206,7 +213,7 @@ fn refuse_strange_bytes(bytes: &[u8]) -> Result<(), Error> {
 }
 
 /// How a place in the text is called in errors, with the word found there.
-pub(super) fn shown(word: &[u8]) -> String {
+pub(crate) fn shown(word: &[u8]) -> String {
     let start: Vec<u8> = word.iter().copied().take(20).collect();
     decode(&start).escape_debug().to_string()
 }

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::math::colour::{Colour, linear};
+use crate::colour::srgb::{Colour, linear};
 use crate::scene::{Geometry, Material};
 
 /// Most colours that become materials: those that a picture with a palette may have (PNG specification, third edition, 11.2.2).
@@ -14,7 +14,7 @@ const MAX_MATERIALS: usize = 256;
 /// Each colour becomes a material, in the order of the colours, so that the order of the faces does not matter; triangles without
 /// a colour get a default material after those. More than [`MAX_MATERIALS`] colours become the colours of vertices, which are split
 /// where colours meet: fills show them, and lines do not.
-pub(super) fn paint(geometry: &mut Geometry, colours: &[Option<Colour>], materials: &mut Vec<Material>) {
+pub(crate) fn paint(geometry: &mut Geometry, colours: &[Option<Colour>], materials: &mut Vec<Material>) {
     let mut distinct: Vec<Colour> = colours.iter().copied().flatten().collect();
     // Neighbours mostly have one colour.
     distinct.dedup();

@@ -1,8 +1,19 @@
-//! Motion lines: the ways that vertices of bodies have come, up to a moment of a clip.
+//! Motion lines: the paths that vertices of moving bodies have taken up to a moment of a clip.
+//!
+//! Source: Adam Lake, Carl Marshall, Mark Harris and Marc Blackstein, "Stylized rendering techniques for
+//! scalable real-time 3D animation", NPAR 2000, section 5. Their translation buffer is filled frame by frame.
+//! Here the clips are sampled at earlier times, so a moment looks the same whether or not others were drawn
+//! before it.
+//! 1. Bodies are parts, or what one joint of a skin moves; names, the file or their speed select them
+//!    ([`moving_bodies`]).
+//! 2. Lines start at vertices spread over the body, the same at all times ([`line_starts`]).
+//! 3. Each line follows its vertex, or the middle of the body, back in time.
+//!
+//! Files, in reading order: [`options`] the `[motion]` table; [`moving_bodies`]; [`line_starts`].
 //!
 //! ```
 //! use ligne::drawing::LayerKind;
-//! use ligne::pose::{Playing, Rigged};
+//! use ligne::animation::{Playing, Rigged};
 //! use ligne::{Camera, Style, motion, render};
 //!
 //! let model = Rigged::open("examples/models/brick.glb")?;
@@ -12,24 +23,20 @@
 //! assert!(drawing.layers.iter().any(|layer| layer.kind == LayerKind::Motion));
 //! # Ok::<(), ligne::Error>(())
 //! ```
-//!
-//! Source: Adam Lake, Carl Marshall, Mark Harris and Marc Blackstein, "Stylized rendering techniques for scalable real-time
-//! 3D animation", NPAR 2000, section 5. Their buffer of translations is filled frame by frame; here the clips are asked where
-//! things were, so that a moment is drawn alike whether others were drawn before it or not.
 
-mod choose;
+mod line_starts;
+mod moving_bodies;
 pub mod options;
-mod starts;
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
+use crate::animation::{Moment, Playing, Rigged};
 use crate::error::Error;
-use crate::math::function::cos;
-use crate::pose::{Moment, Playing, Rigged};
+use crate::geometry::numbers::portable_math::cos;
 use crate::scene::{Mover, Scene, Trail};
-use choose::{Body, Choice, bodies};
-use starts::Starts;
+use line_starts::Starts;
+use moving_bodies::{Body, Choice, bodies};
 
 pub use options::{FadeBy, LineChange, MotionOptions, Path, Speed};
 
@@ -216,7 +223,7 @@ pub fn why_none(
 }
 
 /// A triangle whose height is below this part of its longest side has no area: that of a body scaled to nothing is rounding.
-const MIN_HEIGHT_OF_SIDE: f64 = crate::math::tolerance::DEGENERATE_HEIGHT_OF_PART;
+const MIN_HEIGHT_OF_SIDE: f64 = crate::geometry::numbers::tolerance::DEGENERATE_HEIGHT_OF_PART;
 
 /// Whether a body has a size: not after scaling to zero, when all its triangles are without area, or all vertices of a joint lie in
 /// one place. Wires always have one.

@@ -5,10 +5,10 @@ use std::fmt;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
+use crate::colour::srgb::Colour;
 use crate::drawing::Length;
-use crate::math::colour::Colour;
-use crate::math::glob::Glob;
-use crate::stroke::Ink;
+use crate::geometry::names::glob::Glob;
+use crate::strokes::Ink;
 
 /// More lines a body, or more segments a line, than this are a mistake.
 const MOST: u32 = 1000;
@@ -183,7 +183,7 @@ fn angle<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
 
 /// A part of a whole.
 fn part<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
-    Ok(crate::stroke::fraction::fraction(deserializer)?.unwrap_or_default())
+    Ok(crate::strokes::fraction::fraction(deserializer)?.unwrap_or_default())
 }
 
 /// One name or a list of them.

@@ -1,4 +1,14 @@
-//! Pages: several drawings composed as comic panels or on a technical sheet, as a page file says.
+//! Pages: several drawings composed as comic panels or on a technical sheet, as a page file describes them.
+//!
+//! 1. [`page_file`] reads a page file and sends each page to the reader of its kind.
+//! 2. [`comic`] draws a page of panels with speech balloons; [`sheet`] draws a technical sheet. Both draw
+//!    models with [`figure`].
+//! 3. The result is a `ComposedPage`: a composition in mm and its warnings.
+//!
+//! Files, in reading order: [`page_file`]; [`page_source`] for errors and paths; [`page_size`] and
+//! [`mm_length`] for values; [`print_inks`]; [`model_reader`] for formats of the caller; [`composed_page`].
+//! Folders: [`figure`] (models, camera, style), [`layout`] (panels of a page), [`balloon_placement`],
+//! [`comic`], [`sheet`].
 //!
 //! ```
 //! use ligne::page::PageFile;
@@ -9,21 +19,21 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 
+pub mod balloon_placement;
 pub mod comic;
-pub mod composed;
+pub mod composed_page;
 pub mod figure;
-pub mod file;
 pub mod layout;
-pub mod length;
+pub mod mm_length;
 pub mod model_reader;
-pub mod placing;
-pub mod print;
+pub mod page_file;
+pub mod page_size;
+pub mod page_source;
+pub mod print_inks;
 pub mod sheet;
-pub mod size;
-pub mod source;
 
-pub use composed::Composed;
-pub use file::PageFile;
+pub use composed_page::Composed;
 pub use model_reader::ModelReader;
-pub use print::Print;
-pub use source::Source;
+pub use page_file::PageFile;
+pub use page_source::Source;
+pub use print_inks::Print;

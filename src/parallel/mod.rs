@@ -1,25 +1,28 @@
 //! Parallel loops over slices, vectors and ranges, with little code for each loop.
 //!
-//! A loop has three parts: a *source* that can be cut into parts, *steps* such as `map` and `filter`, and an *end* such as
-//! `collect`. It runs like this:
+//! A loop has a *source* that can be split ([`sources`]), *steps* such as `map` and `filter` ([`steps`]), and
+//! an *end* such as `collect` ([`ends`]). [`starts`] makes loops from collections; [`sort`] sorts under the
+//! names of rayon.
 //!
-//! 1. The length, the limits of the loop and the number of threads give the number of parts ([`part_count`]).
-//! 2. The source is cut into that many parts ([`cut`]).
-//! 3. Threads take parts in order until none is left ([`run`], the only function that starts threads).
-//! 4. Each part passes the steps as an ordinary iterator and gives one result.
-//! 5. The end joins the results in the order of the parts, so the outcome does not depend on the schedule.
+//! 1. The length, the limits of the loop and the number of threads give the number of parts (`part_count`).
+//! 2. The source is split into that many parts (`cut`).
+//! 3. Threads take parts in order until none is left (`run`, the only function that starts threads).
+//! 4. Each part passes the steps as an ordinary iterator and yields one result.
+//! 5. The end joins the results in the order of the parts, so the result does not depend on the schedule.
 //!
-//! The names are those of rayon, whose threads run the parts. Rayon's own iterators compile their scheduling anew for
-//! every closure; here it is compiled once.
-//!
-//! A loop without limits has up to [`PARTS_PER_THREAD`] parts a thread. `with_min_len` sets the least number of items in a
-//! part, for items that cost little. `with_max_len` sets the greatest, for items of unequal cost.
+//! The names are those of rayon, whose threads run the parts. Rayon's iterators compile their scheduling
+//! again for every closure; here it is compiled once. `with_min_len` bounds the items of a part from below,
+//! for cheap items. `with_max_len` bounds them from above, for items of unequal cost. Without limits a loop
+//! has up to 8 parts per thread.
 
+pub mod concatenation;
 mod ends;
+pub(crate) mod scratch_pool;
 mod sort;
 mod sources;
 mod starts;
 mod steps;
+pub mod task_size;
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};

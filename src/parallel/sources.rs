@@ -62,8 +62,8 @@ impl<T: Send> Split for Vec<T> {
 /// Runs of `size` items of a slice; the last may be shorter.
 #[derive(Clone)]
 pub(crate) struct Chunks<'a, T> {
-    pub(super) items: &'a [T],
-    pub(super) size: usize,
+    pub(crate) items: &'a [T],
+    pub(crate) size: usize,
 }
 
 impl<'a, T: Sync> Split for Chunks<'a, T> {
@@ -83,8 +83,8 @@ impl<'a, T: Sync> Split for Chunks<'a, T> {
 
 /// Runs of `size` items of a slice, to be changed; the last may be shorter.
 pub(crate) struct ChunksMut<'a, T> {
-    pub(super) items: &'a mut [T],
-    pub(super) size: usize,
+    pub(crate) items: &'a mut [T],
+    pub(crate) size: usize,
 }
 
 impl<'a, T: Send> Split for ChunksMut<'a, T> {

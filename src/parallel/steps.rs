@@ -6,10 +6,10 @@ use super::sources::{Both, Split};
 #[must_use]
 #[derive(Clone)]
 pub(crate) struct Parallel<S, F> {
-    pub(super) source: S,
-    pub(super) step: F,
-    pub(super) min: usize,
-    pub(super) max: usize,
+    pub(crate) source: S,
+    pub(crate) step: F,
+    pub(crate) min: usize,
+    pub(crate) max: usize,
 }
 
 /// A step, with all steps before it.
@@ -132,7 +132,7 @@ impl<S: Split, F: Step<S>, T, I: Fn() -> T + Sync, G: Fn(T, F::Item) -> T + Sync
 }
 
 impl<S: Split> Parallel<S, Plain> {
-    pub(super) fn new(source: S) -> Self {
+    pub(crate) fn new(source: S) -> Self {
         Self { source, step: Plain, min: 1, max: usize::MAX }
     }
 }

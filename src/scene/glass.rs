@@ -4,7 +4,7 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{Geometry, Material, Scene};
-use crate::math::glob::Glob;
+use crate::geometry::names::glob::Glob;
 
 /// What becomes of materials that one sees through.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::math::colour::Colour;
+use crate::colour::srgb::Colour;
 
 /// How a surface looks.
 #[derive(Debug, Clone, PartialEq)]

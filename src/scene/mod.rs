@@ -1,4 +1,4 @@
-//! [`Scene`]: what a model file holds, whatever its format.
+//! [`Scene`]: everything that a model file contains, independent of its format.
 //!
 //! ```
 //! use ligne::scene::{NamedView, UpAxis};
@@ -10,48 +10,46 @@
 //! assert_eq!(camera.validate(), Ok(()));
 //! # Ok::<(), ligne::Error>(())
 //! ```
+//!
+//! 1. A reader of the room `load` fills the scene: geometries, parts that instance them, materials, lights
+//!    and cameras.
+//! 2. A camera is chosen and framed.
+//! 3. Cut-outs remove triangles that are transparent; paints give each triangle its colour.
+//! 4. All instances become one triangle soup in world space, from which the mesh is built.
+//!
+//! Files, in reading order: [`parts`] geometries and parts; [`material`]; [`light`]; [`cameras`]; [`extent`]
+//! which points count and how precise they are; [`part_selection`] parts by name; [`glass`] see-through
+//! materials; [`textures`]; [`paints`]; [`triangle_soup`]; [`motion_trails`]; [`model_folder`] files next to
+//! the model; [`warnings`].
 
-pub(crate) mod beside;
-pub mod camera;
-pub mod camera_record;
-pub(crate) mod coarse;
-mod coloured;
-pub mod coordinate;
-pub(crate) mod cutout;
-pub(crate) mod drawn_points;
-mod enclosing;
-pub mod flatten;
-pub mod framing;
-pub mod geometry;
+pub mod cameras;
+pub mod extent;
 pub mod glass;
-pub mod inked;
 pub mod light;
 pub mod material;
-pub mod paint;
-mod paint_pictures;
-pub mod select;
-pub(crate) mod texels;
-pub(crate) mod texture;
-pub(crate) mod tints;
-pub mod trails;
-pub(crate) mod varied;
-pub mod views;
+pub(crate) mod model_folder;
+pub mod motion_trails;
+pub mod paints;
+pub mod part_selection;
+pub mod parts;
+pub(crate) mod textures;
+pub mod triangle_soup;
 pub mod warnings;
 
 use std::path::PathBuf;
 
 use glam::{DAffine3, DVec3};
 
-pub use camera::{Camera, Projection};
-pub use geometry::{Geometry, Part};
+pub use cameras::camera::{Camera, Projection};
+pub use cameras::named_views::NamedView;
 pub use glass::{GlassDraw, GlassOptions};
-pub use inked::{ArtistTexture, ArtistTextures};
 pub use light::{Light, LightKind};
 pub use material::{Alpha, Filter, Material, Wrap};
-pub use paint::{Paint, Paints};
-pub use texture::options::{TextureFill, TextureOptions};
-pub use trails::{Mover, Trail};
-pub use views::NamedView;
+pub use motion_trails::{Mover, Trail};
+pub use paints::artist_textures::{ArtistTexture, ArtistTextures};
+pub use paints::triangle_paints::{Paint, Paints};
+pub use parts::{Geometry, Part};
+pub use textures::texture_options::{TextureFill, TextureOptions};
 pub use warnings::Warnings;
 
 use crate::error::{Error, ErrorKind};

@@ -1,5 +1,16 @@
 //! [`Style`]: style sheets in TOML, the options of every stage.
 //!
+//! 1. `sheet_loader` follows `extends` from sheet to sheet and merges their tables, then the changes of the
+//!    command line.
+//! 2. `toml_reader` deserialises a table with the position of each error; `tables` has the structs of the
+//!    keys.
+//! 3. `files` reads the brushes, tiles and pictures that the keys name.
+//! 4. `sheet_errors` writes an error with its line, a caret and advice from `keys`, the table of all keys
+//!    (see [`StyleKey`]).
+//!
+//! Further files: `key_spelling`, American spelling; `unitless_lengths`, a warning about numbers without a
+//! unit.
+//!
 //! ```
 //! use ligne::Style;
 //!
@@ -10,40 +21,32 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 
-mod artist_file;
-#[cfg(feature = "page")]
-mod bare_lengths;
-mod brush_file;
-pub(crate) mod fault;
-mod fills;
-mod hatching;
-mod highlight;
+mod files;
+mod key_spelling;
 pub(crate) mod keys;
-mod load;
-mod picture_file;
-mod ramp_source;
-mod sheet;
-mod spelling;
-mod svg_file;
-mod tile_file;
+pub(crate) mod sheet_errors;
+mod sheet_loader;
+mod tables;
 pub(crate) mod toml_reader;
-
 #[cfg(feature = "page")]
-pub(crate) use bare_lengths::bare_lengths;
+pub(crate) mod unitless_lengths;
+
 pub use keys::{KeyType, StyleKey};
 #[cfg(feature = "page")]
-pub(crate) use load::placed_change;
+pub(crate) use sheet_loader::placed_change;
+#[cfg(feature = "page")]
+pub(crate) use unitless_lengths::bare_lengths;
 
-use crate::chain::ChainOptions;
+use crate::chains::ChainOptions;
+use crate::colour::srgb::Colour;
 use crate::error::Error;
-use crate::field::{LightOptions, ShadeOptions, ToneOptions};
-use crate::hatch::{HatchOptions, Paper, Pattern};
+use crate::hatching::{HatchOptions, Paper, Pattern};
+use crate::light::{LightOptions, ShadeOptions, ToneOptions};
 use crate::lines::LineOptions;
-use crate::math::colour::Colour;
 use crate::motion::MotionOptions;
-use crate::region::RegionOptions;
+use crate::regions::RegionOptions;
 use crate::scene::{GlassOptions, TextureOptions};
-use crate::stroke::StrokeOptions;
+use crate::strokes::StrokeOptions;
 
 /// The options of every stage.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,7 +86,7 @@ pub struct Style {
 impl Default for Style {
     /// The style `ink`.
     fn default() -> Self {
-        Self::preset("ink").unwrap_or_else(|| sheet::Sheet::default().into_style())
+        Self::preset("ink").unwrap_or_else(|| tables::style_sheet::Sheet::default().into_style())
     }
 }
 
@@ -146,7 +149,7 @@ impl Style {
     /// # Errors
     /// Names the file (or the change), the line and the key, and the nearest known one.
     pub fn load(name_or_path: &str, sets: &[String]) -> Result<Self, Error> {
-        load::load(name_or_path, sets)
+        sheet_loader::load(name_or_path, sets)
     }
 
     /// A complete sheet of a style: every key with its value or its default, and a line of help. It loads as the same style; paths in
@@ -155,7 +158,7 @@ impl Style {
     /// # Errors
     /// As [`Style::load`].
     pub fn full_sheet(name_or_path: &str) -> Result<String, Error> {
-        Ok(keys::full_sheet::full_sheet(name_or_path, &load::all_keys(name_or_path)?))
+        Ok(keys::full_sheet::full_sheet(name_or_path, &sheet_loader::all_keys(name_or_path)?))
     }
 
     /// The same for a page to scale or a DXF file: no point of the model moves by more than 0.02 mm, and corners on one circle become it.
@@ -175,6 +178,6 @@ impl Style {
     /// # Errors
     /// Names the line and the key that is wrong, and the nearest known one.
     pub fn from_toml(text: &str) -> Result<Self, Error> {
-        load::load_text(text)
+        sheet_loader::load_text(text)
     }
 }

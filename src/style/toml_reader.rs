@@ -371,8 +371,8 @@ mod tests {
         for name in crate::Style::names() {
             let text = crate::Style::sheet_text(name).unwrap();
             let table = toml::from_str::<Table>(text).unwrap();
-            let sheet = from_text::<super::super::sheet::Sheet>(text).unwrap();
-            let merged: super::super::sheet::Sheet = from_table(table).unwrap();
+            let sheet = from_text::<crate::style::tables::style_sheet::Sheet>(text).unwrap();
+            let merged: crate::style::tables::style_sheet::Sheet = from_table(table).unwrap();
             assert_eq!(format!("{sheet:?}"), format!("{merged:?}"), "{name}");
         }
     }

@@ -1,4 +1,4 @@
-//! Drawings under test: approved drawings beside the tests of a Rust project.
+//! Approval tests of drawings: approved SVG files are kept next to the tests of a Rust project.
 //!
 //! ```no_run
 //! use ligne::testing::assert_drawing;
@@ -13,10 +13,12 @@
 //! }
 //! ```
 //!
-//! A drawing passes if [`crate::diff`] finds no difference: files that differ in bytes alone pass. Where it differs, the test
-//! panics with what differs, and with the paths of the new drawing and of a picture of the difference. With the
-//! environment variable `LIGNE_BLESS` set to anything but `0`, drawings are written over the approved ones instead, unless
-//! `CI` is set: drawings are approved by people.
+//! 1. The drawing is written as SVG. A file with equal bytes passes.
+//! 2. Otherwise [`crate::diff`] compares both files. If it finds no difference, the test passes.
+//! 3. If the drawings differ, the test panics with the differences and with the paths of two files: the new
+//!    drawing and a picture of the difference.
+//! 4. If the environment variable `LIGNE_BLESS` is set to anything but `0`, the new drawing replaces the
+//!    approved one. This has no effect while `CI` is set, because people approve drawings.
 
 use std::hash::BuildHasher;
 use std::path::{Path, PathBuf};
@@ -28,7 +30,7 @@ use crate::drawing::Drawing;
 use crate::error::Error;
 use crate::export::SvgOptions;
 
-pub use super::assert_drawing;
+pub use crate::assert_drawing;
 
 /// The variable that approves drawings as they are.
 pub const BLESS: &str = "LIGNE_BLESS";
@@ -40,7 +42,7 @@ const MOST_LINES: usize = 30;
 ///
 /// The approved drawing is `tests/drawings/NAME.svg` of the crate under test, or `NAME.svg` in a folder of its own:
 /// `assert_drawing!(drawing, "name", folder = "tests/golden")`. `tolerance = "0.1px"` may be added at the end, as in
-/// `ligne diff --tolerance`. See [`crate::testing`].
+/// `ligne diff --tolerance`. See [`self`].
 #[macro_export]
 macro_rules! assert_drawing {
     ($drawing:expr, $name:expr $(,)?) => {

@@ -165,12 +165,12 @@ impl Font {
     }
 
     /// The font as shaping wants it.
-    pub(super) fn face(&self) -> &Face {
+    pub(crate) fn face(&self) -> &Face {
         &self.inner.face
     }
 
     /// The font's units in an em.
-    pub(super) fn units_per_em(&self) -> f64 {
+    pub(crate) fn units_per_em(&self) -> f64 {
         self.inner.units_per_em
     }
 }

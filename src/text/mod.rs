@@ -1,28 +1,36 @@
-//! Letters: words shaped with fonts, broken into lines, and set as marks of a drawing.
+//! Text: words shaped with fonts, broken into lines, and set as marks of a drawing.
+//!
+//! 1. `break_opportunities` finds where lines may break (UAX 14 and hyphenation).
+//! 2. `shaped_pieces` shapes the text between two breaks once, with `bidi`, `font_fallback` and `shaping`.
+//! 3. `measured_text` computes the width of any line; `line_breaking` chooses the breaks (greedy or by
+//!    dynamic programming).
+//! 4. [`text_block`] sets the lines and makes marks of them.
+//!
+//! Start with [`text_block`], [`setting`] and [`font`]; the other files follow in the order above.
 //!
 //! ```
-//! use ligne::text::{Block, Font, Setting};
+//! use ligne::text::{Font, Setting, TextBlock};
 //!
 //! let setting = Setting::new(Font::named("comic")?).with_em(4.0).upper_case();
-//! let block = Block::balanced("Nothing to see here, move along!", &setting, 30.0)?;
+//! let block = TextBlock::balanced("Nothing to see here, move along!", &setting, 30.0)?;
 //! assert!(block.lines.len() > 1 && block.width <= 30.0);
-//! let marks = block.marks(ligne::kurbo::Point::new(10.0, 10.0), ligne::math::colour::Colour::BLACK);
+//! let marks = block.marks(ligne::kurbo::Point::new(10.0, 10.0), ligne::colour::srgb::Colour::BLACK);
 //! assert_eq!(marks[0].provenance.text.as_ref().unwrap().words.as_ref(), block.lines[0].words);
 //! # Ok::<(), ligne::Error>(())
 //! ```
 
-pub mod block;
-mod breaks;
-mod chain;
-mod direction;
+mod bidi;
+mod break_opportunities;
 pub mod font;
-mod lines;
-mod pieces;
+mod font_fallback;
+mod line_breaking;
+mod measured_text;
 pub mod setting;
+mod shaped_pieces;
 mod shaping;
-mod source;
+pub mod text_block;
 
-pub use block::{Block, Line};
-pub use chain::Fallback;
 pub use font::Font;
+pub use font_fallback::Fallback;
 pub use setting::{Align, Setting, Size};
+pub use text_block::{Block, Line};

@@ -102,7 +102,7 @@ impl Setting {
     }
 
     /// A text as its letters are set.
-    pub(super) fn cased(&self, text: &str) -> String {
+    pub(crate) fn cased(&self, text: &str) -> String {
         if !self.upper_case {
             return text.to_owned();
         }

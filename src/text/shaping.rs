@@ -7,7 +7,7 @@ use crate::drawing::SetGlyph;
 use crate::error::Error;
 
 /// The glyphs of a text, from the left as they are seen, in ems of the font, and whether the font has all of them.
-pub(super) fn glyphs_of(
+pub(crate) fn glyphs_of(
     font: &Font,
     text: &str,
     runs_left: bool,

@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::thread;
 
-use super::documentation::{documents, read, root};
-use super::folder::Folder;
+use crate::documentation::{documents, read, root};
+use crate::folder::Folder;
 
 /// A fenced block of a page.
 struct Block<'a> {

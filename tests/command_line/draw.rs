@@ -1,7 +1,7 @@
 //! The command line with the whole pipeline behind it: what is drawn, written and said.
 
 use crate::folder::Folder;
-use ligne::render::Stage;
+use ligne::pipeline::Stage;
 use serde_json::Value;
 
 /// The numbers of an attribute of the root element.

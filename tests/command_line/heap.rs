@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
 
-use super::folder::Folder;
+use crate::folder::Folder;
 
 /// Bytes of the heap of a running program whose pages are to be large ones, as the system tells its mappings.
 fn in_large_pages(process: u32) -> u64 {

@@ -290,7 +290,7 @@ fn the_measure_counts_sentences_and_phrases() {
     );
     assert_eq!(measure.phrases, 2, "{measure:?}");
     let long = "word ".repeat(LONG_SENTENCE + 1);
-    assert_eq!(super::language::measure(&long).long, 1);
+    assert_eq!(self::measure(&long).long, 1);
     assert_eq!(phrases("What is a crease?"), Vec::<String>::new());
     assert_eq!(phrases("The file tells its format."), ["tells"]);
 }

@@ -6,12 +6,12 @@ use std::io::Cursor;
 use glam::DAffine3;
 use kurbo::Shape;
 use ligne::animate::{Animator, Moment, Timeline, Trace, Turntable, fade, reach};
+use ligne::animation::{Playing, Rigged};
 use ligne::drawing::{Drawing, LayerKind, Page, Paint, Unit};
 use ligne::export::film::{ApngFilm, GifFilm, SvgFilm, WebpFilm};
 use ligne::export::{Pixels, PngOptions};
 use ligne::motion::FadeBy;
-use ligne::pose::{Playing, Rigged};
-use ligne::render::Prepared;
+use ligne::pipeline::Prepared;
 use ligne::{Camera, Style, SvgOptions};
 
 const SIDE: f64 = 300.0;

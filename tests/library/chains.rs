@@ -4,9 +4,9 @@ use crate::support::pipeline::{counting, stages};
 use crate::support::properties::subject;
 use crate::support::properties::table::{CAMERAS, KINDS};
 use crate::support::segments::{doubled, length, uncovered};
+use ligne::chains::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
-use ligne::stages::chain::{self, ChainOptions};
-use ligne::stages::lines::HiddenLines;
+use ligne::lines::HiddenLines;
 
 #[test]
 fn plain_chains_are_the_visible_lines_each_once() {
@@ -15,7 +15,7 @@ fn plain_chains_are_the_visible_lines_each_once() {
         ChainOptions { smooth: off, simplify: off, tidy: off, fit: false, ..ChainOptions::default() };
     for subject in subject::random(&KINDS, &CAMERAS, 15) {
         let drawn = stages(&subject.scene, &subject.camera, &counting());
-        let chains = chain::link(&drawn.map, &options, Unit::Px, HiddenLines::None);
+        let chains = chains::link(&drawn.map, &options, Unit::Px, HiddenLines::None);
         let mut inked = Vec::new();
         for chain in chains.iter().filter(|c| c.invisibility == 0) {
             inked.extend(chain.points.windows(2).map(|w| [w[0], w[1]]));

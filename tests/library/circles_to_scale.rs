@@ -6,9 +6,9 @@ use glam::DVec3;
 use kurbo::{ParamCurveNearest, Point};
 use ligne::drawing::{Drawing, Page, Unit};
 use ligne::export::{DxfLength, DxfOptions};
+use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::load::ModelFormat;
-use ligne::math::function::{cos, sin};
-use ligne::render::render_reported;
+use ligne::pipeline::render_reported;
 use ligne::scene::Projection;
 use ligne::{Camera, Scene, Style};
 

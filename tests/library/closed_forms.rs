@@ -8,12 +8,12 @@ use crate::support::segments::{cover_alike, distance, doubled, length};
 use crate::support::solids::{Solid, cuboid, sphere, torus};
 use glam::DVec3;
 use kurbo::Point;
+use ligne::chains::{self, ChainOptions};
 use ligne::drawing::{Length, Unit};
+use ligne::lines::{HiddenLines, LineKind};
+use ligne::mesh::EdgeMark;
 use ligne::scene::{Camera, Geometry, Material, Scene};
-use ligne::stages::chain::{self, ChainOptions};
-use ligne::stages::lines::{HiddenLines, LineKind};
-use ligne::stages::mesh::EdgeMark;
-use ligne::stages::viewmap::ViewVertexKind;
+use ligne::visibility::ViewVertexKind;
 
 /// How near a computed end is to the known one, px.
 const EXACT_PX: f64 = 1e-6;
@@ -115,12 +115,12 @@ fn the_contour_of_a_sphere_is_a_circle() {
             let [a, b] = drawn.ends(edge);
             for p in [a, b] {
                 let r = distance(p, centre);
-                let sagitta = radius * (1.0 - ligne::math::function::cos(span)) * 1.3;
+                let sagitta = radius * (1.0 - ligne::geometry::numbers::portable_math::cos(span)) * 1.3;
                 assert!(r <= radius + 1e-9 && r >= radius - sagitta, "{r} of {radius}, {sagitta}");
             }
             if edge.invisibility == 0 {
                 let (u, v) = (a - centre, b - centre);
-                turned += ligne::math::function::atan2(u.cross(v), u.dot(v)).abs();
+                turned += ligne::geometry::numbers::portable_math::atan2(u.cross(v), u.dot(v)).abs();
             }
         }
         let whole = std::f64::consts::TAU;
@@ -179,13 +179,13 @@ fn a_torus_has_cusps_when_its_tube_is_thick_enough() {
     // Seen at an elevation, the contours are offsets of an ellipse with axes 1 and s by the tube's
     // radius; the inner one has four cusps, of which two are seen, if the tube is thicker than
     // the ellipse is curved at its ends, s * s.
-    use ligne::math::function::{cos, pow, sin};
+    use ligne::geometry::numbers::portable_math::{cos, pow, sin};
     for (elevation, tube) in [(60.0_f64, 0.3), (80.0, 0.4), (25.0, 0.3), (20.0, 0.25)] {
         let (s, c) = (sin(elevation.to_radians()), cos(elevation.to_radians()));
         let thick = tube > s * s;
         let camera = orthographic(at(0.0, -10.0 * c, 10.0 * s), DVec3::ZERO, 4.0);
         let drawn = stages(&scene([torus(128, 64, 1.0, tube)]), &camera, &exact());
-        let chains = chain::link(&drawn.map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
+        let chains = chains::link(&drawn.map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
         let open: Vec<_> = chains.iter().filter(|c| !c.closed && c.invisibility == 0).collect();
         let ends: Vec<Point> =
             open.iter().flat_map(|c| [c.points[0], c.points[c.points.len() - 1]]).collect();
@@ -327,7 +327,7 @@ fn a_bow_tie_shows_its_six_sides() {
 
 /// A strip with half a twist.
 fn moebius(around: usize) -> Solid {
-    use ligne::math::function::{cos, sin};
+    use ligne::geometry::numbers::portable_math::{cos, sin};
     let mut strip = Solid::default();
     for i in 0..around {
         let u = i as f64 / around as f64 * std::f64::consts::TAU;
@@ -381,7 +381,7 @@ fn an_eye_inside_a_cube_sees_its_edges_from_within() {
     let camera = perspective(DVec3::ZERO, at(0.0, 0.0, -1.0), 120.0);
     let drawn = stages(&scene([cube()]), &camera, &counting());
     // Beyond the frame's border the edges towards the eye go on.
-    let tan = ligne::math::function::tan(60.0_f64.to_radians());
+    let tan = ligne::geometry::numbers::portable_math::tan(60.0_f64.to_radians());
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let far: Vec<DVec3> = corners.iter().map(|(x, y)| at(*x, *y, -1.0)).collect();
     let mut wanted = outline(&far);
@@ -464,7 +464,7 @@ fn lines_seen_end_on_leave_no_dots() {
         stages(&scene([plate, cuboid(at(-1.0, -1.0, -3.0), at(1.0, 1.0, -2.0))]), &camera, &counting());
     let off = Length::px(0.0);
     let plain = ChainOptions { smooth: off, simplify: off, tidy: off, fit: false, ..ChainOptions::default() };
-    let chains = chain::link(&drawn.map, &plain, Unit::Px, HiddenLines::None);
+    let chains = chains::link(&drawn.map, &plain, Unit::Px, HiddenLines::None);
     let visible: Vec<_> = chains.iter().filter(|c| c.invisibility == 0).collect();
     assert!(visible.iter().all(|c| c.part.index() == 0), "only the plate is seen: {visible:?}");
     assert_eq!(visible.len(), 1, "{visible:?}");

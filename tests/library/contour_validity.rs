@@ -9,9 +9,9 @@ use std::path::PathBuf;
 
 use crate::support::polygon_truth::{Both, summary};
 use crate::support::validity::{Tally, cameras, check, view_map};
+use ligne::lines::{LineOptions, Surface};
+use ligne::mesh::Mesh;
 use ligne::scene::{Camera, Scene};
-use ligne::stages::lines::{LineOptions, Surface};
-use ligne::stages::mesh::Mesh;
 
 /// A model, how many pieces of its polyhedron's contour are drawn a view at most, and the least part of its
 /// stops that is explained, percent.

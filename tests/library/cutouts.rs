@@ -3,7 +3,7 @@
 use glam::DVec3;
 use kurbo::{Point, Shape as _};
 use ligne::drawing::{Drawing, Mark, Paint};
-use ligne::render::render;
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 
@@ -32,7 +32,11 @@ const RADIUS: f64 = 0.075;
 fn outlines() -> Vec<[DVec3; 2]> {
     let turn = |k: u32| std::f64::consts::TAU * f64::from(k) / 720.0;
     let round = |k: u32| {
-        DVec3::new(ligne::math::function::cos(turn(k)), ligne::math::function::sin(turn(k)), 0.0) * RADIUS
+        DVec3::new(
+            ligne::geometry::numbers::portable_math::cos(turn(k)),
+            ligne::geometry::numbers::portable_math::sin(turn(k)),
+            0.0,
+        ) * RADIUS
     };
     let mut all: Vec<[DVec3; 2]> = holes()
         .flat_map(|middle| (0..720).map(move |k| [middle + round(k), middle + round(k + 1)]))

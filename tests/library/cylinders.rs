@@ -6,9 +6,9 @@ use std::fs;
 
 use glam::{DMat3, DVec3};
 use ligne::Scene;
-use ligne::math::function::{cos, sin};
-use ligne::stages::mesh::Mesh;
-use ligne::stages::shape::cylinders::{Cylinder, cylinders};
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::mesh::Mesh;
+use ligne::surface::cylinders::strip_cylinders::{Cylinder, cylinders};
 
 use crate::support::dice::Dice;
 use crate::support::models;

@@ -15,11 +15,11 @@ use crate::support::properties::subject::Subject;
 use crate::support::solids::{Solid, cuboid, tube};
 use crate::support::truth::{State, Truth};
 use glam::DVec3;
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::lines::Contours;
 use ligne::load::ModelFormat;
-use ligne::math::function::{cos, sin};
-use ligne::render::render;
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Projection, Scene, UpAxis};
-use ligne::stages::lines::Contours;
 use ligne::style::Style;
 use rayon::prelude::*;
 

@@ -22,9 +22,9 @@ use crate::support::truth::{State, Truth};
 use glam::DVec3;
 use kurbo::Point;
 use ligne::drawing::Drawing;
-use ligne::render::render;
+use ligne::lines::{Contours, LineOptions};
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
-use ligne::stages::lines::{Contours, LineOptions};
 use ligne::style::Style;
 use rayon::prelude::*;
 

@@ -3,7 +3,7 @@
 use std::fs;
 
 use glam::DVec3;
-use ligne::math::function::{cos, sin};
+use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::page::{Composed, PageFile};
 
 use crate::support::dice::Dice;

@@ -4,10 +4,10 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 use kurbo::{Point, Shape};
+use ligne::colour::pixel_picture::Picture as Pixels;
 use ligne::drawing::{Drawing, Mark, Paint};
 use ligne::export::{PngOptions, SvgOptions};
-use ligne::math::picture::Picture as Pixels;
-use ligne::render::render;
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 

@@ -8,11 +8,11 @@ use crate::support::round_solids;
 use crate::support::scenes::{CAMERAS, SCENES, random_camera, random_scene};
 use crate::support::solids::{Solid, cuboid, sphere};
 use glam::DVec3;
+use ligne::lines::{self, Contours, EdgeSearch, Known, LineKind, LineOptions, Surface};
+use ligne::mesh::bvh::ToneTree;
+use ligne::mesh::{EdgeFaces, FaceId, MaterialId, Mesh};
 use ligne::scene::{Camera, Projection, Scene};
-use ligne::stages::lines::{self, Contours, EdgeSearch, Known, LineKind, LineOptions, Surface};
-use ligne::stages::mesh::{EdgeFaces, FaceId, MaterialId, Mesh};
-use ligne::stages::trees::ToneTree;
-use ligne::stages::view::View;
+use ligne::view::View;
 
 /// Checks that both ways find the same lines and that no pair was left out that the eye parts;
 /// returns how many edges were asked for contours alone, and how many are contours.
@@ -180,7 +180,7 @@ fn edges_that_are_left_out_are_no_contours() {
     let mut dice = Dice::new(77);
     let scene = random_scene("mixture", &mut dice);
     let mesh = Mesh::build(scene.to_soup());
-    let tree = ligne::stages::trees::DualTree::new(&mesh, |_| true);
+    let tree = ligne::mesh::bvh::DualTree::new(&mesh, |_| true);
     assert_eq!(tree.len(), mesh.edges.len());
     for camera in views(2.5) {
         let view = View::new(&mesh, &camera);
@@ -284,14 +284,15 @@ fn views_with_and_without_the_search_are_alike() {
         unit: ligne::drawing::Unit::Px,
         background: None,
     };
-    let prepared = ligne::render::Prepared::new(&ball, &style);
+    let prepared = ligne::pipeline::Prepared::new(&ball, &style);
     assert!(prepared_edges(&ball) > 20_000);
     // The trees are made for the hundredth view.
     let small = Camera { width: 40.0, height: 40.0, ..views(4.0)[0] };
     (0..100).for_each(|_| drop(prepared.draw(&small, page(&small), None).unwrap()));
     for camera in views(4.0).into_iter().take(12) {
         let (drawing, _) = prepared.draw(&camera, page(&camera), None).unwrap();
-        let alone = ligne::render::Prepared::new(&ball, &style).draw(&camera, page(&camera), None).unwrap().0;
+        let alone =
+            ligne::pipeline::Prepared::new(&ball, &style).draw(&camera, page(&camera), None).unwrap().0;
         assert!(drawing == alone, "{camera:?}");
     }
 }

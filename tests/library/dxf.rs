@@ -211,14 +211,14 @@ fn lengths_are_those_of_the_page_or_of_the_model() {
     let scene = Scene::open("examples/models/gear.obj").expect("a gear");
     let camera = Camera::named(ligne::scene::NamedView::Front, scene.up).fit(&scene);
     let drawing = render(&scene, &camera, &Style::default()).expect("a drawing");
-    let ligne::scene::camera::Projection::Orthographic { height } = camera.projection else {
+    let ligne::scene::cameras::camera::Projection::Orthographic { height } = camera.projection else {
         panic!("parallel")
     };
     let options = DxfOptions::default().with_length(DxfLength::Model(camera.height / height));
     let told = inked(&drawing.to_dxf(&options));
     let xs = || told.iter().flat_map(|one| one.points.iter().map(|point| point.x));
     let width = xs().fold(f64::NEG_INFINITY, f64::max) - xs().fold(f64::INFINITY, f64::min);
-    let points = ligne::scene::framing::world_points(&scene);
+    let points = ligne::scene::cameras::framing::world_points(&scene);
     let across = |of: fn(&ligne::glam::DVec3) -> f64| {
         points.iter().map(of).fold(f64::NEG_INFINITY, f64::max)
             - points.iter().map(of).fold(f64::INFINITY, f64::min)

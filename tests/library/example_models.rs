@@ -268,17 +268,17 @@ fn street_is_made_of_many_solids_without_normals() {
 fn crane_is_made_of_solids_that_turn_and_come_back() {
     let glb = Glb::read("crane.glb");
     assert_meshes_solid(&glb);
-    let rigged = ligne::pose::Rigged::open(path("crane.glb")).unwrap();
+    let rigged = ligne::animation::Rigged::open(path("crane.glb")).unwrap();
     let [clip] = &rigged.rig.clips[..] else { panic!("one clip") };
     assert_eq!((clip.name.as_str(), clip.span(), clip.channels.len()), ("lift", [0.0, 4.0], 4));
     let at = |time: f64| {
-        let scene = rigged.posed(&[ligne::pose::Playing::all(0, time)]).unwrap();
+        let scene = rigged.posed(&[ligne::animation::Playing::all(0, time)]).unwrap();
         scene.parts.iter().find(|part| part.name == "hook").unwrap().world_from_part
     };
     // The hook hangs where four turns in one another bring it: straight down but for the last.
     let hook = at(1.0).translation;
     let along = |length: f64, degrees: f64| {
-        use ligne::math::function::{cos, sin};
+        use ligne::geometry::numbers::portable_math::{cos, sin};
         glam::DVec3::new(cos(degrees.to_radians()), sin(degrees.to_radians()), 0.0) * length
     };
     let expected = glam::DVec3::new(0.5, 1.9, 0.0) + along(4.0, 60.0) + along(2.6, -20.0);
@@ -290,14 +290,14 @@ fn crane_is_made_of_solids_that_turn_and_come_back() {
 fn brick_is_made_of_solids_and_flies_as_it_was_thrown() {
     let glb = Glb::read("brick.glb");
     assert_meshes_solid(&glb);
-    let rigged = ligne::pose::Rigged::open(path("brick.glb")).unwrap();
+    let rigged = ligne::animation::Rigged::open(path("brick.glb")).unwrap();
     let [clip] = &rigged.rig.clips[..] else { panic!("one clip") };
     assert_eq!((clip.name.as_str(), clip.span()), ("fly", [0.0, 1.5]));
     let marked: Vec<&str> =
         rigged.rig.nodes.iter().filter(|node| node.leaves_lines).map(|node| node.name.as_str()).collect();
     assert_eq!(marked, ["brick"]);
     for time in [0.0, 0.4, 0.75, 1.1, 1.5] {
-        let scene = rigged.posed(&[ligne::pose::Playing::all(0, time)]).unwrap();
+        let scene = rigged.posed(&[ligne::animation::Playing::all(0, time)]).unwrap();
         let at = scene.parts.iter().find(|part| part.name == "brick").unwrap().world_from_part.translation;
         let thrown = glam::DVec3::new(-2.2 + 2.9 * time, 1.2 + (2.0 - 1.3 * time) * time, -0.42);
         assert!(at.distance(thrown) < 1e-5, "{time}: {at} {thrown}");

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DQuat, DVec3};
 use ligne::Scene;
-use ligne::explode::{Explosion, PartExplosion, TRAIL, explode, moved, with_trails};
+use ligne::edit::explode::{Explosion, PartExplosion, TRAIL, explode, moved, with_trails};
 use ligne::scene::{Geometry, Part};
 
 use crate::support::dice::Dice;

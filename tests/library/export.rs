@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use kurbo::{BezPath, PathSeg, Point};
+use ligne::colour::srgb::Colour;
 use ligne::drawing::{
     Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
 };
 use ligne::export::{Grouping, PngOptions, Resolution, SvgOptions};
-use ligne::math::colour::Colour;
 
 use crate::support::pdf::take_apart;
 

@@ -12,7 +12,7 @@ use kurbo::{BezPath, ParamCurve as _, PathEl, Point};
 use ligne::diff::canonical_svg;
 use ligne::drawing::Drawing;
 use ligne::export::{Grouping, SvgOptions};
-use ligne::render::render;
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 
 use glam::DVec3;
 use ligne::animate::{Animator, Moment};
+use ligne::animation::{Playing, Rigged};
 use ligne::drawing::{Drawing, Page, Unit};
-use ligne::math::function::{cos, sin};
-use ligne::pose::{Playing, Rigged};
+use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::{Camera, Style};
 use serde_json::json;
 

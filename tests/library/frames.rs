@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 use kurbo::{BezPath, Point, Rect, Shape};
+use ligne::chains::Chain;
 use ligne::drawing::{Mark, Paint};
-use ligne::stages::chain::Chain;
-use ligne::stages::stroke::{InkContext, ink};
+use ligne::strokes::{InkContext, ink};
 use ligne::style::Style;
 
 use crate::support::movers::{before, drawn, going, lines, rigged, unit_box};

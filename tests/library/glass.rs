@@ -5,11 +5,11 @@ use std::path::Path;
 use glam::DVec3;
 use kurbo::Point;
 use ligne::drawing::{Drawing, LayerKind, Paint};
-use ligne::render::render;
+use ligne::mesh::{FaceId, Mesh};
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
-use ligne::stages::mesh::{FaceId, Mesh};
-use ligne::stages::view::Frame;
 use ligne::style::Style;
+use ligne::view::Frame;
 
 use crate::support::ink::{Ink, flattened, samples};
 

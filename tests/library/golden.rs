@@ -8,7 +8,7 @@ use std::path::Path;
 use crate::support::pipeline::scene;
 use crate::support::solids::{cuboid, sphere, torus};
 use glam::DVec3;
-use ligne::render::render;
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 use ligne::testing::assert_drawing;

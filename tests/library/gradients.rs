@@ -2,9 +2,9 @@
 
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Shape};
+use ligne::colour::srgb::Colour;
 use ligne::drawing::{LayerKind, Mark, Paint};
-use ligne::math::colour::Colour;
-use ligne::math::function::{cos, sin};
+use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::scene::Camera;
 use ligne::{Style, SvgOptions, render};
 

@@ -4,9 +4,9 @@
 use crate::support::patches;
 use crate::support::patches::{coverage, ground, square};
 use kurbo::{BezPath, Point, Shape};
-use ligne::math::function::{cos, sin};
-use ligne::stages::hatch::{CellDots, DotScreen, Stipple, ToneBorders, dots, stipple};
-use ligne::stages::region::Ground;
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::hatching::{CellDots, DotScreen, Stipple, ToneBorders, dots, stipple};
+use ligne::regions::Ground;
 
 const SCREEN: DotScreen = DotScreen {
     pitch: 6.0,

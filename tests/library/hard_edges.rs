@@ -4,10 +4,10 @@ use crate::support::dice::Dice;
 use crate::support::models;
 use crate::support::solids::{Solid, cuboid, tube};
 use glam::DVec3;
-use ligne::math::function::tan;
+use ligne::geometry::numbers::portable_math::tan;
+use ligne::mesh::{EdgeMark, Mesh, Soup};
 use ligne::scene::Scene;
-use ligne::stages::mesh::{EdgeMark, Mesh, Soup};
-use ligne::stages::shape::{HardEdges, Patches};
+use ligne::surface::{HardEdges, Patches};
 
 const CREASE_DEG: f64 = 40.0;
 

@@ -9,17 +9,17 @@ use crate::support::dice::Dice;
 use crate::support::solids::{cuboid, sphere, torus};
 use glam::DVec3;
 use kurbo::{Point, Vec2};
+use ligne::colour::srgb::Colour;
 use ligne::drawing::{LayerKind, Page, Paint, Unit};
 use ligne::export::PngOptions;
-use ligne::export::png::Resolution;
-use ligne::math::colour::Colour;
-use ligne::render::Prepared;
+use ligne::export::raster::png_drawing::Resolution;
+use ligne::hatching::{self, HatchContext, HatchOptions, HatchStroke, Tone};
+use ligne::mesh::{FaceId, MaterialId, Mesh, PaintId, PartId};
+use ligne::pipeline::Prepared;
+use ligne::regions::hatch_regions::hatch_map::{BorderPiece, Cell};
+use ligne::regions::{Ground, Look};
 use ligne::scene::Scene;
-use ligne::stages::hatch::{self, HatchContext, HatchOptions, HatchStroke, Tone};
-use ligne::stages::mesh::{FaceId, MaterialId, Mesh, PaintId, PartId};
-use ligne::stages::region::ground::{BorderPiece, Cell};
-use ligne::stages::region::{Ground, Look};
-use ligne::stages::stroke::Ink;
+use ligne::strokes::Ink;
 use ligne::{Drawing, Style, render};
 
 /// Side of a flat patch, px.
@@ -63,7 +63,7 @@ fn strokes(
     bin: u16,
     seed: u64,
 ) -> BTreeMap<(usize, u64), HatchStroke> {
-    let layers = hatch::strokes(&patch(bin), &context(tones, seed), options).into_iter().enumerate();
+    let layers = hatching::strokes(&patch(bin), &context(tones, seed), options).into_iter().enumerate();
     let named = layers.flat_map(|(n, layer)| layer.strokes.into_iter().map(move |s| ((n, s.id), s)));
     named.collect()
 }
@@ -71,7 +71,7 @@ fn strokes(
 /// The share of the middle of a patch that is black.
 fn covered(options: &HatchOptions, tones: &[Tone], bin: u16) -> f64 {
     const SCALE: u32 = 4;
-    let layer = hatch::fill(&patch(bin), &context(tones, 0), options, Vec::new());
+    let layer = hatching::fill(&patch(bin), &context(tones, 0), options, Vec::new());
     let page = Page { width: SIDE, height: SIDE, unit: Unit::Px, background: Some(Colour::WHITE) };
     let drawing = Drawing::new("", page, layer.into_iter().collect());
     let width = SIDE as u32 * SCALE;
@@ -121,7 +121,8 @@ fn darker_tones_keep_all_strokes_of_lighter_ones() {
             for (id, stroke) in &lighter {
                 assert_eq!(own.get(id), Some(stroke), "bin {bin} lost or changed a stroke");
             }
-            let total: f64 = own.values().map(|stroke| hatch::clip::length(&stroke.points)).sum();
+            let total: f64 =
+                own.values().map(|stroke| hatching::clip::line_clip::length(&stroke.points)).sum();
             assert!(total >= lengths);
             lengths = total;
             lighter = own;
@@ -225,7 +226,7 @@ fn strokes_stay_inside(sheets: &[&str]) {
             let prepared = Prepared::new(&scene, &style);
             let (ground, layers) = prepared.hatch_strokes(&camera, page(&camera)).expect("a hatching");
             let mesh = Mesh::build(scene.to_soup());
-            let view = ligne::stages::view::View::new(&mesh, &camera);
+            let view = ligne::view::View::new(&mesh, &camera);
             let mut asked = 0;
             for stroke in layers.iter().flat_map(|layer| &layer.strokes) {
                 let facet = ground.cells[stroke.cell as usize].facet;
@@ -250,7 +251,7 @@ fn strokes_stay_inside(sheets: &[&str]) {
 }
 
 /// The depth of the surface at a page point by brute force, for some points; infinite on paper.
-fn depth(mesh: &Mesh, view: &ligne::stages::view::View, p: Point, is_asked: bool) -> Option<f64> {
+fn depth(mesh: &Mesh, view: &ligne::view::View, p: Point, is_asked: bool) -> Option<f64> {
     if !is_asked {
         return None;
     }
@@ -309,7 +310,10 @@ fn strokes_fixed_to_the_model_stay_when_it_turns() {
         let prepared = Prepared::new(&scene, &style);
         let drawn = |turn: f64| {
             let mut camera = camera(&scene);
-            let (s, c) = (ligne::math::function::sin(turn), ligne::math::function::cos(turn));
+            let (s, c) = (
+                ligne::geometry::numbers::portable_math::sin(turn),
+                ligne::geometry::numbers::portable_math::cos(turn),
+            );
             let to_eye = camera.eye - camera.target;
             let turned = DVec3::new(to_eye.x * c + to_eye.z * s, to_eye.y, to_eye.z * c - to_eye.x * s);
             camera.eye = camera.target + turned;

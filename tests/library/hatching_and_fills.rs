@@ -6,11 +6,11 @@ use std::collections::BTreeMap;
 
 use crate::support::solids::{Solid, cuboid};
 use glam::DVec3;
+use ligne::colour::srgb::Colour;
 use ligne::drawing::{LayerKind, Paint};
-use ligne::math::colour::Colour;
-use ligne::render::Prepared;
+use ligne::pipeline::Prepared;
 use ligne::scene::{Camera, Geometry, NamedView, Scene};
-use ligne::{Drawing, Style, render};
+use ligne::{Drawing, Style};
 
 /// A pillar on a floor, under a light high on the left.
 fn pillar(sets: &[&str]) -> Drawing {
@@ -19,7 +19,7 @@ fn pillar(sets: &[&str]) -> Drawing {
     let scene = pipeline::scene([floor, pillar]);
     let light = "light.sources=[{kind=\"directional\", direction=[-1, 1, 0.4]}]";
     let style = style("comic", &[&[light], sets].concat());
-    render::render(&scene, &camera(&scene), &style).unwrap()
+    ligne::render(&scene, &camera(&scene), &style).unwrap()
 }
 
 /// The area of the marks of a layer.
@@ -110,7 +110,7 @@ fn white_lines_part_blacks_and_nothing_else() {
         let light =
             format!("light.sources=[{{kind=\"directional\", direction={direction}, space=\"camera\"}}]");
         let sets = [&["pen.colour=\"#101014\"", &light], more].concat();
-        render::render(&scene, &camera(&scene), &style("comic", &sets)).unwrap()
+        ligne::render(&scene, &camera(&scene), &style("comic", &sets)).unwrap()
     };
     // From behind: all three sides are black. Of the edges between them two are joined end to end.
     let dark = from("[0, 0, -1]", &[]);
@@ -135,11 +135,11 @@ fn white_lines_part_blacks_and_nothing_else() {
     // Paint may be as black, and pens may be without a hand.
     let noir =
         style("noir", &["light.sources=[{kind=\"directional\", direction=[0, 0, -1], space=\"camera\"}]"]);
-    let noir = render::render(&scene, &camera(&scene), &noir).unwrap();
+    let noir = ligne::render(&scene, &camera(&scene), &noir).unwrap();
     assert_eq!(lines_in(&noir, paper), BTreeMap::from([("crease", 2)]));
     let sets =
         ["light.sources=[{kind=\"directional\", direction=[0, 0, -1], space=\"camera\"}]", "light.wrap=0"];
-    let woodcut = render::render(&scene, &camera(&scene), &style("woodcut", &sets)).unwrap();
+    let woodcut = ligne::render(&scene, &camera(&scene), &style("woodcut", &sets)).unwrap();
     assert_eq!(lines_in(&woodcut, paper), BTreeMap::from([("crease", 2)]));
 }
 
@@ -154,7 +154,7 @@ fn strokes_in_a_shade_take_the_colour_that_is_painted() {
          [[hatching.layer]]\ncolour = { shade = 0.25 }\n",
     )
     .expect("a style");
-    let drawing = render::render(&scene, &camera(&scene), &style).unwrap();
+    let drawing = ligne::render(&scene, &camera(&scene), &style).unwrap();
     for (kind, red) in [(LayerKind::Hatching, 64), (LayerKind::Lines, 128)] {
         let layer = drawing.layers.iter().find(|layer| layer.kind == kind).expect("a layer");
         for mark in &layer.marks {

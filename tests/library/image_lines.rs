@@ -4,15 +4,15 @@
 use glam::DVec3;
 use kurbo::Point;
 use ligne::drawing::{Drawing, LayerKind, Unit};
-use ligne::render::{Prepared, render};
+use ligne::light::ShadedNormals;
+use ligne::lines::image::{Dilation, EdgeTest, ImageOptions, edges, ink_dilation};
+use ligne::lines::{LineOptions, Surface};
+use ligne::mesh::Mesh;
+use ligne::pipeline::{Prepared, render};
 use ligne::scene::{Camera, Geometry, Scene};
-use ligne::stages::field::ShadedNormals;
-use ligne::stages::lines::image::{Dilation, EdgeTest, ImageOptions, dilate, edges};
-use ligne::stages::lines::{LineOptions, Surface};
-use ligne::stages::mesh::Mesh;
-use ligne::stages::raster::{Maps, NO_FRONT};
-use ligne::stages::view::View;
 use ligne::style::Style;
+use ligne::view::View;
+use ligne::view::raster::{Maps, NO_FRONT};
 
 use crate::support::dice::Dice;
 use crate::support::ink::{Ink, flattened, samples};
@@ -341,7 +341,7 @@ fn passes_widen_the_lines_of_a_picture_as_the_listing_does() {
     edges[24] = true;
     let of = |passes: u8, dilation: Dilation| {
         let options = ImageOptions { passes, dilation, ..ImageOptions::default() };
-        dilate::inked(&edges, 7, &options)
+        ink_dilation::inked(&edges, 7, &options)
     };
     for pixel in 0..49_i32 {
         let away = (pixel % 7 - 3).abs() + (pixel / 7 - 3).abs();

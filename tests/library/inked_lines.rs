@@ -6,8 +6,8 @@ use crate::support::strokes::{
 };
 use kurbo::{Point, Shape};
 use ligne::drawing::{OutlinePaint, Paint};
-use ligne::math::function::{cos, sin};
-use ligne::stages::lines::LineKind;
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::lines::LineKind;
 use ligne::style::Style;
 use std::f64::consts::{PI, TAU};
 

@@ -8,13 +8,13 @@ use crate::support::strokes::{
 };
 use glam::DVec3;
 use kurbo::{BezPath, Point, Shape};
+use ligne::colour::srgb::Colour;
 use ligne::drawing::{Drawing, LayerKind, Mark, Paint, Unit};
 use ligne::export::SvgOptions;
-use ligne::math::colour::Colour;
-use ligne::math::function::{cos, sin};
-use ligne::render::render;
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
-use ligne::stages::stroke::{InkContext, ink};
+use ligne::strokes::{InkContext, ink};
 
 fn lines(drawing: &Drawing) -> &[Mark] {
     let layer = drawing.layers.iter().find(|layer| layer.kind == LayerKind::Lines);

@@ -4,8 +4,8 @@ use crate::support::dice::Dice;
 use crate::support::mesh_file;
 use crate::support::solids::{Solid, cuboid, sphere, tube};
 use glam::DVec3;
-use ligne::stages::mesh::PartId;
-use ligne::stages::trees::intersect::{IntersectionCurves, IntersectionInput, intersections};
+use ligne::mesh::PartId;
+use ligne::mesh::intersect::intersection_curves::{IntersectionCurves, IntersectionInput, intersections};
 
 fn find(solid: &Solid) -> IntersectionCurves {
     intersections(&IntersectionInput {
@@ -248,7 +248,7 @@ fn tube_through_plane_gives_one_polygon() {
     };
     let curves = find(&scene([tube(64, 3, 1.0, 2.0), plane]));
     assert_eq!(loops(&curves), 1);
-    let polygon = 128.0 * ligne::math::function::sin(std::f64::consts::PI / 64.0);
+    let polygon = 128.0 * ligne::geometry::numbers::portable_math::sin(std::f64::consts::PI / 64.0);
     assert!((length(&curves) - polygon).abs() < 1e-12);
     assert!(curves.points.iter().all(|p| (p.z - 0.1).abs() < 1e-15));
 }
@@ -333,7 +333,7 @@ fn scale_and_distance_change_nothing() {
     assert!(!segments.is_empty());
     for (scale, offset) in [(1e-9, 0.0), (1e9, 0.0), (1.0, 4096.0)] {
         let moved = both.clone().moved(|p| p * scale + DVec3::splat(offset));
-        let faces = |s: &[ligne::stages::trees::intersect::IntersectionSegment]| {
+        let faces = |s: &[ligne::mesh::intersect::intersection_curves::IntersectionSegment]| {
             s.iter().map(|s| s.faces).collect::<Vec<_>>()
         };
         assert_eq!(faces(&find(&moved).segments), faces(&segments), "scale {scale}, offset {offset}");

@@ -81,7 +81,11 @@ fn a_ball_has_circles_where_light_says_with_and_without_fills() {
         let radius = (1.0 - level * level).sqrt();
         let at = |k: usize| {
             let angle = std::f64::consts::TAU * k as f64 / 720.0;
-            DVec3::new(ligne::math::function::cos(angle), ligne::math::function::sin(angle), 0.0) * radius
+            DVec3::new(
+                ligne::geometry::numbers::portable_math::cos(angle),
+                ligne::geometry::numbers::portable_math::sin(angle),
+                0.0,
+            ) * radius
         };
         traced(&eye, &(0..=720).map(at).collect::<Vec<_>>())
     };
@@ -118,10 +122,14 @@ fn a_shadow_and_a_pool_of_light_on_a_plane_are_inked_where_the_tone_changes() {
     let eye = Eye::new(&camera);
     // The shadow: x from 5 to 7, y from -1 to 1.
     let rim = 35.0_f64.sqrt();
-    let start = ligne::math::function::atan2(1.0, rim);
+    let start = ligne::geometry::numbers::portable_math::atan2(1.0, rim);
     let arc = |k: usize| {
         let angle = start + (std::f64::consts::TAU - 2.0 * start) * k as f64 / 720.0;
-        DVec3::new(ligne::math::function::cos(angle), ligne::math::function::sin(angle), 0.0) * 6.0
+        DVec3::new(
+            ligne::geometry::numbers::portable_math::cos(angle),
+            ligne::geometry::numbers::portable_math::sin(angle),
+            0.0,
+        ) * 6.0
     };
     let circle = traced(&eye, &(0..=720).map(arc).collect::<Vec<_>>());
     let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);

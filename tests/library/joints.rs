@@ -7,7 +7,7 @@ use glam::{DQuat, DVec3};
 use kurbo::Point;
 use ligne::drawing::{Drawing, LayerKind};
 use ligne::load::ModelFormat;
-use ligne::render::render;
+use ligne::pipeline::render;
 use ligne::scene::{Camera, NamedView, Projection, Scene, UpAxis};
 use ligne::style::Style;
 

@@ -6,9 +6,9 @@ use draco_core::{
 };
 use glam::DVec3;
 use kurbo::Point;
+use ligne::lines::{LineKind, LineOptions};
 use ligne::load::ModelFormat;
 use ligne::scene::{Camera, Scene};
-use ligne::stages::lines::{LineKind, LineOptions};
 
 use crate::support::glb::glb;
 use crate::support::ink::beyond;

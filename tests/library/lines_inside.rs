@@ -6,13 +6,14 @@ use crate::support::pipeline::orthographic;
 use crate::support::solids::{Solid, torus, tube};
 use glam::DVec3;
 use ligne::drawing::{Mark, Paint};
-use ligne::math::function::{atan2, pow};
+use ligne::geometry::numbers::portable_math::{atan2, pow};
+use ligne::lines::zero_sets::interior;
+use ligne::lines::{FeatureLines, InsideOptions, LineKind, LineOptions};
+use ligne::mesh::{Mesh, Soup};
 use ligne::scene::{Camera, Scene};
-use ligne::stages::lines::{FeatureLines, InsideOptions, LineKind, LineOptions, inside};
-use ligne::stages::mesh::{Mesh, Soup};
-use ligne::stages::shape::{Curvature, SmoothNormals};
-use ligne::stages::view::View;
 use ligne::style::Style;
+use ligne::surface::{Curvature, SmoothNormals};
+use ligne::view::View;
 
 fn mesh_of(solid: &Solid) -> Mesh {
     let (positions, triangles) = (solid.positions.clone(), solid.triangles.clone());
@@ -62,7 +63,7 @@ fn sphere(cells: u32, radius: f64) -> Solid {
 
 /// A sphere with bumps.
 fn bumpy(around: u32) -> Solid {
-    use ligne::math::function::{cos, sin};
+    use ligne::geometry::numbers::portable_math::{cos, sin};
     sphere(around, 1.0).moved(|p| p * (1.0 + 0.06 * sin(4.0 * p.x) * cos(5.0 * p.y) + 0.05 * sin(6.0 * p.z)))
 }
 
@@ -73,9 +74,9 @@ fn options(kinds: &[LineKind], inside: InsideOptions) -> LineOptions {
 fn inside_lines(mesh: &Mesh, camera: &Camera, options: &LineOptions) -> FeatureLines {
     let view = View::new(mesh, camera);
     let smooth = SmoothNormals::rounded(mesh);
-    let curvature = inside::curvature(mesh, &smooth, &options.inside);
+    let curvature = interior::curvature(mesh, &smooth, &options.inside);
     let mut lines = FeatureLines::default();
-    inside::find(mesh, &view, &smooth, &curvature, options, &mut lines);
+    interior::find(mesh, &view, &smooth, &curvature, options, &mut lines);
     lines
 }
 
@@ -86,7 +87,7 @@ fn points(mesh: &Mesh, lines: &FeatureLines, kind: LineKind) -> Vec<DVec3> {
 }
 
 fn length(mesh: &Mesh, lines: &FeatureLines) -> f64 {
-    let ends = |s: &ligne::stages::lines::FeatureSegment| s.ends.map(|end| lines.position(mesh, end));
+    let ends = |s: &ligne::lines::FeatureSegment| s.ends.map(|end| lines.position(mesh, end));
     lines.segments.iter().map(ends).map(|[a, b]| a.distance(b)).sum()
 }
 
@@ -136,7 +137,8 @@ fn a_saddle_bends_both_ways() {
 fn on_torus(p: DVec3) -> (f64, DVec3, DVec3) {
     let out = DVec3::new(p.x, p.y, 0.0).normalize();
     let v = atan2(p.z, p.dot(out) - 3.0);
-    let (sin, cos) = (ligne::math::function::sin(v), ligne::math::function::cos(v));
+    let (sin, cos) =
+        (ligne::geometry::numbers::portable_math::sin(v), ligne::geometry::numbers::portable_math::cos(v));
     (v, DVec3::Z * cos - out * sin, DVec3::Z.cross(out))
 }
 
@@ -145,7 +147,10 @@ fn curvatures_of_a_torus_and_their_derivatives() {
     let (mesh, curvature) = curvature_of(&torus(240, 120, 3.0, 1.0));
     for (i, p) in curvature.principal.iter().enumerate() {
         let (v, round_tube, _) = on_torus(mesh.positions[i] + mesh.origin);
-        let (sin, cos) = (ligne::math::function::sin(v), ligne::math::function::cos(v));
+        let (sin, cos) = (
+            ligne::geometry::numbers::portable_math::sin(v),
+            ligne::geometry::numbers::portable_math::cos(v),
+        );
         assert!(near(p.k1, 1.0, 0.01) && near(p.k2, cos / (3.0 + cos), 0.01), "{p:?} at {v}");
         let sense = p.dir1.dot(round_tube);
         assert!(near(sense.abs(), 1.0, 1e-3));
@@ -169,7 +174,7 @@ fn suggestive_contours_of_a_torus_lie_where_radial_curvature_vanishes() {
     let to_eye = (camera.eye - camera.target).normalize();
     for p in &found {
         let (v, round_tube, round_axis) = on_torus(*p);
-        let cos = ligne::math::function::cos(v);
+        let cos = ligne::geometry::numbers::portable_math::cos(v);
         let (a, b) = (to_eye.dot(round_tube), to_eye.dot(round_axis));
         let radial = a * a + b * b * cos / (3.0 + cos);
         assert!(near(radial, 0.0, 0.02), "{radial} at {p}");
@@ -293,7 +298,7 @@ fn strengths_lie_between_none_and_full_and_lines_end_weak() {
         let at = lines.points[point];
         let beside =
             lines.segments.iter().find(|s| s.ends.contains(&((mesh.positions.len() + point) as u32)));
-        let face = mesh.corners(ligne::stages::mesh::FaceId(beside.unwrap().hosts[0]));
+        let face = mesh.corners(ligne::mesh::FaceId(beside.unwrap().hosts[0]));
         let normal = (face[1] - face[0]).cross(face[2] - face[0]).normalize();
         let towards = normal.dot(-view.frame.forward);
         assert!(lines.strengths[point] < 0.01 || towards < 0.2, "{degree} {at} {towards}");

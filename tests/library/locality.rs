@@ -8,10 +8,10 @@ use std::fmt::Write;
 use glam::DVec3;
 use kurbo::{PathEl, Point, Rect, Shape};
 use ligne::drawing::{LayerKind, Mark, Paint};
-use ligne::render::render;
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
-use ligne::stages::view::Frame;
 use ligne::style::Style;
+use ligne::view::Frame;
 
 /// Marks nearer than this (px) to the box around the image of a part may change with it.
 const NEAR_PX: f64 = 3.0;

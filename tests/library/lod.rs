@@ -5,8 +5,8 @@ use std::path::Path;
 
 use glam::{DAffine3, DVec3};
 use ligne::Scene;
-use ligne::lod::Detail;
-use ligne::pose::{Playing, Rigged};
+use ligne::animation::{Playing, Rigged};
+use ligne::edit::simplify::Detail;
 use ligne::scene::{Geometry, Material, Part};
 
 use crate::support::dice::Dice;
@@ -143,7 +143,9 @@ fn a_cube_keeps_twelve_triangles_and_eight_corners() {
 
 #[test]
 fn the_border_of_an_open_sheet_stays() {
-    let wave = |x: f64, y: f64| DVec3::new(x, y, 0.05 * ligne::math::function::sin(9.0 * x + 4.0 * y));
+    let wave = |x: f64, y: f64| {
+        DVec3::new(x, y, 0.05 * ligne::geometry::numbers::portable_math::sin(9.0 * x + 4.0 * y))
+    };
     let scene = of(grid(40, wave));
     let (coarse, faces_left) = at(&scene, 320);
     assert!(faces_left > 310, "{faces_left}");

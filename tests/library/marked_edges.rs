@@ -3,8 +3,8 @@
 use glam::DVec3;
 use ligne::Scene;
 use ligne::load::gltf;
-use ligne::stages::mesh::{EdgeMark, Mesh};
-use ligne::stages::shape::HardEdges;
+use ligne::mesh::{EdgeMark, Mesh};
+use ligne::surface::HardEdges;
 use serde_json::{Value, json};
 
 use EdgeMark::{Contour, Hard, Hidden, Unmarked};

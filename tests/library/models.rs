@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use ligne::drawing::Drawing;
 use ligne::export::SvgOptions;
-use ligne::render::render_reported;
+use ligne::pipeline::render_reported;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use glam::{DQuat, DVec3};
 use kurbo::Point;
-use ligne::math::function::{cos, sin};
-use ligne::pose::Rigged;
+use ligne::animation::Rigged;
+use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::scene::Geometry;
 use ligne::{Scene, SvgOptions, render};
 

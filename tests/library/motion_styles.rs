@@ -2,10 +2,10 @@
 
 use glam::{DAffine3, DVec3};
 use kurbo::ParamCurve;
+use ligne::animation::deformable_mesh::Influences;
+use ligne::animation::rig::{Form, Skin};
+use ligne::animation::{Body, Playing, Property, Rigged};
 use ligne::drawing::{Drawing, LayerKind, Paint};
-use ligne::pose::body::Influences;
-use ligne::pose::rig::{Form, Skin};
-use ligne::pose::{Body, Playing, Property, Rigged};
 use ligne::{Style, SvgOptions, motion, render};
 
 use crate::support::movers::*;
@@ -111,7 +111,7 @@ fn single_lines_differ_as_the_style_says() {
     let drawing = render(&scene, &before(), &own).unwrap();
     let [mark] = lines(&drawing)[..] else { panic!("one line") };
     let Paint::Stroke(stroke) = &mark.paint else { panic!("{:?}", mark.paint) };
-    assert_eq!((stroke.width, stroke.colour), (3.0, ligne::math::colour::Colour::rgb(255, 0, 0)));
+    assert_eq!((stroke.width, stroke.colour), (3.0, ligne::colour::srgb::Colour::rgb(255, 0, 0)));
     // A vertex that is not there is told.
     let own = style(&["motion.line=[{ start = 99 }]"]);
     let scene = scene_at(&model, 1.0, &own);
@@ -128,7 +128,7 @@ fn lines_are_black_and_1_px_and_may_taper() {
     let plain = drawn(&model, 1.0, &before(), &style(&["motion.over=true"]));
     for mark in lines(&plain) {
         let Paint::Stroke(stroke) = &mark.paint else { panic!("{:?}", mark.paint) };
-        assert_eq!((stroke.width, stroke.colour), (1.0, ligne::math::colour::Colour::BLACK));
+        assert_eq!((stroke.width, stroke.colour), (1.0, ligne::colour::srgb::Colour::BLACK));
     }
     let tapered = drawn(
         &model,

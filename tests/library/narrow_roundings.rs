@@ -4,11 +4,11 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 use kurbo::Point;
-use ligne::math::function::{cos, sin};
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::lines::{LineKind, LineOptions};
+use ligne::mesh::{EdgeMark, Mesh, Soup};
 use ligne::scene::Camera;
-use ligne::stages::lines::{LineKind, LineOptions};
-use ligne::stages::mesh::{EdgeMark, Mesh, Soup};
-use ligne::stages::shape::Patches;
+use ligne::surface::Patches;
 
 use crate::support::bars::bar;
 use crate::support::pipeline::{Stages, orthographic, scene, stages};

@@ -3,8 +3,8 @@
 use glam::DVec3;
 use kurbo::Point;
 use ligne::drawing::Length;
-use ligne::math::function::{cos, sin};
-use ligne::render::render;
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::pipeline::render;
 use ligne::scene::Camera;
 use ligne::style::Style;
 

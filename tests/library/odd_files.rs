@@ -3,10 +3,10 @@
 use std::fmt::Write as _;
 
 use glam::DVec3;
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::lines::LineKind;
 use ligne::load::{ModelFormat, gltf};
-use ligne::math::function::{cos, sin};
 use ligne::scene::{Paints, Projection, TextureOptions};
-use ligne::stages::lines::LineKind;
 use ligne::{Camera, Error, Scene, Style, SvgOptions, render};
 use serde_json::{Value, json};
 
@@ -153,7 +153,7 @@ fn colours_of_vertices_without_a_material_stand_on_white() {
         let scene = square(change).unwrap();
         let paints = Paints::of(&scene, &TextureOptions::default());
         let last = scene.materials.len();
-        let mesh = ligne::stages::mesh::Mesh::build(scene.to_painted_soup(&paints));
+        let mesh = ligne::mesh::Mesh::build(scene.to_painted_soup(&paints));
         let mut seen: Vec<String> = (0..mesh.triangles.len())
             .map(|face| paints.list[mesh.paint(face.into()).index()].colour.hex())
             .collect();

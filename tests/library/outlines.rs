@@ -10,9 +10,9 @@ use crate::support::rays::Rays;
 use crate::support::solids::{Solid, cuboid};
 use glam::DVec3;
 use kurbo::{Point, Vec2};
-use ligne::render::render;
+use ligne::lines::{LineKind, LineOptions};
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Material, Scene};
-use ligne::stages::lines::{LineKind, LineOptions};
 use ligne::style::Style;
 use rayon::prelude::*;
 

@@ -157,7 +157,8 @@ fn heads(panel: &Item, text: &str, number: usize, folder: &Path) -> Vec<BezPath>
     let camera = figure::camera(&keys.camera, &scene, [bounds.width(), bounds.height()], &source).unwrap();
     let [right, up, forward] = camera.axes();
     let ligne::scene::Projection::Perspective { fov_y_deg } = camera.projection else { panic!() };
-    let scale = camera.height / 2.0 / ligne::math::function::tan(fov_y_deg.to_radians() / 2.0);
+    let scale =
+        camera.height / 2.0 / ligne::geometry::numbers::portable_math::tan(fov_y_deg.to_radians() / 2.0);
     let parts = scene.parts.iter().filter(|part| part.name.ends_with("head"));
     parts
         .map(|part| {

@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 use kurbo::{Point, Shape as _};
+use ligne::colour::oklab::{self, Oklab};
+use ligne::colour::srgb::Colour;
 use ligne::drawing::Mark;
-use ligne::math::colour::Colour;
-use ligne::math::oklab::{self, Oklab};
-use ligne::render::render;
+use ligne::lines::LineKind;
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Filter, Geometry, Material, Part, Projection, Scene};
-use ligne::stages::lines::LineKind;
 use ligne::style::Style;
 
 use crate::support::eye::Eye;

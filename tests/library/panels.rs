@@ -98,7 +98,7 @@ fn shares_are_exact() {
     // A gutter that leans between two sides takes from one corner what it gives the other.
     let leaning = cells("1 |12° 1", &grid).unwrap();
     let areas = leaning.iter().map(|cell| cell.outline(grid.frame).area());
-    let gutter = 4.0 * 600.0 / ligne::math::function::cos(f64::to_radians(12.0));
+    let gutter = 4.0 * 600.0 / ligne::geometry::numbers::portable_math::cos(f64::to_radians(12.0));
     areas.for_each(|area| assert!((area - (400.0 * 600.0 - gutter) / 2.0).abs() < 1e-6, "{area}"));
 }
 

@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use glam::DVec3;
+use ligne::colour::pixel_picture::Picture;
 use ligne::drawing::{Drawing, LayerKind};
 use ligne::export::{Grouping, PngOptions, SvgOptions};
-use ligne::math::picture::Picture;
-use ligne::render::render;
+use ligne::pipeline::render;
 use ligne::style::Style;
 
 use crate::support::pipeline::{self, orthographic};

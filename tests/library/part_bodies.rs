@@ -10,7 +10,7 @@ use crate::support::solids::{Solid, cuboid, sphere, torus, tube};
 use glam::DVec3;
 use kurbo::Point;
 use ligne::drawing::Drawing;
-use ligne::render::render;
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 

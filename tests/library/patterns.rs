@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use glam::DVec3;
 use kurbo::{Point, Shape};
 use ligne::drawing::{Drawing, LayerKind, Mark, Page, Paint, Unit};
-use ligne::math::function::{cos, sin};
-use ligne::render::{render, render_reported};
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::pipeline::{render, render_reported};
 use ligne::scene::{Camera, Material, Scene};
 use ligne::style::Style;
 

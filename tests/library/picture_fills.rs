@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
 use kurbo::Point;
+use ligne::colour::pixel_picture::Picture;
+use ligne::colour::srgb::Colour;
 use ligne::diff::{DiffOptions, Picture as Read, canonical_svg, compare};
 use ligne::drawing::{Drawing, Mark, Paint, Shows};
 use ligne::export::{Grouping, PngOptions, Resolution, SvgOptions};
-use ligne::math::colour::Colour;
-use ligne::math::picture::Picture;
-use ligne::render::render;
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Geometry, Material, Part, Projection, Scene, Wrap};
 use ligne::style::Style;
 
@@ -258,7 +258,7 @@ fn a_thousand_small_triangles_are_few_pieces() {
         for column in 0..=columns {
             let (u, v) = (f64::from(column) / f64::from(columns), f64::from(row) / f64::from(rows));
             let (turn, down) = (u * std::f64::consts::TAU, v * std::f64::consts::PI);
-            use ligne::math::function::{cos, sin};
+            use ligne::geometry::numbers::portable_math::{cos, sin};
             geometry.positions.push(DVec3::new(sin(down) * cos(turn), sin(down) * sin(turn), cos(down)));
             geometry.uvs.push([u as f32, v as f32]);
         }
@@ -288,7 +288,7 @@ fn a_thousand_small_triangles_are_few_pieces() {
 fn of_faces_that_pass_through_each_other_each_shows_where_it_is_in_front() {
     // Blades of one part through one axis, each with a texel of its own, and a plate across them all.
     const BLADES: u32 = 4;
-    use ligne::math::function::{cos, sin};
+    use ligne::geometry::numbers::portable_math::{cos, sin};
     let mut geometry = Geometry::default();
     let mut add = |corners: [DVec3; 4], texel: u32| {
         let first = geometry.positions.len() as u32;

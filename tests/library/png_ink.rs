@@ -4,14 +4,14 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use kurbo::{Affine, BezPath, Circle, Point, Rect, Shape, Vec2};
+use ligne::colour::pixel_picture::Picture;
+use ligne::colour::srgb::Colour;
 use ligne::drawing::{
     Cap, Drawing, ImagePaint, ImagePiece, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, Shows,
     StrokePaint, Unit,
 };
 use ligne::export::Resolution;
-use ligne::math::colour::Colour;
-use ligne::math::function::{cos, sin};
-use ligne::math::picture::Picture;
+use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::{PngOptions, SvgOptions};
 
 const SIZE: f64 = 120.0;

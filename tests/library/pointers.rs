@@ -4,11 +4,11 @@
 use std::f64::consts::FRAC_PI_4;
 
 use ligne::animate::{Animator, Moment};
+use ligne::animation::{Playing, Rigged};
+use ligne::colour::srgb::Colour;
 use ligne::drawing::{Page, Unit};
-use ligne::math::colour::Colour;
-use ligne::pose::{Playing, Rigged};
 use ligne::scene::{Alpha, LightKind, Projection};
-use ligne::{Camera, Scene, Style, SvgOptions, render};
+use ligne::{Camera, Scene, Style, SvgOptions, pipeline};
 use serde_json::{Value, json};
 
 use crate::support::board::Board;
@@ -133,7 +133,7 @@ fn drawn(rigged: &Rigged, style: &str, time: f64) -> [String; 2] {
     let scene = rigged.posed(&playing).unwrap();
     let camera = Camera { width: 300.0, height: 200.0, ..scene.cameras[0].camera };
     let svg = |drawing: &ligne::drawing::Drawing| drawing.to_svg(&SvgOptions::default());
-    let alone = svg(&render::render(&scene, &camera, &style).unwrap());
+    let alone = svg(&pipeline::render(&scene, &camera, &style).unwrap());
     let page = Page { width: 300.0, height: 200.0, unit: Unit::Px, background: style.background };
     let animator = Animator::new(rigged, &style);
     let frame = |time: f64| Moment { playing: vec![Playing::all(0, time)], camera, page };

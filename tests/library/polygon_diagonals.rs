@@ -2,10 +2,10 @@
 
 use glam::{DAffine3, DVec3};
 use ligne::Scene;
+use ligne::edit::section::{Plane, cut};
+use ligne::lines::{LineKind, LineOptions, Surface};
 use ligne::load::{obj, ply};
-use ligne::section::{Plane, cut};
-use ligne::stages::lines::{LineKind, LineOptions, Surface};
-use ligne::stages::mesh::{EdgeMark, Mesh};
+use ligne::mesh::{EdgeMark, Mesh};
 
 /// A polygon model: its corners and faces.
 struct Polygons {

@@ -6,8 +6,8 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use glam::DVec3;
 use ligne::Scene;
-use ligne::math::function::{cos, sin};
-use ligne::pose::{Playing, Rigged};
+use ligne::animation::{Playing, Rigged};
+use ligne::geometry::numbers::portable_math::{cos, sin};
 use serde_json::{Value, json};
 
 use crate::support::models;

@@ -3,11 +3,11 @@
 use glam::DVec3;
 use kurbo::{Point, Vec2};
 use ligne::drawing::{Drawing, LayerKind};
-use ligne::math::tolerance::{BEHIND_INK_PX, BEHIND_INK_SINE};
+use ligne::geometry::numbers::tolerance::{BEHIND_INK_PX, BEHIND_INK_SINE};
+use ligne::mesh::Extents;
 use ligne::scene::{NamedView, UpAxis};
-use ligne::stages::mesh::Extents;
-use ligne::stages::viewmap::precedence::{self, Ink};
-use ligne::stages::viewmap::{ViewEdge, ViewMap};
+use ligne::visibility::overlap::hidden_line_precedence::{self, Ink};
+use ligne::visibility::{ViewEdge, ViewMap};
 use ligne::{Camera, Scene, Style, render};
 
 use crate::support::dice::Dice;
@@ -38,7 +38,10 @@ fn a_box_seen_square_on_has_no_hidden_line() {
 
 /// The map without what hidden lines have in the ink of lines that are hardly wider than nothing.
 fn apart(map: &ViewMap, extents: &Extents, perspective: bool) -> Option<ViewMap> {
-    precedence::apart(map, &Ink { half_width: &|_: &ViewEdge| 0.0, extents, perspective, px: 1.0 })
+    hidden_line_precedence::apart(
+        map,
+        &Ink { half_width: &|_: &ViewEdge| 0.0, extents, perspective, px: 1.0 },
+    )
 }
 
 /// The length of all hidden lines of a drawing, px.
@@ -94,8 +97,8 @@ fn hidden_lines_that_cross_or_touch_visible_ones_stay() {
     let plate = || cuboid(DVec3::new(-4.5, -4.0, 0.0), DVec3::new(4.5, 0.0, 1.0));
     for degrees in [2.0_f64, 5.0, 30.0, 90.0] {
         let (sin, cos) = (
-            ligne::math::function::sin(degrees.to_radians()),
-            ligne::math::function::cos(degrees.to_radians()),
+            ligne::geometry::numbers::portable_math::sin(degrees.to_radians()),
+            ligne::geometry::numbers::portable_math::cos(degrees.to_radians()),
         );
         let turn = move |p: DVec3| DVec3::new(p.x * cos - p.y * sin, p.x * sin + p.y * cos, p.z);
         let bar = cuboid(DVec3::new(-3.0, -0.4, -2.0), DVec3::new(3.0, 0.4, -1.0)).moved(turn);

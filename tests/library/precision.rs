@@ -7,9 +7,9 @@ use std::fmt::Write;
 use crate::support::dice::Dice;
 use crate::support::rewriting::pens::Pens;
 use glam::{DQuat, DVec3};
+use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::load::ModelFormat;
-use ligne::math::function::{cos, sin};
-use ligne::render::render;
+use ligne::pipeline::render;
 use ligne::scene::{Camera, NamedView, Projection, Scene, UpAxis};
 use ligne::style::Style;
 

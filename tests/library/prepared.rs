@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use ligne::drawing::{Drawing, Page, Unit};
-use ligne::render::Prepared;
+use ligne::pipeline::Prepared;
 use ligne::{Camera, Scene, Style};
 
 fn model(name: &str) -> Scene {

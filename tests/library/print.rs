@@ -1,14 +1,14 @@
 //! PDF for presses: boxes, marks, plates, overprint, layers, fonts and standards, as the file says them.
 
 use kurbo::{Affine, BezPath, Point, Rect, Shape};
+use ligne::colour::pixel_picture::Picture;
+use ligne::colour::srgb::Colour;
 use ligne::drawing::{
     Boxes, Cap, Composition, Drawing, Gradient, ImagePaint, ImagePiece, Item, Join, Layer, LayerKind, Mark,
     Page, Paint, Provenance, Shows, StrokePaint, Unit,
 };
 use ligne::export::{Inks, PdfOptions, Standard, to_pdf};
 use ligne::kurbo;
-use ligne::math::colour::Colour;
-use ligne::math::picture::Picture;
 use ligne::text::{Block, Font, Setting};
 
 use crate::support::pdf::take_apart;

@@ -1,7 +1,7 @@
 //! Widths by chance: each line has its own, within what the style says, and the seed decides.
 
 use ligne::drawing::{LayerKind, Paint};
-use ligne::render::render;
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 

@@ -11,10 +11,10 @@ use crate::support::solids::{Solid, cuboid, sphere, torus};
 use glam::DVec3;
 use kurbo::{BezPath, ParamCurve, PathSeg, Point, Shape};
 use ligne::drawing::{LayerKind, Mark, Paint};
-use ligne::math::function::{cos, sin};
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::lines::Contours;
+use ligne::regions::Seams;
 use ligne::scene::{Camera, Scene};
-use ligne::stages::lines::Contours;
-use ligne::stages::region::Seams;
 use ligne::{Drawing, Style, SvgOptions, render};
 
 /// Two tones under the key light from [`towards_light`], regions that end at their borders.
@@ -65,7 +65,7 @@ fn a_cube_has_three_faces_and_three_paths() {
     let mut style = two_tones();
     let thresholds: Vec<f64> = falls.windows(2).map(|pair| (pair[0] + pair[1]) / 2.0).collect();
     assert!(thresholds[0] < thresholds[1]);
-    style.tones.scale = ligne::stages::field::tone_options::Scale::Thresholds(thresholds);
+    style.tones.scale = ligne::light::tones::tone_options::Scale::Thresholds(thresholds);
     let drawing = render(&cube, &camera, &style).unwrap();
     let fills = fills(&drawing);
     assert_eq!(fills.len(), 3);

@@ -8,9 +8,9 @@ use crate::support::pipeline::{exact, orthographic, perspective, scene, stages};
 use crate::support::solids::{Solid, cuboid};
 use glam::DVec3;
 use kurbo::Point;
-use ligne::math::function::{cos, sin};
-use ligne::stages::lines::{LineKind, LineOptions};
-use ligne::stages::mesh::{EdgeFaces, Mesh, Soup, Turns};
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::lines::{LineKind, LineOptions};
+use ligne::mesh::{EdgeFaces, Mesh, Soup, Turns};
 
 fn mesh(solid: &Solid) -> Mesh {
     Mesh::build(Soup {

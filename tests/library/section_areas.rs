@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
 use ligne::drawing::{LayerKind, Page, Unit};
+use ligne::edit::section::{Plane, Section, cut};
 use ligne::kurbo::{ParamCurve as _, PathEl, Point};
-use ligne::render::{Prepared, hatched};
+use ligne::pipeline::{Prepared, hatched};
 use ligne::scene::{Geometry, NamedView, Part, Projection};
-use ligne::section::{Plane, Section, cut};
 use ligne::{Camera, Scene, Style};
 
 use crate::support::solids::{Solid, cuboid};
@@ -233,8 +233,8 @@ fn lines_of_cut_faces_lie_in_the_part_that_has_the_place() {
                         let around = (0..16).map(|k| f64::from(k) * std::f64::consts::TAU / 16.0);
                         around.into_iter().any(|turn| {
                             owner(
-                                far * ligne::math::function::cos(turn),
-                                far * ligne::math::function::sin(turn),
+                                far * ligne::geometry::numbers::portable_math::cos(turn),
+                                far * ligne::geometry::numbers::portable_math::sin(turn),
                             ) == Some(part)
                         })
                     };
@@ -316,7 +316,7 @@ fn drawn(scene: &Scene, style: &Style) -> Vec<(f64, [[i64; 2]; 2])> {
 fn the_border_between_cut_parts_is_one_wide_line_and_nothing_is_drawn_within() {
     let plane = Plane::new(DVec3::new(0.0, 0.25, 0.0), DVec3::NEG_Y).expect("a direction");
     let mut style = Style::preset("technical").expect("a style");
-    style.lines.hidden = ligne::stages::lines::HiddenLines::None;
+    style.lines.hidden = ligne::lines::HiddenLines::None;
     let section = cut(bolted(false), &plane, &[]);
     let lines = drawn(&section.scene, &hatched(&style, &section));
     // Ten px a unit, in tenths of a px; y down from the middle. The lower edge of the plate at z = -1, its sides, its upper edge beside

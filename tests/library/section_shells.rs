@@ -4,11 +4,11 @@ use std::f64::consts::TAU;
 
 use glam::{DAffine3, DVec3};
 use ligne::drawing::{Drawing, LayerKind, Page, Unit};
+use ligne::edit::section::{Plane, Section, cut};
+use ligne::geometry::numbers::portable_math::{atan2, cos, sin};
 use ligne::kurbo::{ParamCurveArclen as _, PathEl, Point};
-use ligne::math::function::{atan2, cos, sin};
-use ligne::render::{Prepared, hatched_for};
+use ligne::pipeline::{Prepared, hatched_for};
 use ligne::scene::{Geometry, Part};
-use ligne::section::{Plane, Section, cut};
 use ligne::{Camera, Scene, Style};
 
 use crate::support::dice::Dice;

@@ -4,14 +4,14 @@ use std::f64::consts::TAU;
 
 use glam::{DAffine3, DVec3};
 use ligne::drawing::{LayerKind, Page, Unit};
+use ligne::edit::section::{Plane, Section, cut};
+use ligne::geometry::names::glob::Glob;
+use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::kurbo::{PathEl, Point};
 use ligne::load::ModelFormat;
-use ligne::math::function::{cos, sin};
-use ligne::math::glob::Glob;
-use ligne::render::{Prepared, hatched};
+use ligne::mesh::{EdgeFaces, FaceId, Mesh};
+use ligne::pipeline::{Prepared, hatched};
 use ligne::scene::{Geometry, NamedView, Part, UpAxis};
-use ligne::section::{Plane, Section, cut};
-use ligne::stages::mesh::{EdgeFaces, FaceId, Mesh};
 use ligne::{Camera, Scene, Style};
 
 use crate::support::dice::Dice;
@@ -172,7 +172,8 @@ fn a_ball_in_a_ball_is_a_hollow_if_the_two_are_wound_against_each_other() {
         assert!(!is_hollow || open_edges(&section.scene) == 0);
         let drawn = styles.map(|name| {
             let style = Style::load(name, &[]).unwrap();
-            let drawing = ligne::render::render(&section.scene, &camera.fit(&section.scene), &style).unwrap();
+            let drawing =
+                ligne::pipeline::render(&section.scene, &camera.fit(&section.scene), &style).unwrap();
             Picture::of_drawing(drawing).bytes().to_owned()
         });
         let first = &mut first[usize::from(is_hollow)];

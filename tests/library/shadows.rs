@@ -8,10 +8,10 @@ use crate::support::scenes;
 use crate::support::shadow_rays::{check_crossings, check_lines, check_points, lights, middle};
 use crate::support::solids::{Solid, cuboid, torus};
 use glam::DVec3;
+use ligne::lines::{FeatureLines, LineKind, NO_FACE};
+use ligne::mesh::Mesh;
 use ligne::scene::Scene;
-use ligne::stages::lines::{FeatureLines, LineKind, NO_FACE};
-use ligne::stages::mesh::Mesh;
-use ligne::stages::shadow::{Caster, Shadows};
+use ligne::shadows::{Caster, Shadows};
 
 fn mesh(solids: impl IntoIterator<Item = Solid>) -> Mesh {
     Mesh::build(scene(solids).to_soup())

@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use ligne::math::function::{atan2, cos, sin};
-use ligne::stages::lines::{FeatureSegment, LineKind, LineOptions};
-use ligne::stages::mesh::{Mesh, Soup};
-use ligne::stages::shape::Patches;
+use ligne::geometry::numbers::portable_math::{atan2, cos, sin};
+use ligne::lines::{FeatureSegment, LineKind, LineOptions};
+use ligne::mesh::{Mesh, Soup};
+use ligne::surface::Patches;
 
 use crate::support::bars::{LENGTH, bar, steps};
 use crate::support::pipeline::{orthographic, scene, stages};

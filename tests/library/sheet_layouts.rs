@@ -37,7 +37,7 @@ struct Text {
 impl Text {
     fn new(item: &str, words: String, path: BezPath, place: Affine) -> Self {
         let [a, b, ..] = place.as_coeffs();
-        let upright = Affine::rotate(-ligne::math::function::atan2(b, a));
+        let upright = Affine::rotate(-ligne::geometry::numbers::portable_math::atan2(b, a));
         let (rect, turned) = (path.bounding_box(), (upright * path.clone()).bounding_box());
         Self { item: item.to_owned(), words, path, rect, upright, turned }
     }

@@ -10,7 +10,7 @@ use crate::support::solids::Solid;
 
 /// A plate of 80 x 50 x 10 with two holes of 8 mm and one of 20 mm, as OBJ, z up.
 fn plate() -> String {
-    use ligne::math::function::{cos, sin};
+    use ligne::geometry::numbers::portable_math::{cos, sin};
     let mut plate = Solid::default();
     let holes = [([15.0, 10.0], 4.0), ([65.0, 10.0], 4.0), ([40.0, 30.0], 10.0)];
     let corner = |x: f64, y: f64, z: f64| glam::DVec3::new(x, y, z);

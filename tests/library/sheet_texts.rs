@@ -167,8 +167,10 @@ fn post([x, y]: [f64; 2], radius: f64, [low, high]: [f64; 2]) -> Solid {
     let mut post = Solid::default();
     for k in 0..48 {
         let angle = std::f64::consts::TAU * f64::from(k) / 48.0;
-        let (dx, dy) =
-            (radius * ligne::math::function::cos(angle), radius * ligne::math::function::sin(angle));
+        let (dx, dy) = (
+            radius * ligne::geometry::numbers::portable_math::cos(angle),
+            radius * ligne::geometry::numbers::portable_math::sin(angle),
+        );
         post.positions
             .extend([glam::DVec3::new(x + dx, y + dy, low), glam::DVec3::new(x + dx, y + dy, high)]);
     }

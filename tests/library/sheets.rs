@@ -4,7 +4,7 @@ use std::fs;
 
 use ligne::drawing::{Item, Mark, Paint};
 use ligne::kurbo::{PathEl, Point, Rect, Shape};
-use ligne::page::sheet::balloons::{cross, leaders, runs_through, slots};
+use ligne::page::sheet::part_balloons::leader_assignment::{cross, leaders, runs_through, slots};
 use ligne::page::{Composed, PageFile};
 
 use crate::support::dice::Dice;
@@ -187,7 +187,10 @@ fn axes_of_cylinders_are_crosses_and_lines() {
     // A prism of 48 sides about the z axis, radius 10, from 0 to 30.
     for k in 0..48 {
         let angle = std::f64::consts::TAU * f64::from(k) / 48.0;
-        let (x, y) = (10.0 * ligne::math::function::cos(angle), 10.0 * ligne::math::function::sin(angle));
+        let (x, y) = (
+            10.0 * ligne::geometry::numbers::portable_math::cos(angle),
+            10.0 * ligne::geometry::numbers::portable_math::sin(angle),
+        );
         pin.positions.extend([glam::DVec3::new(x, y, 0.0), glam::DVec3::new(x, y, 30.0)]);
     }
     for k in 0..48u32 {
@@ -305,7 +308,8 @@ fn leaders_of_random_anchors_do_not_cross() {
 #[test]
 fn parts_lists_count_what_is_there() {
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/pump.glb");
-    let items = ligne::page::sheet::list::items(&ligne::Scene::open(path).expect("a model"));
+    let items =
+        ligne::page::sheet::parts_list::parts_list_items::items(&ligne::Scene::open(path).expect("a model"));
     let count = |name: &str| items.iter().find(|item| item.name == name).map_or(0, |item| item.parts.len());
     assert_eq!([count("anchor"), count("volute"), count("motor-housing")], [6, 1, 1]);
     assert_eq!(items.iter().map(|item| item.parts.len()).sum::<usize>(), 68);

@@ -15,12 +15,12 @@ use crate::support::solids::{Solid, torus};
 use crate::support::torus_truth::{Piece, visible_pieces};
 use glam::{DMat3, DVec3};
 use kurbo::Point;
+use ligne::chains::{self, Chain, ChainOptions};
 use ligne::drawing::{Length, Unit};
-use ligne::math::function::{cos, sin};
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::lines::{Contours, HiddenLines, LineKind, LineOptions};
 use ligne::scene::{Camera, Geometry, Projection, Scene};
-use ligne::stages::chain::{self, Chain, ChainOptions};
-use ligne::stages::lines::{Contours, HiddenLines, LineKind, LineOptions};
-use ligne::stages::viewmap::ViewVertexKind;
+use ligne::visibility::ViewVertexKind;
 
 fn with(contours: Contours) -> LineOptions {
     LineOptions { contours, ..LineOptions::default() }
@@ -32,7 +32,7 @@ fn plain_chains() -> ChainOptions {
 }
 
 fn chains(drawn: &Stages, options: &ChainOptions) -> Vec<Chain> {
-    let mut chains = chain::link(&drawn.map, options, Unit::Px, HiddenLines::None);
+    let mut chains = chains::link(&drawn.map, options, Unit::Px, HiddenLines::None);
     chains.retain(|c| c.invisibility == 0);
     chains
 }

@@ -5,8 +5,8 @@ use crate::support::models;
 use std::path::Path;
 
 use crate::support::turning::{Stability, compare, surface, turned};
+use ligne::lines::LineOptions;
 use ligne::scene::{Camera, Scene};
-use ligne::stages::lines::LineOptions;
 
 /// Percent of the ink that has to stay.
 const LEAST: f64 = 98.0;

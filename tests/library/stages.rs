@@ -4,11 +4,11 @@
 use std::path::{Path, PathBuf};
 
 use ligne::drawing::{Mark, Page, Unit};
-use ligne::render::{Stage, render_reported};
-use ligne::stages::field;
-use ligne::stages::lines;
-use ligne::stages::mesh::Mesh;
-use ligne::stages::view::View;
+use ligne::light;
+use ligne::lines;
+use ligne::mesh::Mesh;
+use ligne::pipeline::{Stage, render_reported};
+use ligne::view::View;
 use ligne::{Camera, Drawing, Scene, Style, SvgOptions};
 
 const MODELS: [&str; 7] =
@@ -86,7 +86,7 @@ fn surfaces_are_cut_where_contours_are_traced() {
     let view = View::new(&surface.mesh, &camera);
     let found = lines::extract(&surface, &view, options);
     let facing = lines::facing(&surface, &view);
-    let cut = field::cut(&surface.mesh, &surface.smooth, &facing, &[0.0]);
+    let cut = light::cut(&surface.mesh, &surface.smooth, &facing, &[0.0]);
     assert!(cut.points.len() > 100);
     // To the bit: regions cut from the surface end at the lines that are drawn.
     assert_eq!(cut.points, found.points[..cut.points.len()]);

@@ -2,10 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
+use ligne::colour::srgb::Colour;
 use ligne::drawing::Length;
-use ligne::math::colour::Colour;
-use ligne::stages::lines::HiddenLines;
-use ligne::stages::stroke::{Ink, LayersBy, Order};
+use ligne::lines::HiddenLines;
+use ligne::strokes::{Ink, LayersBy, Order};
 use ligne::style::{Style, StyleKey};
 
 /// A folder of sheets that is removed at the end of the test.
@@ -287,7 +287,7 @@ fn layers_of_hatching_are_by_default_as_in_the_table_of_keys() {
     }
     assert!(keys.len() > 20, "{}", keys.len());
     let style = Style::from_toml(&sheet).unwrap_or_else(|error| panic!("{sheet}\n{error}"));
-    assert_eq!(style.hatch.layers, [ligne::stages::hatch::HatchLayer::default()]);
+    assert_eq!(style.hatch.layers, [ligne::hatching::HatchLayer::default()]);
 }
 
 #[test]
@@ -315,8 +315,8 @@ fn the_sheets_of_the_documentation_load() {
 fn a_sheet_without_keys_has_the_defaults_of_the_code() {
     let sheets = Sheets::new("defaults", &[("empty.toml", "")]);
     let style = Style::load(&sheets.path("empty.toml"), &[]).unwrap();
-    assert_eq!(style.stroke.pen, ligne::stages::stroke::Pen::default());
-    assert_eq!(style.lines, ligne::stages::lines::LineOptions::default());
+    assert_eq!(style.stroke.pen, ligne::strokes::Pen::default());
+    assert_eq!(style.lines, ligne::lines::LineOptions::default());
     assert_eq!(style.background, Some(Colour::WHITE));
     let all = Style::full_sheet(&sheets.path("empty.toml")).unwrap();
     assert!(all.lines().filter(|line| line.contains(" = ") && !line.starts_with('#')).count() > 100, "{all}");

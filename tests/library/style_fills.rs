@@ -2,12 +2,12 @@
 
 use std::path::PathBuf;
 
+use ligne::colour::colour_factor::Factor;
+use ligne::colour::srgb::Colour;
 use ligne::drawing::Length;
-use ligne::math::colour::Colour;
-use ligne::math::factor::Factor;
-use ligne::stages::field::tone_options::{Colours, Scale};
-use ligne::stages::field::{SourceKind, Space};
-use ligne::stages::region::Seams;
+use ligne::light::tones::tone_options::{Colours, Scale};
+use ligne::light::{SourceKind, Space};
+use ligne::regions::Seams;
 use ligne::style::Style;
 
 /// A folder that is removed at the end of the test.

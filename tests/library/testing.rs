@@ -3,10 +3,10 @@
 use std::path::PathBuf;
 
 use kurbo::BezPath;
+use ligne::colour::srgb::Colour;
 use ligne::drawing::{
     Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
 };
-use ligne::math::colour::Colour;
 use ligne::testing::{Approval, assert_drawing, check};
 
 fn drawing(y: f64) -> Drawing {

@@ -1,8 +1,8 @@
 //! Letters: lines within their widths and ellipses, as even as any, missing letters, words parted, the same each time.
 
 use kurbo::{Point, Rect, Shape};
+use ligne::colour::srgb::Colour;
 use ligne::kurbo;
-use ligne::math::colour::Colour;
 use ligne::text::{Align, Block, Font, Setting};
 
 const SAYING: &str =

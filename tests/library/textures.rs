@@ -2,12 +2,12 @@
 
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Shape as _};
+use ligne::colour::srgb::Colour;
 use ligne::drawing::{LayerKind, Mark};
-use ligne::math::colour::Colour;
-use ligne::math::function::{acos, atan2};
-use ligne::render::render;
+use ligne::geometry::numbers::portable_math::{acos, atan2};
+use ligne::lines::LineKind;
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
-use ligne::stages::lines::LineKind;
 use ligne::style::Style;
 
 use crate::support::eye::Eye;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use kurbo::Shape;
-use ligne::render::render;
+use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 

@@ -6,11 +6,11 @@ use crate::support::pipeline::{Stages, counting, exact, stages};
 use crate::support::scenes::{CAMERAS, SCENES, random_camera, random_scene};
 use crate::support::segments::{cover_alike, distance, length, uncovered};
 use glam::DVec3;
-use ligne::math::tolerance;
+use ligne::geometry::numbers::tolerance;
+use ligne::lines::{HiddenLines, LineOptions};
+use ligne::mesh::{FaceId, Mesh};
 use ligne::scene::{Camera, Scene};
-use ligne::stages::lines::{HiddenLines, LineOptions};
-use ligne::stages::mesh::{FaceId, Mesh};
-use ligne::stages::view::Frame;
+use ligne::view::Frame;
 
 /// What one ray says of one point.
 enum Answer {

@@ -3,18 +3,18 @@
 use crate::support::models;
 use crate::support::solids::{Solid, cuboid, sphere, torus, tube};
 use glam::DVec3;
-use ligne::scene::{Camera, Scene, UpAxis};
-use ligne::stages::lines::intersections::{
+use ligne::lines::intersections::intersection_lines::{
     all_curves, curves_in_sight, curves_of_finer, search, visible_curves,
 };
-use ligne::stages::lines::{
+use ligne::lines::{
     self, Contours, FeatureLines, FeatureSegment, Known, LineKind, LineOptions, Role, Surface,
 };
-use ligne::stages::mesh::{Mesh, Soup};
-use ligne::stages::shape::Origin;
-use ligne::stages::trees::intersect::IntersectionCurves;
-use ligne::stages::view::View;
-use ligne::stages::viewmap::{self, ViewCovers};
+use ligne::mesh::intersect::intersection_curves::IntersectionCurves;
+use ligne::mesh::{Mesh, Soup};
+use ligne::scene::{Camera, Scene, UpAxis};
+use ligne::surface::Origin;
+use ligne::view::View;
+use ligne::visibility::{self, ViewCovers};
 
 /// Directions to the eye: azimuth and elevation in degrees.
 const DIRECTIONS: [(f64, f64); 4] = [(35.0, 22.0), (200.0, 10.0), (120.0, 50.0), (-60.0, -20.0)];
@@ -22,7 +22,7 @@ const DIRECTIONS: [(f64, f64); 4] = [(35.0, 22.0), (200.0, 10.0), (120.0, 50.0),
 /// Length of the curves that shows in a view, in thousandths of the longer side of the frame.
 fn visible_length(mesh: &Mesh, view: &View, curves: &IntersectionCurves) -> f64 {
     let first = mesh.positions.len() as u32;
-    let segment = |s: &ligne::stages::trees::intersect::IntersectionSegment| FeatureSegment {
+    let segment = |s: &ligne::mesh::intersect::intersection_curves::IntersectionSegment| FeatureSegment {
         ends: s.ends.map(|end| first + end),
         hosts: s.faces,
         kind: LineKind::Intersection,
@@ -39,8 +39,8 @@ fn visible_length(mesh: &Mesh, view: &View, curves: &IntersectionCurves) -> f64 
         segments: curves.segments.iter().map(segment).collect(),
         ..FeatureLines::default()
     };
-    let map = viewmap::build(mesh, view, &lines, &LineOptions::default());
-    let place = |vertex: viewmap::ViewVertexId| map.vertices[vertex.0 as usize].position;
+    let map = visibility::build(mesh, view, &lines, &LineOptions::default());
+    let place = |vertex: visibility::ViewVertexId| map.vertices[vertex.0 as usize].position;
     let visible = map.edges.iter().filter(|edge| edge.invisibility == 0);
     let length: f64 = visible.map(|edge| place(edge.start).distance(place(edge.end))).sum();
     length * 1000.0 / view.frame.width.max(view.frame.height)
@@ -196,7 +196,7 @@ fn the_second_drawing_of_a_view_is_the_first() {
     let scene = Scene::from_triangles(corners, solid.triangles.iter().copied()).expect("a scene");
     for style in ["ink", "toon", "technical"] {
         let style = ligne::Style::load(style, &[]).expect("a style");
-        let prepared = ligne::render::Prepared::new(&scene, &style);
+        let prepared = ligne::pipeline::Prepared::new(&scene, &style);
         for turn in [30.0, 200.0] {
             let camera = Camera::azimuth_elevation(turn, 20.0, UpAxis::Z).fit_points(&solid.positions, 0.05);
             let page = ligne::drawing::Page {
@@ -205,9 +205,10 @@ fn the_second_drawing_of_a_view_is_the_first() {
                 unit: ligne::drawing::Unit::Px,
                 background: None,
             };
-            let draw =
-                |prepared: &ligne::render::Prepared| prepared.draw(&camera, page, None).expect("a drawing").0;
-            let alone = draw(&ligne::render::Prepared::new(&scene, &style));
+            let draw = |prepared: &ligne::pipeline::Prepared| {
+                prepared.draw(&camera, page, None).expect("a drawing").0
+            };
+            let alone = draw(&ligne::pipeline::Prepared::new(&scene, &style));
             assert!(draw(&prepared) == alone && draw(&prepared) == alone, "{turn}");
         }
     }

@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 
 use glam::DVec3;
-use ligne::math::function::{cos, sin};
-use ligne::stages::lines::{LineKind, LineOptions};
-use ligne::stages::mesh::{Mesh, Soup, Turns};
-use ligne::stages::shape::Patches;
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::lines::{LineKind, LineOptions};
+use ligne::mesh::{Mesh, Soup, Turns};
+use ligne::surface::Patches;
 
 use crate::support::pipeline::{orthographic, scene, stages};
 use crate::support::solids::Solid;

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::cli::numbered::Numbered;
-use crate::cli::output::{Output, is_stdout};
+use crate::cli::output::numbered_files::Numbered;
+use crate::cli::output::output_files::{Output, is_stdout};
 use crate::error::Error;
 
 /// Endings of numbered files and of films.
@@ -12,7 +12,7 @@ const FILMS: &str = ".svg, .gif, .png, .webp, .mp4 or .webm";
 
 /// Where frames go.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Destination {
+pub(crate) enum Destination {
     /// A file for each.
     Numbered(Numbered),
     /// One file of this kind.
@@ -23,7 +23,7 @@ pub(super) enum Destination {
 
 /// One file of all frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum FilmFormat {
+pub(crate) enum FilmFormat {
     Svg,
     Gif,
     Apng,
@@ -36,7 +36,7 @@ pub(super) enum FilmFormat {
 
 impl Destination {
     /// Tells it by the name.
-    pub(super) fn of(path: &Path) -> Result<Self, Error> {
+    pub(crate) fn of(path: &Path) -> Result<Self, Error> {
         if is_stdout(path) {
             return Err(
                 Error::new("a film cannot go to standard output").remedy("name a file, such as film.svg")

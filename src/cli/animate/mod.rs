@@ -1,46 +1,59 @@
-//! `ligne animate`: a model's animation, or a turn round a model, frame by frame.
+//! `ligne animate`: draws an animation or a turntable as numbered frames, one film, or a contact sheet.
+//!
+//! 1. [`frame_plan`] decides the pose and the camera of each frame.
+//! 2. [`face_limit`] sets the number of faces: all, a maximum, a time budget, or a list from a file.
+//! 3. [`frame_renderer`] draws frames in parallel and passes them on in order. [`frame_fading`] keeps
+//!    neighbouring drawings for strokes that fade in and out.
+//! 4. Frames go to the [`destination`]: numbered files, a film ([`film_writer`], [`ffmpeg_video`]), or a
+//!    sheet ([`moment_grid`]).
+//! 5. [`animation_totals`] sums times, counts and warnings for the summary and the report.
+//!
+//! [`animate_args`] defines the options.
 
-mod args;
-mod around;
-mod contact_sheet;
+mod animate_args;
+mod animation_totals;
 mod destination;
-mod detail;
-mod film;
-mod plan;
-mod stage;
-mod total;
-mod video;
+mod face_limit;
+mod ffmpeg_video;
+mod film_writer;
+mod frame_fading;
+mod frame_plan;
+mod frame_renderer;
+mod moment_grid;
 
 use std::borrow::Cow;
 use std::path::Path;
 
-use crate::cli::output::{Format, Output};
-pub(super) use args::AnimateArgs;
+use crate::cli::output::output_files::{Format, Output};
+pub(crate) use animate_args::AnimateArgs;
+use animation_totals::{Total, refuse_warnings};
 use destination::Destination;
-use detail::Faces;
-use plan::Plan;
-use stage::Stage;
-use total::{Total, refuse_warnings};
+use face_limit::Faces;
+use frame_plan::Plan;
+use frame_renderer::Stage;
 
-use super::contact_sheet::{check_outputs, picture_request};
-use super::framing_args::Frame;
-use super::output::{Staging, check_place, is_stdout};
-use super::progress::Progress;
-use super::request::{DrawRequest, check_apart};
+use super::models::lod;
+use super::output::number_text;
+use super::request::usage_warnings;
 use super::step::open_rigged;
-use super::viewpoint::viewpoint;
-use super::{lod, number, pipeline, print, say, wonder};
+use super::{library_calls, print, say};
+use crate::animation::Rigged;
+use crate::cli::draw::contact_sheet::{check_outputs, picture_request};
+use crate::cli::options::framing_args::Frame;
+use crate::cli::output::output_files::{Staging, check_place, is_stdout};
+use crate::cli::output::progress::Progress;
+use crate::cli::request::draw_request::{DrawRequest, check_apart};
+use crate::cli::request::viewpoint::viewpoint;
 use crate::error::Error;
-use crate::pose::Rigged;
-use crate::render::{Stopwatch, hatched_for, trailed};
-use crate::scene::framing::world_points;
+use crate::pipeline::{Stopwatch, hatched_for, trailed};
+use crate::scene::cameras::framing::world_points;
 use crate::style::Style;
 
 /// How contours are drawn where time counts: along the edges of the faces that are left.
 const HURRIED: &str = "lines.contours=mesh";
 
 /// Draws all frames, and says so in one line.
-pub(super) fn run(mut args: AnimateArgs) -> Result<(), Error> {
+pub(crate) fn run(mut args: AnimateArgs) -> Result<(), Error> {
     let watch = Stopwatch::start();
     split_levels(&mut args)?;
     let mut request = DrawRequest::of_model(args.model.clone(), args.how.clone())?;
@@ -51,15 +64,15 @@ pub(super) fn run(mut args: AnimateArgs) -> Result<(), Error> {
         Destination::of(&args.out)?
     };
     check(&args, &request, &destination)?;
-    let total = pipeline::in_threads(request.threads, || draw(&args, &request, &destination))??;
+    let total = library_calls::in_threads(request.threads, || draw(&args, &request, &destination))??;
     if !request.quiet {
         for warning in &total.warnings {
             say(&format!("warning: {}: {warning}", request.model.display()));
         }
         let line = match &destination {
             Destination::Sheet(_) => {
-                let moments = number::counted(total.drawings, "moment");
-                format!("{moments}, {}", number::bytes(total.counts.bytes_out))
+                let moments = number_text::counted(total.drawings, "moment");
+                format!("{moments}, {}", number_text::bytes(total.counts.bytes_out))
             }
             _ => summary(&total, watch.seconds()),
         };
@@ -135,7 +148,7 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     let hurried = args.budget.is_some() || args.levels.is_some();
     let sets: Vec<String> =
         hurried.then(|| HURRIED.to_owned()).into_iter().chain(request.sets.iter().cloned()).collect();
-    let mut style = pipeline::load_style(&request.style, &sets, request.background)?;
+    let mut style = library_calls::load_style(&request.style, &sets, request.background)?;
     let is_dxf = matches!(destination, Destination::Numbered(numbered) if numbered.format == Format::Dxf);
     if is_dxf || request.is_to_scale() {
         style = style.to_scale();
@@ -158,10 +171,10 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     if let Some(up) = request.up {
         rigged.scene.up = up;
     }
-    let mut notes = wonder::unmatched(&rigged.scene, &request.only, &request.hide);
-    notes.extend(wonder::bare_lengths(request));
+    let mut notes = usage_warnings::unmatched(&rigged.scene, &request.only, &request.hide);
+    notes.extend(usage_warnings::bare_lengths(request));
     let mut whole = (request.frame == Frame::All).then(|| rigged.clone());
-    pipeline::keep_moving_parts(&mut rigged, &request.only, &request.hide)?;
+    library_calls::keep_moving_parts(&mut rigged, &request.only, &request.hide)?;
     if request.section.is_asked() {
         open_up(request, &mut rigged, &mut whole, &mut style)?;
     }
@@ -182,7 +195,7 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     let drawings = timeline.drawn().count();
     let faces = match (&args.levels, args.budget, request.faces) {
         (_, Some(ms), _) => Faces::Budget(ms),
-        (Some(path), None, _) => Faces::Listed(detail::read_levels(path, drawings)?),
+        (Some(path), None, _) => Faces::Listed(face_limit::read_levels(path, drawings)?),
         (None, None, Some(most)) => Faces::Most(most),
         (None, None, None) => Faces::All,
     };
@@ -203,12 +216,12 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     }
     drop(progress);
     if let (Some(ms), Some(path)) = (args.budget, &args.save_levels) {
-        write(path, &detail::written_levels(&total.faces, ms))?;
+        write(path, &face_limit::written_levels(&total.faces, ms))?;
     }
     let counted = |(warning, drawings): (&String, &usize)| match drawings {
         0 => warning.clone(),
         _ if *drawings as u64 == total.drawings => warning.clone(),
-        _ => format!("{warning} ({})", number::counted(*drawings as u64, "frame")),
+        _ => format!("{warning} ({})", number_text::counted(*drawings as u64, "frame")),
     };
     total.warnings = total.warned.iter().map(counted).collect();
     if let Some(path) = &args.report {
@@ -260,12 +273,12 @@ fn summary(total: &Total, seconds: f64) -> String {
     let held = if frames == drawings {
         String::new()
     } else {
-        format!("{}, ", number::counted(*drawings, "drawing"))
+        format!("{}, ", number_text::counted(*drawings, "drawing"))
     };
     let mut line = format!(
         "{}, {held}{}, {seconds:.2} s, {:.1} drawings a second",
-        number::counted(*frames, "frame"),
-        number::bytes(counts.bytes_out),
+        number_text::counted(*frames, "frame"),
+        number_text::bytes(counts.bytes_out),
         *drawings as f64 / seconds.max(1e-9),
     );
     if let (Some(least), Some(most)) = (faces.iter().min(), faces.iter().max()) {
@@ -274,8 +287,8 @@ fn summary(total: &Total, seconds: f64) -> String {
         let late = times.get((times.len() * 99 / 100).min(times.len().saturating_sub(1))).copied();
         line += &format!(
             ", {} to {} faces, 99 % within {:.1} ms",
-            number::grouped(*least),
-            number::grouped(*most),
+            number_text::grouped(*least),
+            number_text::grouped(*most),
             late.unwrap_or_default()
         );
     }

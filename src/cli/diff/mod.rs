@@ -1,22 +1,27 @@
-//! `ligne diff`: what differs between two drawings, two models, or two folders of them.
+//! `ligne diff`: differences between two drawings, two models, or two folders of them.
+//!
+//! 1. [`input_pairs`] pairs the files: two files, or the files of two folders by name ([`folder_files`]).
+//! 2. Models are drawn first, the second from the view of the first. `crate::diff` compares the drawings.
+//! 3. [`comparison`] holds the result for each pair. [`report`] prints it as text, JSON or Markdown.
+//! 4. [`difference_pictures`] draws the differences if `--image` is given.
 
-mod folders;
-mod images;
-mod sides;
-mod tell;
-mod told;
+mod comparison;
+mod difference_pictures;
+mod folder_files;
+mod input_pairs;
+mod report;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::Args;
 
-use self::images::Images;
-use self::sides::Pairing;
-use self::told::Told;
-use super::draw_args::HowArgs;
-use super::output::Staging;
-use super::{DIFFERENCES, pipeline, print};
+use self::comparison::Told;
+use self::difference_pictures::Images;
+use self::input_pairs::Pairing;
+use super::{DIFFERENCES, library_calls, print};
+use crate::cli::options::draw_args::HowArgs;
+use crate::cli::output::output_files::Staging;
 use crate::diff::{self, DiffOptions, Ignore, Tolerances, View};
 use crate::error::Error;
 
@@ -31,7 +36,7 @@ Exit status: 0 no difference, 1 differences, 2 error.";
 /// Options of `ligne diff`.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLES)]
-pub(super) struct DiffArgs {
+pub(crate) struct DiffArgs {
     /// Old drawing (.svg), model (.obj, .gltf, .glb, .stl, .ply, .step) or folder
     before: PathBuf,
 
@@ -83,7 +88,7 @@ fn ignore(text: &str) -> Result<Ignore, String> {
 }
 
 /// Compares, tells, and draws what differs.
-pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Error> {
+pub(crate) fn run(args: &DiffArgs) -> Result<ExitCode, Error> {
     let pairing = Pairing::new(&args.before, &args.after)?;
     let images = args.image.as_deref().map(|path| Images::new(path, &pairing)).transpose()?;
     let options = DiffOptions {
@@ -92,7 +97,7 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Error> {
         ignore: args.ignore.iter().fold(Ignore::default(), |all, more| all.and(*more)),
         brief: !(args.all || args.json || args.markdown || args.image.is_some()),
     };
-    let told = pipeline::in_threads(args.how.threads, || told(args, &pairing, &options))??;
+    let told = library_calls::in_threads(args.how.threads, || told(args, &pairing, &options))??;
     if let Some(images) = images {
         let view = if args.side_by_side { View::SideBySide } else { View::Over };
         let mut staging = Staging::default();
@@ -100,10 +105,10 @@ pub(super) fn run(args: &DiffArgs) -> Result<ExitCode, Error> {
         staging.commit()?;
     }
     let text = match (&pairing, args.json, args.markdown) {
-        (_, true, _) => tell::json(&told, &pairing),
-        (_, _, true) => tell::markdown(&told, args),
+        (_, true, _) => report::json(&told, &pairing),
+        (_, _, true) => report::markdown(&told, args),
         _ if args.how.quiet => String::new(),
-        _ => tell::text(&told, &pairing, args.all),
+        _ => report::text(&told, &pairing, args.all),
     };
     print(text.as_bytes())?;
     Ok(match told.iter().all(|(_, told)| told.is_same()) {
@@ -120,7 +125,7 @@ fn told(args: &DiffArgs, pairing: &Pairing, options: &DiffOptions) -> Result<Vec
             name.clone(),
             match sides {
                 [Some(before), Some(after)] => {
-                    let [before, after] = sides::pictures(before, after, &args.how)?;
+                    let [before, after] = input_pairs::pictures(before, after, &args.how)?;
                     Told::Both(Box::new(diff::compare(&before, &after, options)))
                 }
                 [Some(_), None] => Told::Only(0),

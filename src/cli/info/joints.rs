@@ -4,19 +4,19 @@ use std::collections::BTreeSet;
 
 use serde::Serialize;
 
-use super::lists::named;
-use crate::pose::Rig;
+use super::text_lists::named;
+use crate::animation::Rig;
 
 /// A joint of a skin.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub(super) struct JointInfo {
+pub(crate) struct JointInfo {
     name: String,
     /// The node above it.
     parent: Option<String>,
 }
 
 /// The joints of all skins, each once, in the order of their nodes.
-pub(super) fn of_rig(rig: &Rig) -> Vec<JointInfo> {
+pub(crate) fn of_rig(rig: &Rig) -> Vec<JointInfo> {
     let numbers: BTreeSet<usize> = rig.skins.iter().flat_map(|skin| skin.joints.iter().copied()).collect();
     let nodes = numbers.into_iter().filter_map(|number| rig.nodes.get(number));
     let parent = |number: usize| rig.nodes.get(number).map(|node| node.name.clone());

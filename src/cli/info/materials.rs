@@ -2,15 +2,15 @@
 
 use serde::Serialize;
 
-use super::lists::named;
-use crate::cli::number::plain;
-use crate::math::colour::Colour;
-use crate::scene::texture::picture_of;
+use super::text_lists::named;
+use crate::cli::output::number_text::plain;
+use crate::colour::srgb::Colour;
+use crate::scene::textures::picture_of;
 use crate::scene::{Alpha, Material, Scene};
 
 /// Colour, texture and opacity of a material.
 #[derive(Debug, Serialize)]
-pub(super) struct MaterialInfo {
+pub(crate) struct MaterialInfo {
     name: String,
     colour: Colour,
     texture: Option<String>,

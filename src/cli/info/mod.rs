@@ -1,30 +1,34 @@
 //! `ligne info`: contents and defects of a model file.
 //!
-//! `contents` collects what a scene holds, with a file for each kind of entry: `parts` with their `precision`, `left_out`,
-//! `materials`, `joints`, and `staging` for lights, cameras and animations. `summary` writes it for people, in the lists of `lists`. JSON, for
-//! programs, has all of it.
+//! 1. [`model_contents`] collects everything into one structure, with a file for each kind of entry:
+//!    [`parts`] with their [`precision`], [`degenerate_elements`], [`materials`], [`joints`] and
+//!    [`lights_cameras_clips`].
+//! 2. [`text_summary`] prints it as text, in the lists of [`text_lists`]. `--json` prints the whole
+//!    structure.
+//!
+//! [`info_args`] defines the options.
 
-mod args;
-mod contents;
+mod degenerate_elements;
+mod info_args;
 mod joints;
-mod left_out;
-mod lists;
+mod lights_cameras_clips;
 mod materials;
+mod model_contents;
 mod parts;
 mod precision;
-mod staging;
-mod summary;
 #[cfg(test)]
 mod tests;
+mod text_lists;
+mod text_summary;
 
-pub(super) use self::args::InfoArgs;
-use self::contents::Info;
+pub(crate) use self::info_args::InfoArgs;
+use self::model_contents::Info;
 use super::print;
 use super::step::open_rigged;
 use crate::error::Error;
 
 /// Reads the model and prints its contents.
-pub(super) fn run(args: &InfoArgs) -> Result<(), Error> {
+pub(crate) fn run(args: &InfoArgs) -> Result<(), Error> {
     let rigged = open_rigged(&args.model, &args.step)?;
     let info = Info::of(&rigged.posed(&[])?, &rigged.rig, args);
     if args.json {

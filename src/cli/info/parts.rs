@@ -3,16 +3,16 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use super::lists::named;
 use super::precision::PrecisionInfo;
-use crate::cli::number::{counted, short};
+use super::text_lists::named;
+use crate::cli::output::number_text::{counted, short};
 use crate::mesh::TurnedFaces;
 use crate::scene::Scene;
-use crate::scene::drawn_points::LeftOut;
+use crate::scene::extent::drawn_points::LeftOut;
 
 /// Contents and precision of a part.
 #[derive(Debug, Serialize)]
-pub(super) struct PartInfo {
+pub(crate) struct PartInfo {
     pub name: String,
     pub triangles: u64,
     pub wires: u64,
@@ -29,14 +29,14 @@ pub(super) struct PartInfo {
 
 /// Lowest and highest corner of a part, world.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub(super) struct PartBounds {
+pub(crate) struct PartBounds {
     min: [f64; 3],
     max: [f64; 3],
 }
 
 /// How many triangles are turned, and in how many connected surfaces.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
-pub(super) struct TurnedInfo {
+pub(crate) struct TurnedInfo {
     pub triangles: u64,
     pub surfaces: u64,
 }

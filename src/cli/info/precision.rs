@@ -5,15 +5,15 @@
 
 use serde::Serialize;
 
-use crate::cli::number::three_digits;
-use crate::mesh::bodies::body_of;
+use crate::cli::output::number_text::three_digits;
+use crate::mesh::components::bodies::body_of;
 use crate::mesh::{Extent, Mesh, PartId};
 use crate::scene::Scene;
-use crate::scene::flatten::longest_axis;
+use crate::scene::triangle_soup::longest_axis;
 
 /// The precision of a part's coordinates in world space.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub(super) struct PrecisionInfo {
+pub(crate) struct PrecisionInfo {
     /// Distance between neighbouring coordinates, units of the model; 0 if coordinates are exact, none if nothing is drawn.
     step: Option<f64>,
     /// Source of the step; none if the step is 0.
@@ -35,7 +35,7 @@ enum StepSource {
 }
 
 /// The precision of each part of a scene, by its mesh.
-pub(super) fn by_part(scene: &Scene, mesh: &Mesh) -> Vec<PrecisionInfo> {
+pub(crate) fn by_part(scene: &Scene, mesh: &Mesh) -> Vec<PrecisionInfo> {
     let body = |part: usize| body_of(&mesh.bodies, PartId::from(part)).index();
     // The coarsest lattice of each body, world units.
     let mut lattices = vec![0.0_f64; scene.parts.len()];

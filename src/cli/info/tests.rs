@@ -2,11 +2,11 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::args::InfoArgs;
-use super::contents::Info;
+use super::info_args::InfoArgs;
+use super::model_contents::Info;
+use crate::animation::rig::{Node, Placement, Skin};
+use crate::animation::{Channel, Clip, Interpolation, Property, Rig, Target, Track};
 use crate::cli::step::StepArgs;
-use crate::pose::rig::{Node, Placement, Skin};
-use crate::pose::{Channel, Clip, Interpolation, Property, Rig, Target, Track};
 use crate::scene::{Geometry, Material, Part, Scene};
 
 fn scene(parts: usize) -> Scene {

@@ -1,26 +1,35 @@
-//! `ligne page`: the pages of a page file, and page files to start from.
+//! `ligne page`: draws the pages of a page file, and writes page files to start from.
+//!
+//! 1. Outputs are checked: one file for all pages, or numbered files.
+//! 2. `crate::page` composes the pages. Each output is encoded, and all files are renamed at the end, all or
+//!    none.
+//! 3. `--watch` repeats this after each change of the page file or its inputs ([`page_watch`]).
+//!
+//! [`page_templates`] holds the page files of `--new`.
 
-mod new;
-mod watch;
+mod page_templates;
+mod page_watch;
 
 use std::path::{Path, PathBuf};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueHint};
 
-use crate::cli::numbered::Numbered;
-use crate::cli::output::{Format, Output, Staging, check_place, is_stdout};
-use crate::cli::progress::Progress;
-use crate::cli::request::same_file;
-use crate::cli::step::{StepArgs, open_other};
-use crate::cli::{number, pipeline, print, say};
+use super::output::number_text;
+use super::step::{StepArgs, open_other};
+use super::{library_calls, print, say};
+use crate::cli::output::numbered_files::Numbered;
+use crate::cli::output::output_files::{Format, Output, Staging, check_place, is_stdout};
+use crate::cli::output::progress::Progress;
+use crate::cli::request::draw_request::same_file;
 use crate::drawing::Composition;
 use crate::error::Error;
+use crate::export::encoding::gzip;
 #[cfg(feature = "pdf")]
 use crate::export::to_pdf;
-use crate::export::{DxfOptions, DxfVersion, PngOptions, Resolution, SvgOptions, gzip};
+use crate::export::{DxfOptions, DxfVersion, PngOptions, Resolution, SvgOptions};
 use crate::page::{Composed, PageFile, Print};
-use crate::render::Stopwatch;
+use crate::pipeline::Stopwatch;
 
 /// Options of `ligne page`.
 #[derive(Debug, Args)]
@@ -30,7 +39,7 @@ use crate::render::Stopwatch;
   ligne page book.toml 'pages/%02d.svg'      one file per page
   ligne page page.toml print.pdf --ink k --marks
   ligne page page.toml page.png --watch      after each change of a file")]
-pub(super) struct PageArgs {
+pub(crate) struct PageArgs {
     /// Page file; with --new, the page file to write
     #[arg(value_hint = ValueHint::FilePath)]
     page: PathBuf,
@@ -58,7 +67,7 @@ pub(super) struct PageArgs {
     dxf: DxfVersion,
 
     /// PNG resolution in pixels per inch [default: 300]
-    #[arg(long, value_name = "N", value_parser = crate::cli::draw_args::dots_per_inch)]
+    #[arg(long, value_name = "N", value_parser = crate::cli::options::draw_args::dots_per_inch)]
     dpi: Option<f64>,
 
     /// Decimals of SVG coordinates [default: 3]
@@ -68,12 +77,12 @@ pub(super) struct PageArgs {
     /// PDF inks: screen (RGB), k (black only) or cmyk (four inks, with --icc) [default: screen]
     #[cfg(feature = "pdf")]
     #[arg(long, value_name = "INKS", help_heading = "Print", ignore_case = true, hide_possible_values = true,
-        value_parser = PossibleValuesParser::new(crate::cli::print_args::INKS))]
+        value_parser = PossibleValuesParser::new(crate::cli::options::print_args::INKS))]
     ink: Option<String>,
 
     #[cfg(feature = "pdf")]
     #[command(flatten)]
-    print: crate::cli::print_args::PrintArgs,
+    print: crate::cli::options::print_args::PrintArgs,
 
     #[command(flatten)]
     step: StepArgs,
@@ -100,14 +109,14 @@ enum Target {
 }
 
 /// Draws the pages, and says so; where files are watched it goes on until it is stopped.
-pub(super) fn run(args: &PageArgs) -> Result<(), Error> {
+pub(crate) fn run(args: &PageArgs) -> Result<(), Error> {
     if let Some(kind) = &args.new {
-        return new::write(kind, &args.page, args.quiet);
+        return page_templates::write(kind, &args.page, args.quiet);
     }
     let targets = targets(args)?;
     // What changes while the first pages are drawn is noticed as well.
-    let mut watch = watch::Watch::new(&args.page);
-    let first = pipeline::in_threads(args.threads, || draw(args, &targets))?;
+    let mut watch = page_watch::Watch::new(&args.page);
+    let first = library_calls::in_threads(args.threads, || draw(args, &targets))?;
     if !args.watch {
         return first;
     }
@@ -119,7 +128,7 @@ pub(super) fn run(args: &PageArgs) -> Result<(), Error> {
     }
     loop {
         watch.changed();
-        if let Err(error) = pipeline::in_threads(args.threads, || draw(args, &targets))? {
+        if let Err(error) = library_calls::in_threads(args.threads, || draw(args, &targets))? {
             say(&format!("error: {error}"));
         }
     }
@@ -206,9 +215,9 @@ fn draw(args: &PageArgs, targets: &[Target]) -> Result<(), Error> {
         for (name, bytes, count) in told {
             let size = compositions.first().map(|page| page.page);
             let size = size.map_or_else(String::new, |page| {
-                format!("{} x {} mm", number::plain(page.width, 2), number::plain(page.height, 2))
+                format!("{} x {} mm", number_text::plain(page.width, 2), number_text::plain(page.height, 2))
             });
-            let (pages, bytes, seconds) = (pages(count), number::bytes(bytes), watch.seconds());
+            let (pages, bytes, seconds) = (pages(count), number_text::bytes(bytes), watch.seconds());
             say(&format!("{name}: {pages}, {size}, {bytes}, {seconds:.2} s"));
         }
     }
@@ -216,7 +225,7 @@ fn draw(args: &PageArgs, targets: &[Target]) -> Result<(), Error> {
 }
 
 fn pages(count: usize) -> String {
-    number::counted(count as u64, "page")
+    number_text::counted(count as u64, "page")
 }
 
 fn needs_numbers(format: Format) -> bool {

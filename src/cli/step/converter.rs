@@ -4,8 +4,8 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::args::StepArgs;
-use super::process::{Limits, Outcome, run};
+use super::converter_process::{Limits, Outcome, run};
+use crate::cli::options::step_args::StepArgs;
 use crate::error::Error;
 use crate::scene::UpAxis;
 
@@ -17,7 +17,7 @@ const FREECAD: &str = include_str!("freecad.py");
 const NOT_INSTALLED: i32 = 91;
 
 /// The quickest way to a converter.
-pub(super) const REMEDY: &str = "install one with `pip install cascadio`, or name one with --step-converter";
+pub(crate) const REMEDY: &str = "install one with `pip install cascadio`, or name one with --step-converter";
 
 /// Names of the interpreters, in order of preference.
 const PYTHONS: &[&str] = if cfg!(windows) { &["python", "py"] } else { &["python3", "python"] };
@@ -31,7 +31,7 @@ const FREECADS: &[&str] = &[
 
 /// A program that makes GLB of STEP.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Converter {
+pub(crate) struct Converter {
     kind: Kind,
     program: PathBuf,
 }
@@ -49,7 +49,7 @@ enum Kind {
 
 /// The result of a conversion that did not fail.
 #[derive(Debug)]
-pub(super) enum Converted {
+pub(crate) enum Converted {
     /// The file is written; this axis points up.
     Done(UpAxis),
     /// The interpreter has no such package, as it says itself.
@@ -60,7 +60,7 @@ pub(super) enum Converted {
 ///
 /// # Errors
 /// If one is named and there is no such program.
-pub(super) fn candidates(args: &StepArgs) -> Result<Vec<Converter>, Error> {
+pub(crate) fn candidates(args: &StepArgs) -> Result<Vec<Converter>, Error> {
     let of = |kind: Kind, names: &[&str]| -> Vec<Converter> {
         let programs = names.iter().filter_map(|name| find(name));
         programs.map(|program| Converter { kind, program }).collect()
@@ -122,7 +122,7 @@ fn find(name: &str) -> Option<PathBuf> {
 
 impl Converter {
     /// The name in messages.
-    pub(super) fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         let package = match self.kind {
             Kind::Cascadio => "cascadio",
             Kind::Occt => "occt-import-js",
@@ -133,7 +133,7 @@ impl Converter {
     }
 
     /// The bytes that its results depend on, except for the model: the script, or the user's program, which may change.
-    pub(super) fn identity(&self) -> Vec<u8> {
+    pub(crate) fn identity(&self) -> Vec<u8> {
         let mut identity = self.program.to_string_lossy().into_owned().into_bytes();
         identity.push(0);
         identity.extend(match self.kind {
@@ -149,7 +149,7 @@ impl Converter {
     ///
     /// # Errors
     /// If the converter fails, or exceeds its time or memory.
-    pub(super) fn convert(&self, model: &Path, glb: &Path, args: &StepArgs) -> Result<Converted, Error> {
+    pub(crate) fn convert(&self, model: &Path, glb: &Path, args: &StepArgs) -> Result<Converted, Error> {
         let limits = Limits::of_process();
         let model = std::path::absolute(model).unwrap_or_else(|_| model.to_path_buf());
         let (tolerance, angle) = (args.tolerance_mm().to_string(), args.angle().to_string());

@@ -1,34 +1,34 @@
-//! Models in STEP files, through a converter.
+//! STEP models, read through an external converter.
 //!
-//! 1. The file is read and hashed. Together with tolerance and converter, the hash is the key of the result.
-//! 2. `cache` is queried for a GLB with that key. A damaged entry counts as none.
-//! 3. Otherwise `converter` finds the programs that can make one: the named one, or cascadio, occt-import-js and FreeCAD in this order.
-//!    `process` runs one with bounds on time and memory.
-//! 4. The GLB is read. GLB is in metres, and most converters turn it to y up. The scene gets the file's millimetres and z up back.
+//! 1. The file is read and hashed. The hash, the tolerance and the converter form the key of the result.
+//! 2. [`conversion_cache`] is searched for a GLB with this key. A damaged entry counts as missing.
+//! 3. Otherwise [`converter`] lists the programs that can convert: the named one, or cascadio, occt-import-js
+//!    and FreeCAD in this order. [`converter_process`] runs one with limits on time and memory.
+//! 4. The GLB is read. GLB uses metres, and most converters turn the model to y up. The scene is converted
+//!    back to the millimetres and the z-up axis of STEP.
 //!
-//! Models in other formats are handed to the library. Only the program runs converters; the library has no part in it.
+//! Models in other formats are passed to the library, which never runs a converter.
 
-mod args;
-mod cache;
+mod conversion_cache;
 mod converter;
-mod process;
+mod converter_process;
 
 use std::fs;
 use std::path::Path;
 
 use glam::{DAffine3, DMat3, DVec3};
 
-pub(super) use self::args::StepArgs;
-use self::cache::{Cache, Key};
+use self::conversion_cache::{Cache, Key};
 use self::converter::{Converted, candidates};
-use crate::cli::many::stamp::stamp;
+use crate::animation::Rigged;
+pub(crate) use crate::cli::options::step_args::StepArgs;
+use crate::cli::output::file_stamp::stamp;
 use crate::error::{Error, ErrorKind};
 use crate::load::ModelFormat;
-use crate::pose::Rigged;
 use crate::scene::{Scene, UpAxis};
 
 /// Endings of STEP files.
-pub(super) const ENDINGS: [&str; 2] = ["step", "stp"];
+pub(crate) const ENDINGS: [&str; 2] = ["step", "stp"];
 
 /// How a STEP file begins.
 const MARK: &[u8] = b"ISO-10303-21";
@@ -40,7 +40,7 @@ const VERSION: &[u8] = b"1";
 const MM_PER_M: f64 = 1000.0;
 
 /// Whether a model is in a STEP file, by its ending.
-pub(super) fn is_step(model: &Path) -> bool {
+pub(crate) fn is_step(model: &Path) -> bool {
     model.extension().is_some_and(|ending| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known)))
 }
 
@@ -48,7 +48,7 @@ pub(super) fn is_step(model: &Path) -> bool {
 ///
 /// # Errors
 /// As [`Scene::open`]; for STEP also if there is no converter, or if it fails.
-pub(super) fn open_scene(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
+pub(crate) fn open_scene(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
     if is_step(model) { open(model, args) } else { Scene::open(model) }
 }
 
@@ -56,7 +56,7 @@ pub(super) fn open_scene(model: &Path, args: &StepArgs) -> Result<Scene, Error> 
 ///
 /// # Errors
 /// As [`open_scene`].
-pub(super) fn open_rigged(model: &Path, args: &StepArgs) -> Result<Rigged, Error> {
+pub(crate) fn open_rigged(model: &Path, args: &StepArgs) -> Result<Rigged, Error> {
     if is_step(model) { open(model, args).map(Rigged::from) } else { Rigged::open(model) }
 }
 
@@ -64,7 +64,7 @@ pub(super) fn open_rigged(model: &Path, args: &StepArgs) -> Result<Rigged, Error
 ///
 /// # Errors
 /// As [`open_scene`].
-pub(super) fn open_other(model: &Path, args: &StepArgs) -> Result<Option<Scene>, Error> {
+pub(crate) fn open_other(model: &Path, args: &StepArgs) -> Result<Option<Scene>, Error> {
     is_step(model).then(|| open(model, args)).transpose()
 }
 

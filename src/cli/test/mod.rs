@@ -1,11 +1,17 @@
 //! `ligne test`: draws every case of a folder and compares it with the approved drawing.
+//!
+//! 1. [`case_folder`] finds the case files and reads each as a [`test_case`].
+//! 2. [`case_outcome`] draws each case in parallel and compares it with its approved drawing, within the
+//!    tolerance.
+//! 3. Results are printed, and written as a page ([`html_report`]) or as JUnit XML ([`junit_report`]).
+//! 4. [`failure_files`] writes the drawings of failing cases to a folder. `--bless` approves new drawings.
 
-mod case;
-mod folder;
-mod html;
-mod junit;
-mod keep;
-mod outcome;
+mod case_folder;
+mod case_outcome;
+mod failure_files;
+mod html_report;
+mod junit_report;
+mod test_case;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -13,16 +19,16 @@ use std::process::ExitCode;
 use crate::parallel::prelude::*;
 use clap::Args;
 
-use self::folder::Folder;
-use self::outcome::{Outcome, Totals, Verdict};
-use super::config::Config;
-use super::defaults::Surroundings;
-use super::output::{Staging, check_place};
-use super::progress::Progress;
-use super::{DIFFERENCES, WRONG, pipeline, print, say};
+use self::case_folder::Folder;
+use self::case_outcome::{Outcome, Totals, Verdict};
+use super::{DIFFERENCES, WRONG, library_calls, print, say};
+use crate::cli::config::call_defaults::Surroundings;
+use crate::cli::config::project_config::Config;
+use crate::cli::output::output_files::{Staging, check_place};
+use crate::cli::output::progress::Progress;
 use crate::diff::Tolerances;
 use crate::error::Error;
-use crate::math::glob::Glob;
+use crate::geometry::names::glob::Glob;
 
 /// Findings of a case that are shown at once; the reports have all.
 const SHOWN: usize = 20;
@@ -40,7 +46,7 @@ A case is a file such as drawings/lid.toml, next to its approved drawing lid.svg
   view = \"iso\"
   style = \"technical\"
   tolerance = \"0.1px\"")]
-pub(super) struct TestArgs {
+pub(crate) struct TestArgs {
     /// Folder of case files, or one case file
     folder: PathBuf,
 
@@ -79,7 +85,7 @@ pub(super) struct TestArgs {
 }
 
 /// Draws, compares, says what came of it, and writes what was asked for.
-pub(super) fn run(args: &TestArgs, no_config: bool, surroundings: &Surroundings) -> Result<ExitCode, Error> {
+pub(crate) fn run(args: &TestArgs, no_config: bool, surroundings: &Surroundings) -> Result<ExitCode, Error> {
     if args.bless && surroundings.is_ci {
         return Err(Error::new("drawings cannot be approved in CI: the variable CI is set")
             .at("--bless")
@@ -93,7 +99,7 @@ pub(super) fn run(args: &TestArgs, no_config: bool, surroundings: &Surroundings)
     let progress = Progress::start(args.quiet, &args.folder);
     progress.step("drawing");
     let draw = || folder.cases.par_iter().map(|case| Outcome::of(case, &tolerances)).collect::<Vec<_>>();
-    let outcomes = pipeline::in_threads(args.threads, draw)?;
+    let outcomes = library_calls::in_threads(args.threads, draw)?;
     drop(progress);
 
     let totals = Totals::of(&outcomes);
@@ -145,13 +151,13 @@ fn write(args: &TestArgs, outcomes: &[Outcome<'_>], blessed: bool) -> Result<(),
     }
     let folder = args.folder.to_string_lossy();
     if let Some(path) = &args.html {
-        staging.add(path, html::page(&folder, outcomes, args.html_all, blessed).as_bytes())?;
+        staging.add(path, html_report::page(&folder, outcomes, args.html_all, blessed).as_bytes())?;
     }
     if let Some(path) = &args.junit {
-        staging.add(path, junit::document(&folder, outcomes, blessed).as_bytes())?;
+        staging.add(path, junit_report::document(&folder, outcomes, blessed).as_bytes())?;
     }
     if let Some(kept) = &args.out_dir {
-        keep::keep(kept, outcomes, |outcome| passed(outcome, blessed))?;
+        failure_files::keep(kept, outcomes, |outcome| passed(outcome, blessed))?;
     }
     staging.commit()
 }

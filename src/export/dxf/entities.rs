@@ -4,27 +4,27 @@ use std::f64::consts::TAU;
 
 use kurbo::Point;
 
-use super::curve::{Curve, Piece, circle_of, curves};
+use super::arc_fitting::{Curve, Piece, circle_of, curves};
+use super::dxf_source::{DxfVersion, Sheet};
+use super::group_codes::Tags;
 use super::layers::{Entry, Layers, Pen, pen_of};
 use super::objects::MODEL_SPACE;
-use super::sheet::{DxfVersion, Sheet};
 use super::tables::APPLICATION;
-use super::tags::Tags;
 use crate::drawing::{Mark, Paint};
-use crate::math::function::atan2;
+use crate::geometry::numbers::portable_math::atan2;
 
 /// The longest text of one pair in release 12.
 const LONGEST_TEXT: usize = 250;
 
 /// All entities of a drawing, as pairs.
-pub(super) struct Entities {
-    pub(super) tags: Tags,
+pub(crate) struct Entities {
+    pub(crate) tags: Tags,
     /// The first handle that nothing has.
-    pub(super) next_handle: u32,
+    pub(crate) next_handle: u32,
 }
 
 impl Entities {
-    pub(super) fn of(sheet: &Sheet, layers: &Layers) -> Self {
+    pub(crate) fn of(sheet: &Sheet, layers: &Layers) -> Self {
         let next_handle = super::objects::FIRST_FREE;
         let mut writer = Writer { sheet, own: Self { tags: Tags::default(), next_handle } };
         for (kind, mark) in &sheet.marks {

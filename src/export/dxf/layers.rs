@@ -2,16 +2,16 @@
 
 use std::collections::BTreeMap;
 
-use super::aci;
-use super::sheet::Sheet;
+use super::colour_index;
+use super::dxf_source::Sheet;
+use crate::colour::srgb::Colour;
 use crate::drawing::{LayerKind, Mark, Paint};
-use crate::math::colour::Colour;
 
 /// The layer that every file has, and where nothing is.
-pub(super) const ZERO: &str = "0";
+pub(crate) const ZERO: &str = "0";
 
 /// The type of lines without gaps.
-pub(super) const CONTINUOUS: &str = "CONTINUOUS";
+pub(crate) const CONTINUOUS: &str = "CONTINUOUS";
 
 /// Widths of lines that DXF knows, in hundredths of a millimetre.
 const WEIGHTS: [u16; 24] =
@@ -19,43 +19,43 @@ const WEIGHTS: [u16; 24] =
 
 /// What of a pen a layer or a mark has.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Pen {
-    pub(super) colour: u8,
+pub(crate) struct Pen {
+    pub(crate) colour: u8,
     /// Hundredths of a millimetre; none of fills.
-    pub(super) weight: Option<u16>,
+    pub(crate) weight: Option<u16>,
     /// Lengths of dashes and gaps in the file's lengths, one decimal in page units; none of lines without gaps.
-    pub(super) dash: Vec<f64>,
+    pub(crate) dash: Vec<f64>,
 }
 
 /// A layer, and how its lines look.
 #[derive(Debug)]
-pub(super) struct Entry {
-    pub(super) name: String,
-    pub(super) pen: Pen,
+pub(crate) struct Entry {
+    pub(crate) name: String,
+    pub(crate) pen: Pen,
 }
 
 impl Entry {
     /// The type of its lines.
-    pub(super) fn line_type(&self) -> String {
+    pub(crate) fn line_type(&self) -> String {
         if self.pen.dash.is_empty() { CONTINUOUS.to_owned() } else { format!("{}_DASHES", self.name) }
     }
 }
 
 /// All layers that something is in, by name.
 #[derive(Debug)]
-pub(super) struct Layers {
-    pub(super) list: Vec<Entry>,
+pub(crate) struct Layers {
+    pub(crate) list: Vec<Entry>,
 }
 
 impl Layers {
     /// The layers of a drawing: what most of a layer's marks have is the layer's.
-    pub(super) fn of(sheet: &Sheet) -> Self {
+    pub(crate) fn of(sheet: &Sheet) -> Self {
         let mut all: BTreeMap<String, Vec<Pen>> = BTreeMap::new();
         for (kind, mark) in &sheet.marks {
             all.entry(name_of(*kind, mark)).or_default().push(pen_of(sheet, mark));
         }
         let entry = |(name, pens): (String, Vec<Pen>)| {
-            let colour = most(pens.iter().map(|pen| pen.colour)).unwrap_or(aci::BLACK);
+            let colour = most(pens.iter().map(|pen| pen.colour)).unwrap_or(colour_index::BLACK);
             let weight = most(pens.iter().filter_map(|pen| pen.weight));
             // Dashes of strokes are stretched to end well: those of the one in the middle stand for all.
             let mut dashes: Vec<Vec<f64>> =
@@ -68,7 +68,7 @@ impl Layers {
     }
 
     /// The layer of a mark.
-    pub(super) fn layer(&self, kind: LayerKind, mark: &Mark) -> Option<&Entry> {
+    pub(crate) fn layer(&self, kind: LayerKind, mark: &Mark) -> Option<&Entry> {
         let name = name_of(kind, mark);
         self.list
             .binary_search_by(|entry| entry.name.as_str().cmp(&name))
@@ -86,12 +86,12 @@ fn most<T: Ord + Copy>(of: impl Iterator<Item = T>) -> Option<T> {
 }
 
 /// How a mark is drawn.
-pub(super) fn pen_of(sheet: &Sheet, mark: &Mark) -> Pen {
+pub(crate) fn pen_of(sheet: &Sheet, mark: &Mark) -> Pen {
     let weight = |width: f64| {
         let wanted = (width * sheet.mm_per_unit * 100.0).round().clamp(0.0, 1e4) as i32;
         WEIGHTS.into_iter().min_by_key(|weight| (i32::from(*weight) - wanted).abs())
     };
-    let pen = |colour: Colour, weight, dash| Pen { colour: aci::nearest(colour), weight, dash };
+    let pen = |colour: Colour, weight, dash| Pen { colour: colour_index::nearest(colour), weight, dash };
     match &mark.paint {
         Paint::Stroke(stroke) => {
             let decimal = |length: f64| (length * 10.0).round() / 10.0 * sheet.scale;

@@ -1,26 +1,35 @@
-//! A drawing as DXF: one polyline, line, arc or circle for each stroke, in layers by the kind of line.
+//! DXF: one polyline, line, arc or circle for each stroke, in layers by the kind of line.
 //!
-//! Source: Autodesk, DXF Reference, releases 12 (AC1009) and 2000 (AC1015). Programs that cut and mill read polylines
-//! and arcs, and stumble over splines and over curves chopped into segments: curves are told as the lines and arcs that they
-//! are, and nothing is written twice. Coordinates have y up, and the page's lower left corner at (0, 0).
+//! Source: Autodesk, DXF Reference, releases 12 (AC1009) and 2000 (AC1015). Cutting and milling programs read
+//! polylines and arcs, but fail on splines and on curves split into many segments. So curves become lines and
+//! arcs, and nothing is written twice. Coordinates have y up, with the page's lower left corner at (0, 0).
+//!
+//! 1. [`dxf_source`] selects the marks and the unit of length.
+//! 2. [`arc_recovery`] finds the arcs that cubics stand for; [`arc_fitting`] fits lines and arcs to all other
+//!    curves.
+//! 3. [`layers`] gives each kind of line a layer with its most common pen; [`colour_index`] finds the nearest
+//!    numbered colour.
+//! 4. [`entities`] writes the strokes and fills; [`tables`] and [`objects`] write the rest of the file.
+//!
+//! [`group_codes`] writes the pairs of code and value of which a DXF file consists.
 
-mod aci;
-mod curve;
+mod arc_fitting;
+mod arc_recovery;
+mod colour_index;
+mod dxf_source;
 mod entities;
+mod group_codes;
 mod layers;
 mod objects;
-mod sheet;
-mod steps;
 mod tables;
-mod tags;
 
-pub use sheet::{DxfLength, DxfOptions, DxfVersion};
+pub use dxf_source::{DxfLength, DxfOptions, DxfVersion};
 
 use crate::drawing::Drawing;
+use dxf_source::{Sheet, is_drawn, is_told};
 use entities::Entities;
+use group_codes::Tags;
 use layers::Layers;
-use sheet::{Sheet, is_drawn, is_told};
-use tags::Tags;
 
 impl Drawing {
     /// The drawing as a DXF file. Lines of varying width are told by their middle, gradients by the colour in theirs; pictures and

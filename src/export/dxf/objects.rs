@@ -1,23 +1,23 @@
 //! Handles of what every file of release 2000 has, and the objects at its end.
 
-use super::tags::Tags;
+use super::group_codes::Tags;
 
 /// The dictionary that all objects hang on, and that of groups in it.
 const ROOT: u32 = 0xC;
 const GROUPS: u32 = 0xD;
 
 /// The block records of the model's space and of the sheet.
-pub(super) const MODEL_SPACE: u32 = 0x1A;
-pub(super) const PAPER_SPACE: u32 = 0x1B;
+pub(crate) const MODEL_SPACE: u32 = 0x1A;
+pub(crate) const PAPER_SPACE: u32 = 0x1B;
 
 /// The blocks themselves begin here, tables and their entries there.
-pub(super) const FIRST_OF_BLOCKS: u32 = 0x1C;
-pub(super) const FIRST_OF_TABLES: u32 = 0x20;
+pub(crate) const FIRST_OF_BLOCKS: u32 = 0x1C;
+pub(crate) const FIRST_OF_TABLES: u32 = 0x20;
 
 /// Entities begin here: tables have fewer entries.
-pub(super) const FIRST_FREE: u32 = 0x200;
+pub(crate) const FIRST_FREE: u32 = 0x200;
 
-pub(super) fn write(tags: &mut Tags) {
+pub(crate) fn write(tags: &mut Tags) {
     tags.section("OBJECTS");
     dictionary(tags, ROOT, 0);
     tags.text(3, "ACAD_GROUP");

@@ -1,19 +1,19 @@
 //! What stands before the entities: the header, types of lines, layers and blocks.
 
-use super::aci;
+use super::colour_index;
+use super::dxf_source::{DxfVersion, Sheet};
+use super::group_codes::Tags;
 use super::layers::{CONTINUOUS, Layers, ZERO};
 use super::objects::{self, MODEL_SPACE, PAPER_SPACE};
-use super::sheet::{DxfVersion, Sheet};
-use super::tags::Tags;
 
 /// Under which name entities say of which part they are.
-pub(super) const APPLICATION: &str = "LIGNE";
+pub(crate) const APPLICATION: &str = "LIGNE";
 
 /// `$INSUNITS`: millimetres, and lengths without a unit.
 const MILLIMETRES: usize = 4;
 const UNITLESS: usize = 0;
 
-pub(super) fn header(tags: &mut Tags, sheet: &Sheet, next_handle: u32) {
+pub(crate) fn header(tags: &mut Tags, sheet: &Sheet, next_handle: u32) {
     let modern = sheet.version == DxfVersion::R2000;
     let variable = |tags: &mut Tags, name: &str, code: u16, value: usize| {
         tags.text(9, name);
@@ -93,7 +93,7 @@ impl Tables<'_> {
 }
 
 /// The tables of a drawing.
-pub(super) fn write(tags: &mut Tags, sheet: &Sheet, layers: &Layers) {
+pub(crate) fn write(tags: &mut Tags, sheet: &Sheet, layers: &Layers) {
     let modern = sheet.version == DxfVersion::R2000;
     tags.section("TABLES");
     let mut tables = Tables { tags, modern, handle: objects::FIRST_OF_TABLES };
@@ -110,7 +110,7 @@ pub(super) fn write(tags: &mut Tags, sheet: &Sheet, layers: &Layers) {
         }
     });
     tables.table("LAYER", layers.list.len() + 1, |tables, owner| {
-        layer(tables, owner, ZERO, CONTINUOUS, aci::BLACK, None);
+        layer(tables, owner, ZERO, CONTINUOUS, colour_index::BLACK, None);
         for entry in &layers.list {
             layer(tables, owner, &entry.name, &entry.line_type(), entry.pen.colour, entry.pen.weight);
         }
@@ -211,7 +211,7 @@ fn layer(tables: &mut Tables, owner: u32, name: &str, line_type: &str, colour: u
 }
 
 /// The blocks that every file has: the model's space, where all is, and an empty sheet.
-pub(super) fn blocks(tags: &mut Tags, version: DxfVersion) {
+pub(crate) fn blocks(tags: &mut Tags, version: DxfVersion) {
     tags.section("BLOCKS");
     if version == DxfVersion::R2000 {
         for (space, record, name) in [(0, MODEL_SPACE, "*Model_Space"), (2, PAPER_SPACE, "*Paper_Space")] {

@@ -1,7 +1,7 @@
-//! Films: frames as one file, an animated SVG, GIF, PNG or WebP.
+//! Animations: frames as one file, an animated SVG, GIF, PNG or WebP.
 //!
-//! Each writer is given the frames one by one, each with the number of ticks for which it is shown; a film has so many ticks
-//! a second. All films begin again when they are over.
+//! Each writer receives the frames one by one, each with the number of ticks for which it is shown. The
+//! number of ticks per second is a property of the film. All films repeat forever.
 //!
 //! ```
 //! use ligne::export::film::{GifFilm, SvgFilm};
@@ -22,18 +22,23 @@
 //! assert!(pixels.finish()?.starts_with(b"GIF89a"));
 //! # Ok::<(), ligne::Error>(())
 //! ```
+//!
+//! Files, in reading order: [`frame_clock`] frame times without accumulated rounding; [`frame_difference`]
+//! the changed rectangle of a frame; [`gif_film`] with [`palette`]; [`apng_film`]; [`webp_film`];
+//! [`svg_film`] with [`frame_tokens`] (lines of text as numbers) and [`path_runs`] (paths that always follow
+//! each other).
 
-mod apng;
-mod changed;
-mod gif;
-mod pace;
+mod apng_film;
+mod frame_clock;
+mod frame_difference;
+mod frame_tokens;
+mod gif_film;
 mod palette;
-mod runs;
-mod svg;
-mod tokens;
-mod webp;
+mod path_runs;
+mod svg_film;
+mod webp_film;
 
-pub use apng::ApngFilm;
-pub use gif::GifFilm;
-pub use svg::SvgFilm;
-pub use webp::WebpFilm;
+pub use apng_film::ApngFilm;
+pub use gif_film::GifFilm;
+pub use svg_film::SvgFilm;
+pub use webp_film::WebpFilm;

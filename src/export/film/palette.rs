@@ -13,7 +13,7 @@ const EXACT: usize = 128;
 
 /// Opaque colours and their numbers.
 #[derive(Debug)]
-pub(super) struct Palette {
+pub(crate) struct Palette {
     colours: Vec<[u8; 3]>,
     numbers: FxHashMap<[u8; 3], u8>,
 }

@@ -1,47 +1,44 @@
-//! Reads glTF 2.0 and GLB into a [`Scene`], in the pose the file stores, with what moves it if that is asked for.
+//! Reads glTF 2.0 and GLB into a `Scene`, in the stored pose, and on request the rig that animates it.
 //!
-//! Source: Khronos Group, glTF 2.0 specification, and the extensions that `extensions` lists.
+//! Source: Khronos Group, glTF 2.0 specification, and the extensions listed in [`required_extensions`].
+//!
+//! 1. [`storage`] splits the container and gives checked access to buffers and accessors; [`meshopt`]
+//!    decompresses buffer views.
+//! 2. [`json`] is the schema of the JSON.
+//! 3. [`material_reader`] reads materials and textures; [`meshes`] reads primitives into geometries.
+//! 4. [`nodes`] resolves the node hierarchy into parts, cameras and lights.
+//! 5. [`animations`] reads the clips.
+//!
+//! Shared: [`uri`] data URIs and paths; [`missing_references`] counts references to things that the file
+//! lacks.
 
-mod accessor;
 mod animations;
-mod buffers;
-mod container;
-#[cfg(feature = "draco")]
-mod draco;
 #[cfg(not(feature = "draco"))]
-#[path = "no_draco.rs"]
+#[path = "meshes/no_draco.rs"]
 mod draco;
-mod edges;
-mod extensions;
-mod instancing;
 mod json;
-mod materials;
-mod mesh;
+mod material_reader;
+mod meshes;
 mod meshopt;
-mod missing;
+mod missing_references;
 mod nodes;
-mod parts;
-mod pointers;
-mod pose;
-mod primitive;
-mod product_names;
-mod streams;
+mod required_extensions;
+mod storage;
 mod uri;
-mod vertices;
-mod views;
 
 use std::borrow::Cow;
 use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::Path;
 
-use self::buffers::{Buffers, Fetch};
 use self::json::Root;
-use self::materials::Files;
+use self::material_reader::Files;
+use self::storage::buffers::{Buffers, Fetch};
+use crate::animation::{Rig, Rigged};
 use crate::error::Error;
-use crate::pose::{Rig, Rigged};
-use crate::scene::beside::Neighbours;
-use crate::scene::{Scene, UpAxis, Warnings, coarse};
+use crate::scene::extent::precision_warning;
+use crate::scene::model_folder::Neighbours;
+use crate::scene::{Scene, UpAxis, Warnings};
 
 /// Reads a `.gltf` or `.glb` file; buffers beside it are read too, if they lie in its folder.
 ///
@@ -90,28 +87,32 @@ pub fn read_rigged_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Rigged, Error> {
 /// The scene, and if `rigged`, what moves it.
 fn read_all(bytes: &[u8], files: Files, rigged: bool) -> Result<Rigged, Error> {
     let mut warnings = Warnings::default();
-    let container = container::split(bytes, &mut warnings)?;
+    let container = storage::container::split(bytes, &mut warnings)?;
     let mut root = root(container.json, &mut warnings)?;
-    product_names::name_after_products(&mut root);
-    extensions::check(&root.extensions_required)?;
+    nodes::product_names::name_after_products(&mut root);
+    required_extensions::check(&root.extensions_required)?;
     let buffers = Buffers::gather(&root, container.bin, files.fetch)?;
-    let mut nodes = nodes::Hierarchy::new(&root, &mut warnings)?;
-    let clips = if rigged { animations::clips(&buffers, &nodes.rest, &mut warnings) } else { Vec::new() };
+    let mut nodes = nodes::hierarchy::Hierarchy::new(&root, &mut warnings)?;
+    let clips = if rigged {
+        animations::clip_reader::clips(&buffers, &nodes.rest, &mut warnings)
+    } else {
+        Vec::new()
+    };
     nodes.wake(&root, &clips)?;
-    let materials = materials::materials(&buffers, files, &mut warnings);
-    let (cameras, of_cameras) = views::cameras(&root, &nodes, &mut warnings);
-    let (lights, of_lights) = views::lights(&root, &nodes, &mut warnings);
+    let materials = material_reader::materials(&buffers, files, &mut warnings);
+    let (cameras, of_cameras) = nodes::cameras_and_lights::cameras(&root, &nodes, &mut warnings);
+    let (lights, of_lights) = nodes::cameras_and_lights::lights(&root, &nodes, &mut warnings);
     let (format, up) = ("glTF", UpAxis::Y);
     let mut scene = Scene { format, up, materials, cameras, lights, warnings, ..Scene::default() };
     let mut rig = Rig { clips, cameras: of_cameras, lights: of_lights, ..Rig::default() };
-    parts::add(&mut scene, &mut rig, &buffers, &nodes)?;
+    nodes::part_assembly::add(&mut scene, &mut rig, &buffers, &nodes)?;
     if rig.clips.is_empty() {
         rig = Rig::default();
     } else {
         (rig.nodes, rig.order) = (nodes.rest, nodes.order);
-        rig.materials = root.materials.iter().map(materials::factors).collect();
+        rig.materials = root.materials.iter().map(material_reader::factors).collect();
     }
-    coarse::warn(&mut scene);
+    precision_warning::warn(&mut scene);
     Ok(Rigged { scene, rig })
 }
 

@@ -1,21 +1,25 @@
 //! Wavefront OBJ with its MTL libraries.
 //!
 //! Source: Wavefront Technologies, *Object Files (.obj)* and *MTL material format*, appendices B1 and B2 of
-//! the Advanced Visualizer manual; free-form curves and surfaces are passed over.
+//! the Advanced Visualizer manual. Free-form curves and surfaces are skipped. The y axis is assumed to point
+//! up.
 //!
-//! `o` begins a part; in files (or before objects) without `o`, each name of `g` is one, however
-//! often it is taken up again. y is taken to point up.
+//! 1. [`statements`] reads all statements into flat arrays, in one pass over the bytes.
+//! 2. [`mtl_library`] reads the material libraries that the file names.
+//! 3. [`scene_assembly`] makes parts and materials. `o` begins a part; in files without `o`, or before the
+//!    first `o`, each name of `g` is a part, even when the group is resumed later.
 
-mod assemble;
-mod library;
+mod mtl_library;
+mod scene_assembly;
 mod statements;
 
 use std::path::Path;
 
+use super::text_cursor::utf8;
 use crate::error::Error;
-use crate::load::text::utf8;
-use crate::scene::beside::{Neighbours, read_beside};
-use crate::scene::{Scene, coarse};
+use crate::scene::Scene;
+use crate::scene::extent::precision_warning;
+use crate::scene::model_folder::{Neighbours, read_beside};
 
 /// Reads an OBJ file and the libraries beside it.
 ///
@@ -49,13 +53,13 @@ fn read_with_files(
 ) -> Result<Scene, Error> {
     let bytes = &*utf8(bytes);
     let statements = statements::Statements::parse(bytes)?;
-    let scene = assemble::scene(statements, stem, library, files);
+    let scene = scene_assembly::scene(statements, stem, library, files);
     if bytes.contains(&0) {
         return crate::scene::drawable(scene).map_err(|_| {
             Error::new("this is binary data, not OBJ text; nothing to draw").remedy("check the file's ending")
         });
     }
-    crate::scene::drawable(scene).map(coarse::checked)
+    crate::scene::drawable(scene).map(precision_warning::checked)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 use glam::DVec3;
 
 use super::*;
-use crate::math::colour::Colour;
+use crate::colour::srgb::Colour;
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::load::shown;
-use crate::load::text::{Cursor, decode};
+use crate::load::text_cursor::{Cursor, decode};
 use crate::scene::warnings::{Spots, Warnings};
 
 /// A statement has fewer words; what follows them is not looked at.
@@ -10,7 +10,7 @@ const MOST_WORDS: usize = 6;
 
 /// How the body is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Encoding {
+pub(crate) enum Encoding {
     Text,
     Little,
     Big,
@@ -18,7 +18,7 @@ pub(super) enum Encoding {
 
 /// A kind of number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Scalar {
+pub(crate) enum Scalar {
     I8,
     U8,
     I16,
@@ -96,7 +96,7 @@ impl Scalar {
 
 /// A number of an element, or a list of them.
 #[derive(Debug, Clone)]
-pub(super) struct Property {
+pub(crate) struct Property {
     pub name: String,
     /// Kind of the length, if it is a list.
     pub list: Option<Scalar>,
@@ -105,7 +105,7 @@ pub(super) struct Property {
 
 /// Rows of the same properties.
 #[derive(Debug, Clone)]
-pub(super) struct Element {
+pub(crate) struct Element {
     pub name: String,
     pub count: u64,
     pub properties: Vec<Property>,
@@ -134,7 +134,7 @@ impl Element {
 
 /// All that the header says.
 #[derive(Debug, Clone)]
-pub(super) struct Header {
+pub(crate) struct Header {
     pub encoding: Encoding,
     pub elements: Vec<Element>,
     /// Where the body begins.

@@ -1,32 +1,38 @@
 //! PLY, text and binary of either byte order.
 //!
-//! Elements may come in any order. Faces, strips and edges that stand before the vertices are skipped, and read once the vertices
-//! are known. Faces with colours get materials in these colours; edges become wires. Other elements are skipped.
+//! Source: Greg Turk, *The PLY Polygon File Format* (1994). The y axis is assumed to point up.
 //!
-//! Source: Greg Turk, *The PLY Polygon File Format* (1994). y is taken to point up.
+//! 1. [`header`] reads the encoding and the elements with their properties.
+//! 2. [`element_rows`] reads the rows of an element. Elements may come in any order: faces, strips and edges
+//!    before the vertices are skipped and read once the vertices are known.
+//! 3. [`vertex_element`], [`face_elements`] and [`edge_element`] read vertices, polygons and strips, and
+//!    edges, which become wires.
+//!
+//! Faces with colours get materials of these colours. Other elements are skipped.
 
-mod body;
-mod edges;
-mod faces;
+mod edge_element;
+mod element_rows;
+mod face_elements;
 mod header;
-mod vertices;
+mod vertex_element;
 
 use std::path::Path;
 
 use glam::DAffine3;
 
-use self::body::Body;
-use self::faces::Faces;
+use self::element_rows::Body;
+use self::face_elements::Faces;
 use self::header::{Element, Header};
 use super::read_with;
-use super::text::Cursor;
+use super::text_cursor::Cursor;
 use super::triangle_colours;
+use crate::colour::srgb::Colour;
 use crate::error::Error;
-use crate::math::colour::Colour;
 use crate::mesh::EdgeMark;
-use crate::scene::coordinate::{NOT_DRAWABLE, is_drawable};
 use crate::scene::drawable;
-use crate::scene::{Geometry, Part, Scene, UpAxis, Warnings, coarse};
+use crate::scene::extent::coordinate_limits::{NOT_DRAWABLE, is_drawable};
+use crate::scene::extent::precision_warning;
+use crate::scene::{Geometry, Part, Scene, UpAxis, Warnings};
 
 /// Reads a PLY file.
 ///
@@ -51,7 +57,7 @@ pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     for element in &header.elements {
         match element.name.as_str() {
             "vertex" if !has_vertices => {
-                model.geometry = vertices::read(&mut body, element)?;
+                model.geometry = vertex_element::read(&mut body, element)?;
                 has_vertices = true;
                 let end = body.cursor.at;
                 for (element, start) in std::mem::take(&mut waiting) {
@@ -63,9 +69,9 @@ pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
             "face" | "tristrips" | "edge" if has_vertices => model.connect(&mut body, element)?,
             "face" | "tristrips" | "edge" => {
                 waiting.push((element, body.cursor.at));
-                faces::skip(&mut body, element)?;
+                face_elements::skip(&mut body, element)?;
             }
-            _ => faces::skip(&mut body, element)?,
+            _ => face_elements::skip(&mut body, element)?,
         }
     }
     if let Some((element, _)) = waiting.iter().find(|(element, _)| element.count > 0) {
@@ -89,7 +95,7 @@ impl Model {
     /// Reads the rows of an element that points to vertices.
     fn connect(&mut self, body: &mut Body, element: &Element) -> Result<(), Error> {
         if element.name == "edge" {
-            let edges = edges::read(body, element, &self.geometry.positions)?;
+            let edges = edge_element::read(body, element, &self.geometry.positions)?;
             self.warnings.extend(&edges.warnings);
             self.unusable += edges.unusable;
             self.geometry.wires.extend(edges.wires);
@@ -150,7 +156,7 @@ impl Model {
         }
         scene.geometries.push(geometry);
         scene.parts.push(Part { name: stem.to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY });
-        drawable(scene).map(coarse::checked)
+        drawable(scene).map(precision_warning::checked)
     }
 }
 

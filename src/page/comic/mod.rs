@@ -1,21 +1,30 @@
 //! Comic pages: panels in a layout, each the drawing of a scene, with letters over them.
+//!
+//! 1. `panel_outlines` computes the boxes of the page and the outline of each panel from its layout.
+//! 2. `panel_drawing` draws the scene of each panel (in parallel), its border, and the parts that break out
+//!    of the border.
+//! 3. `lettering` sets balloons, captions and sound effects, and places the balloons.
+//! 4. The page is painted in this order: all panels, parts that break out, letters.
+//!
+//! Files, in reading order: [`comic_keys`], the keys of a page file; `panel_outlines`; `panel_drawing`;
+//! `panel_border`; then the folder `lettering`.
 
-mod border;
-pub mod keys;
-mod letters;
-mod panel;
-mod shapes;
+pub mod comic_keys;
+mod lettering;
+mod panel_border;
+mod panel_drawing;
+mod panel_outlines;
 
 use crate::parallel::prelude::*;
 use kurbo::Rect;
 
-use super::composed::Composed;
-use super::source::Source;
+use super::composed_page::Composed;
+use super::page_source::Source;
 use crate::drawing::{Boxes, Composition, Page, Unit};
 use crate::error::Error;
-use shapes::Sheet;
+use panel_outlines::Sheet;
 
-pub use keys::ComicPage;
+pub use comic_keys::ComicPage;
 
 /// Draws a comic page: the panels in their order, then what breaks their borders, then the letters of all.
 ///
@@ -23,10 +32,12 @@ pub use keys::ComicPage;
 /// Each names the line of what is wrong.
 pub fn compose(comic: &ComicPage, source: &Source) -> Result<Composed, Error> {
     let sheet = Sheet::of(comic, source)?;
-    let shapes = shapes::shapes(comic, &sheet, source)?;
-    let lettering = letters::Lettering::new(&comic.lettering, comic.reading.into(), source)?;
-    let panels: Vec<panel::Drawn> =
-        shapes.par_iter().map(|shape| panel::draw(shape, comic, &sheet, source)).collect::<Result<_, _>>()?;
+    let shapes = panel_outlines::shapes(comic, &sheet, source)?;
+    let lettering = lettering::Lettering::new(&comic.lettering, comic.reading.into(), source)?;
+    let panels: Vec<panel_drawing::Drawn> = shapes
+        .par_iter()
+        .map(|shape| panel_drawing::draw(shape, comic, &sheet, source))
+        .collect::<Result<_, _>>()?;
     let mut items = Vec::new();
     let (mut over, mut letters) = (Vec::new(), Vec::new());
     let mut warnings = Vec::new();

@@ -1,25 +1,35 @@
-//! A figure: models placed in a scene, seen by a camera, drawn in a style; and where its parts are on the page.
+//! A figure: models placed in a scene, seen by a camera and drawn in a style, and where its parts are on
+//! the page.
 //!
-//! Vocabularies hold [`models::Models`], an [`aim::Aim`] and a [`look`] under keys of their own, and make of them, in this
-//! order: [`look::style`], [`models::staged`], [`aim::camera`], [`draw`], and [`places::places`].
+//! The kinds of page hold [`models::Models`], a `CameraSpec` and a style under keys of their own, and use
+//! them in this order:
+//!
+//! 1. [`figure_style`] loads the style and applies the changes of the page file.
+//! 2. [`models`] reads the models, poses them and joins them to one scene.
+//! 3. [`camera_spec`] makes the camera from the keys.
+//! 4. [`draw`] draws the scene.
+//! 5. [`part_bounds`] finds the boxes and hulls of parts in the frame; [`coverage_grid`] the area that
+//!    models cover.
+//!
+//! Helpers: [`part_colours`], colours in place of materials; `scene_assembly`, moving and joining scenes.
 
-pub mod aim;
-pub mod colours;
-pub mod cover;
-pub mod look;
+pub mod camera_spec;
+pub mod coverage_grid;
+pub mod figure_style;
 pub mod models;
-mod moved;
-pub mod places;
+pub mod part_bounds;
+pub mod part_colours;
+mod scene_assembly;
 
-pub use aim::{Aim, AimKeys, Crop, camera};
-pub use cover::Cover;
-pub use look::style;
+pub use camera_spec::{Aim, AimKeys, Crop, camera};
+pub use coverage_grid::Cover;
+pub use figure_style::style;
 pub use models::{ModelKeys, Models, staged};
-pub use places::{Place, is_named, places};
+pub use part_bounds::{Place, is_named, places};
 
 use crate::drawing::{Drawing, Page};
 use crate::error::Error;
-use crate::render::render_reported;
+use crate::pipeline::render_reported;
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
 

@@ -9,13 +9,13 @@ use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 use toml::Spanned;
 
-use super::colours::{self, Colours};
-use super::moved::{join, move_scene};
+use super::part_colours::{self, Colours};
+use super::scene_assembly::{join, move_scene};
+use crate::animation::{Clip, Playing, Rigged};
 use crate::error::Error;
-use crate::math::function::{cos, sin};
+use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::motion;
-use crate::page::source::Source;
-use crate::pose::{Clip, Playing, Rigged};
+use crate::page::page_source::Source;
 use crate::scene::{Scene, UpAxis};
 use crate::style::Style;
 
@@ -204,7 +204,7 @@ fn posed(
         }
     }
     if let Some(own) = &keys.colour {
-        colours::paint(&mut scene, own, source)?;
+        part_colours::paint(&mut scene, own, source)?;
     }
     Ok(scene)
 }

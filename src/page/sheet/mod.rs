@@ -1,65 +1,58 @@
-//! Technical sheets: a model in views that stand as the standards have it, in a frame with a title block and a parts list.
+//! Technical sheets: a model in standard views, in a frame with a title block and a parts list.
 //!
-//! [`keys`] is what is told, `plan` which views there are and of what, `arrange` where they stand and how large, `layout` where what is
-//! written on them stands.
+//! 1. `keys` holds the keys of the page file; `arrangement` plans the views and the scenes they show.
+//! 2. `frame` draws the frame, the title block and the parts list, and thereby fixes the free paper.
+//! 3. `arrangement` puts the views on the free paper at the largest scale of the series that fits.
+//! 4. `dimensions` collects the lengths and diameters to show; `annotations` finds a place for all texts
+//!    and lines of a view.
+//! 5. Annotations that reach outside a view enlarge its margin. Steps 3 and 4 repeat until everything fits.
+//!
+//! Folders, in reading order (imports run from later to earlier ones): `view`; `parts_list`;
+//! `part_balloons`; `canvas`, marks in mm and occupied paper; `frame`; `keys`; `lengths`, rounding and
+//! number format; `arrangement`; `dimensions`; `annotations`.
+//!
+//! Source: ISO 128, ISO 129-1, ISO 5455, ISO 5456-2, ISO 5457, ISO 7200, ISO 7573; cited where they are
+//! used.
 
-mod arrange;
-mod balloon_anchors;
-pub mod balloons;
-pub mod block;
-mod centre;
-mod dimension;
-mod exploded;
+mod annotations;
+mod arrangement;
+mod canvas;
+mod dimensions;
 pub mod frame;
-mod ink;
-mod item_table;
 pub mod keys;
-mod layout;
-pub mod list;
-mod list_file;
-mod measures;
-pub mod method;
-mod notes;
-mod pack;
-mod places;
-mod plan;
-mod precision;
-mod rounds;
-pub mod rows;
-mod same_shape;
-mod scales;
-mod sight;
-mod true_length;
-mod values;
+mod lengths;
+pub mod part_balloons;
+pub mod parts_list;
+pub mod view;
 
 use std::path::PathBuf;
 
 use glam::DVec2;
 use kurbo::{Affine, Point, Rect};
 
-pub use block::TitleKeys;
-pub use keys::SheetPage;
-pub use method::Method;
+pub use frame::title_block::TitleKeys;
+pub use keys::sheet_keys::SheetPage;
+pub use view::projection_method::Method;
 
-use super::composed::Composed;
+use super::composed_page::Composed;
 use super::figure;
-use super::size::Size;
-use super::source::Source;
+use super::page_size::Size;
+use super::page_source::Source;
+use crate::colour::srgb::Colour;
 use crate::drawing::{Composition, Item, Page, Unit};
 use crate::error::Error;
-use crate::math::colour::Colour;
 use crate::mesh::Mesh;
-use crate::render::Prepared;
-use crate::shape::Cylinder;
+use crate::pipeline::Prepared;
+use crate::surface::Cylinder;
 use crate::text::Font;
-use arrange::arrange;
-use ink::Ink;
-use item_table::ItemTable;
-use keys::ListKeys;
-use layout::{Board, DrawnViews, Layout};
-use measures::Measures;
-use plan::{Plan, read_scale};
-use rounds::Round;
+use annotations::{Board, DrawnViews, Layout};
+use arrangement::view_arrangement::arrange;
+use arrangement::view_plan::{Plan, read_scale};
+use canvas::sheet_canvas::Ink;
+use dimensions::dimension_set::Measures;
+use dimensions::hole_dimensions::Round;
+use frame::parts_table::ItemTable;
+use keys::sheet_keys::ListKeys;
 
 /// Between the frame and what is drawn, mm.
 const INSET: f64 = 4.0;
@@ -71,7 +64,7 @@ impl SheetPage {
     /// The files it is made from.
     #[must_use]
     pub fn inputs(&self, source: &Source) -> Vec<PathBuf> {
-        let style = self.style.as_ref().and_then(|style| figure::look::file(style, source));
+        let style = self.style.as_ref().and_then(|style| figure::figure_style::file(style, source));
         let list = match self.parts_list.as_ref().map(toml::Spanned::get_ref) {
             Some(ListKeys::File(path)) => Some(source.beside(path)),
             _ => None,
@@ -80,7 +73,7 @@ impl SheetPage {
     }
 
     /// Whether it has a parts list.
-    pub(super) fn has_parts_list(&self) -> bool {
+    pub(crate) fn has_parts_list(&self) -> bool {
         self.parts_list.as_ref().is_some_and(|list| *list.get_ref() != ListKeys::Named(false))
     }
 
@@ -122,16 +115,16 @@ fn compose_sheet(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> 
     let (items, mut warnings) = items(sheet, &plan, source)?;
     let technical = toml::Spanned::new(0..0, "technical".to_owned());
     let style = sheet.style.as_ref().unwrap_or(&technical);
-    warnings.extend(figure::look::unit_warning(style, &sheet.set, source));
-    let space = frame::space(size);
-    let block = block::TitleBlock::new(&sheet.title, space, &font, source)?;
+    warnings.extend(figure::figure_style::unit_warning(style, &sheet.set, source));
+    let space = frame::zone_frame::space(size);
+    let block = frame::title_block::TitleBlock::new(&sheet.title, space, &font, source)?;
     let table = ItemTable::new(&items, block.place, space, &font).map_err(|error| {
         sheet.parts_list.as_ref().map_or(error.clone(), |told| source.about(&told.span(), error))
     })?;
     let mut tables = vec![block.place];
     tables.extend(table.as_ref().map(|table| table.place));
-    let (written, notes) = notes::written(sheet, (space, &tables), &font, source)?;
-    let marks = frame::centring_marks(size, &tables);
+    let (written, notes) = arrangement::titles_and_notes::written(sheet, (space, &tables), &font, source)?;
+    let marks = frame::zone_frame::centring_marks(size, &tables);
     let inner = space.inflate(-INSET, -INSET);
     let taken: Vec<Rect> = tables
         .iter()
@@ -145,10 +138,11 @@ fn compose_sheet(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> 
     let (drawn, told) = laid.views;
     warnings.extend(told);
     let mut ink = Ink::new(&font, "frame");
-    frame::draw(size, &marks, &mut ink)?;
+    frame::zone_frame::draw(size, &marks, &mut ink)?;
     let mut parts = vec![whole("frame", ink, size)];
     let mut ink = Ink::new(&font, "title-block");
-    let names = (&*scales::written(laid.scale), sheet.projection, size_name(size), plan.values.unit.name);
+    let names =
+        (&*view::scale_series::written(laid.scale), sheet.projection, size_name(size), plan.values.unit.name);
     block.draw(names, &mut ink)?;
     parts.push(whole("title-block", ink, size));
     parts.extend(drawn);
@@ -176,23 +170,27 @@ fn compose_sheet(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> 
         Page { width: size.width, height: size.height, unit: Unit::Mm, background: Some(Colour::WHITE) };
     let name = if sheet.title.title.is_empty() { "sheet" } else { &sheet.title.title };
     let composition = Composition::new(name, page, parts);
-    warnings.extend(notes::unreadable(&composition));
+    warnings.extend(arrangement::titles_and_notes::unreadable(&composition));
     Ok(Composed { composition, warnings })
 }
 
 /// The items of the parts list, and warnings about parts that are in none.
-fn items(sheet: &SheetPage, plan: &Plan, source: &Source) -> Result<(Vec<list::Item>, Vec<String>), Error> {
+fn items(
+    sheet: &SheetPage,
+    plan: &Plan,
+    source: &Source,
+) -> Result<(Vec<parts_list::parts_list_items::Item>, Vec<String>), Error> {
     if !sheet.has_parts_list() {
         return Ok((Vec::new(), Vec::new()));
     }
     let scene = &plan.sets[0].scene;
-    let own = list::items(scene);
+    let own = parts_list::parts_list_items::items(scene);
     let Some((told, ListKeys::File(path))) = sheet.parts_list.as_ref().map(|told| (told, told.get_ref()))
     else {
         return Ok((own, Vec::new()));
     };
     let path = source.existing(&toml::Spanned::new(told.span(), path.clone()), "parts list")?;
-    let (items, left) = list_file::read(&path, scene, &own)?;
+    let (items, left) = parts_list::parts_list_file::read(&path, scene, &own)?;
     let warning = |name: String| format!("part '{name}' is in no row of the parts list");
     Ok((items, left.into_iter().map(warning).collect()))
 }
@@ -231,7 +229,7 @@ impl<'a> Laying<'a> {
         let auto = dimensions == "auto";
         let is_single = plan.sets[0].scene.parts.len() == 1;
         let cylinders = if sheet.centre_lines.unwrap_or(is_single || auto) {
-            rounds::whole(&Mesh::build(plan.sets[0].scene.to_soup()))
+            dimensions::hole_dimensions::whole(&Mesh::build(plan.sets[0].scene.to_soup()))
         } else {
             Vec::new()
         };
@@ -247,7 +245,7 @@ impl<'a> Laying<'a> {
         if let Some(rounds) = &self.rounds {
             measures.add_rounds(plan, rounds);
         }
-        places::add_told(self.sheet, plan, &mut measures, source)?;
+        dimensions::requested_dimensions::add_told(self.sheet, plan, &mut measures, source)?;
         Ok(measures)
     }
 
@@ -256,7 +254,7 @@ impl<'a> Laying<'a> {
         &mut self,
         plan: &mut Plan,
         place: (Rect, &[Rect]),
-        (font, items): (&Font, &[list::Item]),
+        (font, items): (&Font, &[parts_list::parts_list_items::Item]),
         source: &Source,
     ) -> Result<Laid, Error> {
         let told = self.sheet.scale.as_ref().map(|scale| read_scale(scale, source)).transpose()?;
@@ -274,11 +272,15 @@ impl<'a> Laying<'a> {
             if anchors.is_none() {
                 drawn.update(plan)?;
                 if let Some(rounds) = &mut self.rounds {
-                    *rounds = rounds::rounds(plan);
+                    *rounds = dimensions::hole_dimensions::rounds(plan);
                 }
                 let found = plan.balloons.map(|view| {
                     let sight = &plan.views[view].sight;
-                    let found = balloon_anchors::anchors(sight, &plan.sets[plan.set_of[view]].scene, items);
+                    let found = part_balloons::balloon_anchors::anchors(
+                        sight,
+                        &plan.sets[plan.set_of[view]].scene,
+                        items,
+                    );
                     let within = |p: Point| DVec2::new(p.x - sight.corner.x, p.y - sight.corner.y);
                     found.into_iter().map(|p| p.map(|p| within(p) / sight.unit)).collect()
                 });
@@ -323,7 +325,7 @@ impl<'a> Laying<'a> {
 
     /// The error that the views do not fit, which says what takes the room.
     fn refused(&self, plan: &Plan, source: &Source) -> Error {
-        let around = |placed: &arrange::Placed| {
+        let around = |placed: &arrangement::view_arrangement::Placed| {
             placed.rooms.last().map_or(0.0, |(_, around)| around.iter().sum::<f64>())
         };
         let widest = plan.views.iter().max_by(|a, b| around(a).total_cmp(&around(b)));
@@ -371,7 +373,7 @@ fn fill_ring(
 }
 
 /// Gives views the room that what is written on them needs. Reports whether they had it.
-fn make_room(views: &mut [arrange::Placed], boards: &[Board]) -> bool {
+fn make_room(views: &mut [arrangement::view_arrangement::Placed], boards: &[Board]) -> bool {
     let mut fits = true;
     for (placed, board) in views.iter_mut().zip(boards) {
         let needed = Layout::room(board, placed.sight.rect());

@@ -1,6 +1,6 @@
 //! Advice in error messages: the key that an unknown word stands for, and how the value of a key is written.
 
-use super::table::{KeyType, StyleKey};
+use super::key_table::{KeyType, StyleKey};
 use crate::error::nearest::nearest;
 use crate::error::spelling::british;
 

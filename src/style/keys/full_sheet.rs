@@ -4,13 +4,13 @@ use std::fmt::Write as _;
 
 use toml::{Table, Value};
 
-use super::table::{KeyType, StyleKey};
+use super::key_table::{KeyType, StyleKey};
 
 /// Columns of a comment that lists keys.
 const COLUMNS: usize = 100;
 
 /// A sheet with all keys: those that the style sets, and the defaults of the others. Keys without a value are comments.
-pub(in crate::style) fn full_sheet(name: &str, set: &Table) -> String {
+pub(crate) fn full_sheet(name: &str, set: &Table) -> String {
     let mut sheet = format!("# All keys of the style `{name}`. A line that begins with # has no effect.\n\n");
     for key in StyleKey::all().iter().filter(|key| key.prefix.is_empty() && key.kind != KeyType::Tables) {
         write_key(&mut sheet, key, key.name, set, true);
@@ -126,7 +126,7 @@ fn is_set(table: &Table, name: &str) -> bool {
 }
 
 /// The value at a dotted path.
-pub(in crate::style) fn value_at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
+pub(crate) fn value_at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
     match path.split_once('.') {
         None => table.get(path),
         Some((first, rest)) => value_at(table.get(first)?.as_table()?, rest),

@@ -1,17 +1,20 @@
 //! The table of all style keys: type, values, default, unit and one line of help for each.
 //!
-//! The table is plain text, `table.txt`, so that it costs no build time. The deserialisers in `sheet.rs` and in the option structs stay
-//! the source of truth: the tests walk every path that they accept and compare it with the table.
+//! The table is plain text, `table.txt`, so it costs no build time. The deserialisers in `style::tables`
+//! and in the option structs stay the source of truth: the tests walk every path that they accept and
+//! compare it with the table.
 //!
-//! 1. [`table`] parses the text into [`StyleKey`]s. A section that stands under several tables, such as the fields of pens, is
-//!    written once and expanded for each.
-//! 2. [`advice`] finds the key that an unknown word may stand for, and says how the value of a known key is written.
+//! 1. [`key_table`] parses the text into [`StyleKey`]s. A section that several tables share, such as the
+//!    fields of pens, is written once and expanded for each.
+//! 2. [`advice`] finds the key that an unknown word may stand for, and describes how to write the value of
+//!    a known key.
 //! 3. [`full_sheet`] prints a sheet with every key.
 //!
-//! `ligne styles --keys`, the completions of `--set`, `docs/reference/style-keys.md` and error messages read this table.
+//! `ligne styles --keys`, the completions of `--set`, `docs/reference/style-keys.md` and error messages
+//! read this table.
 
 pub(crate) mod advice;
-pub(super) mod full_sheet;
-mod table;
+pub(crate) mod full_sheet;
+mod key_table;
 
-pub use table::{KeyType, StyleKey};
+pub use key_table::{KeyType, StyleKey};

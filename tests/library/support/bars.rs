@@ -1,7 +1,7 @@
 //! Bars of any profile: what is the same all along is told by its corners.
 
 use glam::DVec3;
-use ligne::math::function::{cos, sin};
+use ligne::geometry::numbers::portable_math::{cos, sin};
 
 use super::solids::Solid;
 

@@ -22,9 +22,11 @@ impl Eye {
         let forward = (camera.target - camera.eye).normalize();
         let right = forward.cross(camera.up).normalize();
         let (perspective, scale) = match camera.projection {
-            Projection::Perspective { fov_y_deg } => {
-                (true, camera.height / (2.0 * ligne::math::function::tan(fov_y_deg.to_radians() / 2.0)))
-            }
+            Projection::Perspective { fov_y_deg } => (
+                true,
+                camera.height
+                    / (2.0 * ligne::geometry::numbers::portable_math::tan(fov_y_deg.to_radians() / 2.0)),
+            ),
             Projection::Orthographic { height } => (false, camera.height / height),
         };
         let up = right.cross(forward);

@@ -1,7 +1,7 @@
 //! Random scenes of several closed and open parts that are hard to see right, each piece a part.
 
 use glam::{DMat3, DVec3};
-use ligne::math::function::{cos, sin};
+use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::scene::{Camera, Scene};
 
 use super::dice::Dice;

@@ -1,7 +1,7 @@
 //! Lines of a picture as a set of segments, and how far a place is from the nearest.
 
 use kurbo::{BezPath, PathEl, Point};
-use ligne::stages::chain::Chain;
+use ligne::chains::Chain;
 use rustc_hash::FxHashMap;
 
 /// Segments, sorted into square tiles.

@@ -2,10 +2,10 @@
 
 use glam::{DAffine3, DQuat, DVec3};
 use kurbo::{ParamCurve, PathSeg, Point};
+use ligne::animation::rig::{Form, Node, Placement};
+use ligne::animation::{Channel, Clip, Interpolation, Playing, Property, Rig, Rigged, Target, Track};
 use ligne::drawing::{Drawing, LayerKind, Mark, Paint};
-use ligne::math::function::{cos, sin};
-use ligne::pose::rig::{Form, Node, Placement};
-use ligne::pose::{Channel, Clip, Interpolation, Playing, Property, Rig, Rigged, Target, Track};
+use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::{Camera, Scene, Style, motion, render};
 
 use super::pipeline::{geometry, orthographic, scene_of_geometries};

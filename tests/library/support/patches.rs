@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use kurbo::{BezPath, PathEl, Point};
-use ligne::stages::mesh::{MaterialId, PaintId, PartId};
-use ligne::stages::region::ground::{BorderPiece, Cell};
-use ligne::stages::region::{Ground, Look};
+use ligne::mesh::{MaterialId, PaintId, PartId};
+use ligne::regions::hatch_regions::hatch_map::{BorderPiece, Cell};
+use ligne::regions::{Ground, Look};
 
 /// A ground whose cells are polygons in facets, turning from x to y; cell 0 is paper. Polygons that touch
 /// share their corners.

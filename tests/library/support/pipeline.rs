@@ -2,11 +2,11 @@
 
 use glam::{DAffine3, DVec3};
 use kurbo::Point;
+use ligne::lines::{self, Contours, FeatureLines, HiddenLines, LineKind, LineOptions, Surface};
+use ligne::mesh::Mesh;
 use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
-use ligne::stages::lines::{self, Contours, FeatureLines, HiddenLines, LineKind, LineOptions, Surface};
-use ligne::stages::mesh::Mesh;
-use ligne::stages::view::View;
-use ligne::stages::viewmap::{self, ViewEdge, ViewMap};
+use ligne::view::View;
+use ligne::visibility::{self, ViewEdge, ViewMap};
 
 use super::solids::Solid;
 
@@ -32,7 +32,7 @@ pub fn stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stages {
     let surface = Surface::new(Mesh::build(scene.to_soup()), options).finer_for(camera);
     let view = View::new(&surface.mesh, camera);
     let lines = lines::extract(&surface, &view, options);
-    let map = viewmap::build(&surface.mesh, &view, &lines, options);
+    let map = visibility::build(&surface.mesh, &view, &lines, options);
     Stages { mesh: surface.mesh, view, lines, map }
 }
 

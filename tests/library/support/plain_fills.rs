@@ -1,7 +1,7 @@
 //! Drawings of colours alone: one tone for all, no ink; and what of them is painted.
 
+use ligne::colour::srgb::Colour;
 use ligne::drawing::{Drawing, Mark, Paint};
-use ligne::math::colour::Colour;
 use ligne::style::Style;
 
 /// One tone for all, in the colour of the surface, and no ink.

@@ -5,7 +5,7 @@ use std::path::Path;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use glam::{DMat4, DVec3};
-use ligne::math::function::{acos, sin};
+use ligne::geometry::numbers::portable_math::{acos, sin};
 use serde_json::Value;
 
 /// A glTF file read for the second time, by other code.

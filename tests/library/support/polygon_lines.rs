@@ -109,7 +109,8 @@ fn turns(polygons: &Polygons, eye: &Eye, [a, b]: [DVec3; 2], sides: &[Side]) -> 
     };
     let first = across(&sides[0]);
     let up = axis.cross(first);
-    let angle = |v: DVec3| ligne::math::function::atan2(v.dot(up), v.dot(first)).to_degrees();
+    let angle =
+        |v: DVec3| ligne::geometry::numbers::portable_math::atan2(v.dot(up), v.dot(first)).to_degrees();
     let mut angles: Vec<f64> = sides.iter().map(|side| angle(across(side))).collect();
     angles.sort_by(f64::total_cmp);
     // Faces that lie in one another are one.

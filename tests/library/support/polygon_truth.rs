@@ -1,10 +1,10 @@
 //! How far visible smooth contours lie from the contour of the polyhedron, seen or hidden.
 
 use kurbo::Point;
+use ligne::lines::{Contours, LineKind, LineOptions, Surface};
+use ligne::mesh::Mesh;
 use ligne::scene::{Camera, Scene};
-use ligne::stages::lines::{Contours, LineKind, LineOptions, Surface};
-use ligne::stages::mesh::Mesh;
-use ligne::stages::viewmap::ViewMap;
+use ligne::visibility::ViewMap;
 
 use super::ink::{Ink, quantile, samples};
 use super::validity::view_map;

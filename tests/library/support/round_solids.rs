@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use glam::DVec3;
-use ligne::math::function::{cos, sin};
+use ligne::geometry::numbers::portable_math::{cos, sin};
 use ligne::scene::Geometry;
 
 use super::solids::Solid;

@@ -1,8 +1,8 @@
 //! Every visible line of a view map, point by point in the world, against rays through all other parts.
 
 use kurbo::Point;
+use ligne::lines::LineOptions;
 use ligne::scene::{Camera, Scene};
-use ligne::stages::lines::LineOptions;
 use rayon::prelude::*;
 
 use super::eye::Eye;

@@ -1,8 +1,8 @@
 //! A slow reference for cast shadows: one ray through every triangle.
 
 use glam::DVec3;
-use ligne::stages::mesh::{FaceId, Mesh};
-use ligne::stages::shadow::{Caster, Shadows};
+use ligne::mesh::{FaceId, Mesh};
+use ligne::shadows::{Caster, Shadows};
 
 use super::dice::Dice;
 

@@ -62,7 +62,7 @@ pub fn words(item: &Item) -> Vec<String> {
 
 /// A plate from the origin with a hole through it in each of several columns side by side: its middle and radius.
 pub fn drilled(size: [f64; 3], holes: &[([f64; 2], f64)]) -> Solid {
-    use ligne::math::function::{cos, sin};
+    use ligne::geometry::numbers::portable_math::{cos, sin};
     let mut plate = Solid::default();
     let [width, depth, height] = size;
     let column = width / holes.len().max(1) as f64;

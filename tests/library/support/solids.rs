@@ -75,7 +75,7 @@ pub fn sphere(around: usize, radius: f64) -> Solid {
 
 fn turn(fraction: f64) -> (f64, f64) {
     let angle = fraction * std::f64::consts::TAU;
-    (ligne::math::function::cos(angle), ligne::math::function::sin(angle))
+    (ligne::geometry::numbers::portable_math::cos(angle), ligne::geometry::numbers::portable_math::sin(angle))
 }
 
 /// A grid closed in u, and in v if `closed`.

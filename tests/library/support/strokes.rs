@@ -1,12 +1,12 @@
 //! Lines by themselves, the marks that strokes make of them, and measures of these.
 
 use kurbo::{BezPath, ParamCurve, ParamCurveNearest, Point, Shape};
+use ligne::chains::{Chain, Sample};
 use ligne::drawing::{Mark, OutlinePaint, Paint, Unit};
-use ligne::math::function::{cos, sin};
-use ligne::stages::chain::{Chain, Sample};
-use ligne::stages::lines::LineKind;
-use ligne::stages::mesh::{MaterialId, PartId};
-use ligne::stages::stroke::{InkContext, ink};
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::lines::LineKind;
+use ligne::mesh::{MaterialId, PartId};
+use ligne::strokes::{InkContext, ink};
 use ligne::style::Style;
 use std::f64::consts::TAU;
 use std::sync::Arc;

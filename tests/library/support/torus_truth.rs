@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 use kurbo::Point;
-use ligne::math::function::{acos, atan2, cos, sin};
+use ligne::geometry::numbers::portable_math::{acos, atan2, cos, sin};
 use ligne::scene::Camera;
 
 use super::eye::Eye;

@@ -2,11 +2,11 @@
 
 use glam::{DAffine3, DVec3};
 use kurbo::Point;
+use ligne::chains::{self, Chain, ChainOptions};
 use ligne::drawing::Unit;
+use ligne::lines::{HiddenLines, LineKind, LineOptions, Surface};
+use ligne::mesh::Mesh;
 use ligne::scene::{Camera, Scene, UpAxis};
-use ligne::stages::chain::{self, Chain, ChainOptions};
-use ligne::stages::lines::{HiddenLines, LineKind, LineOptions, Surface};
-use ligne::stages::mesh::Mesh;
 
 use super::eye::Eye;
 use super::ink::Ink;
@@ -77,7 +77,7 @@ pub fn turned(camera: &Camera, scene: &Scene, degrees: f64) -> Camera {
 pub fn compare(surface: &Surface, options: &LineOptions, cameras: [&Camera; 2]) -> Stability {
     let drawings = cameras.map(|camera| {
         let map = view_map(surface, camera, options);
-        let mut chains = chain::link(&map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
+        let mut chains = chains::link(&map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
         chains.retain(|c| c.invisibility == 0);
         chains
     });

@@ -4,10 +4,10 @@
 
 use glam::DVec3;
 use kurbo::Point;
+use ligne::lines::{self, LineKind, LineOptions, Surface};
 use ligne::scene::{Camera, Projection, Scene, UpAxis};
-use ligne::stages::lines::{self, LineKind, LineOptions, Surface};
-use ligne::stages::view::View;
-use ligne::stages::viewmap::{self, ViewMap, ViewVertexKind};
+use ligne::view::View;
+use ligne::visibility::{self, ViewMap, ViewVertexKind};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::ink::{Ink, nearest_on};
@@ -155,7 +155,7 @@ pub fn view_map(surface: &Surface, camera: &Camera, options: &LineOptions) -> Vi
     let surface = surface.clone().finer_for(camera);
     let view = View::new(&surface.mesh, camera);
     let lines = lines::extract(&surface, &view, options);
-    viewmap::build(&surface.mesh, &view, &lines, options)
+    visibility::build(&surface.mesh, &view, &lines, options)
 }
 
 /// Looks at all places of a view map where a visible smooth contour stops.

@@ -1,11 +1,14 @@
-//! Unpacks buffer views compressed by EXT_meshopt_compression and KHR_meshopt_compression.
+//! Decompresses buffer views of EXT_meshopt_compression and KHR_meshopt_compression.
 //!
-//! Source: the bit streams as the two extensions specify them, vertex codec 0 and 1, index codec 0
-//! and 1, all filters. The streams are read through a cursor that cannot leave them.
+//! Source: the bit streams as specified by the two extensions: vertex codec 0 and 1, index codec 0 and 1, all
+//! filters. A bounds-checked cursor reads the streams.
+//!
+//! Files: [`vertex_codec`] byte columns as differences; [`index_codec`] triangles that share edges with
+//! recent ones, and plain sequences; [`vertex_filters`] unit vectors, quaternions, floats and colours.
 
-mod filter;
-mod index;
-mod vertex;
+mod index_codec;
+mod vertex_codec;
+mod vertex_filters;
 
 use super::json::Meshopt;
 use super::uri::shown;
@@ -16,9 +19,9 @@ pub fn decode(packed: &Meshopt, bytes: &[u8]) -> Result<Vec<u8>, Error> {
     let Meshopt { count, byte_stride: stride, .. } = *packed;
     let filter = packed.filter.as_deref().unwrap_or("NONE");
     let decoded = match (packed.mode.as_str(), stride) {
-        ("ATTRIBUTES", 4..=256) if stride % 4 == 0 => vertex::decode(bytes, count, stride),
-        ("TRIANGLES", 2 | 4) if count % 3 == 0 => index::triangles(bytes, count, stride),
-        ("INDICES", 2 | 4) => index::sequence(bytes, count, stride),
+        ("ATTRIBUTES", 4..=256) if stride % 4 == 0 => vertex_codec::decode(bytes, count, stride),
+        ("TRIANGLES", 2 | 4) if count % 3 == 0 => index_codec::triangles(bytes, count, stride),
+        ("INDICES", 2 | 4) => index_codec::sequence(bytes, count, stride),
         (mode, _) => {
             let message = format!("meshopt mode `{}` with {count} elements of {stride} bytes", shown(mode));
             return Err(Error::new(message));
@@ -30,12 +33,12 @@ pub fn decode(packed: &Meshopt, bytes: &[u8]) -> Result<Vec<u8>, Error> {
     })?;
     match (filter, stride) {
         ("NONE", _) => {}
-        ("OCTAHEDRAL", 4) => filter::octahedral_8(&mut decoded),
-        ("OCTAHEDRAL", 8) => filter::octahedral_16(&mut decoded),
-        ("QUATERNION", 8) => filter::quaternion(&mut decoded),
-        ("EXPONENTIAL", _) if stride % 4 == 0 => filter::exponential(&mut decoded),
-        ("COLOR", 4) => filter::colour_8(&mut decoded),
-        ("COLOR", 8) => filter::colour_16(&mut decoded),
+        ("OCTAHEDRAL", 4) => vertex_filters::octahedral_8(&mut decoded),
+        ("OCTAHEDRAL", 8) => vertex_filters::octahedral_16(&mut decoded),
+        ("QUATERNION", 8) => vertex_filters::quaternion(&mut decoded),
+        ("EXPONENTIAL", _) if stride % 4 == 0 => vertex_filters::exponential(&mut decoded),
+        ("COLOR", 4) => vertex_filters::colour_8(&mut decoded),
+        ("COLOR", 8) => vertex_filters::colour_16(&mut decoded),
         (other, _) => {
             let message = format!("meshopt filter `{}` on elements of {stride} bytes", shown(other));
             return Err(Error::new(message));

@@ -1,7 +1,7 @@
 //! Ways to draw, by name: lines as stages give them, or a style with changes to it.
 
-use ligne::render::render;
-use ligne::stages::lines::{Contours, LineOptions};
+use ligne::lines::{Contours, LineOptions};
+use ligne::pipeline::render;
 use ligne::style::Style;
 
 use super::picture::Picture;

@@ -2,8 +2,8 @@
 //! materials, vertices that no face uses.
 
 use glam::{DAffine3, DVec3};
+use ligne::mesh::EdgeMark;
 use ligne::scene::{Geometry, Material, Part, Scene};
-use ligne::stages::mesh::EdgeMark;
 
 /// Two of these sheets side by side.
 pub fn sheets() -> Scene {

@@ -1,7 +1,7 @@
 //! Bodies with short coordinates: boxes, prisms, plates, stairs, houses, sheets, and rounded bodies.
 
 use glam::{DMat3, DVec3};
-use ligne::math::function::{cos, sin};
+use ligne::geometry::numbers::portable_math::{cos, sin};
 
 use super::body::{Body, Face};
 use crate::support::dice::Dice;

@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use kurbo::Point;
-use ligne::render::render;
+use ligne::pipeline::render;
 use ligne::scene::Scene;
 use ligne::style::Style;
 

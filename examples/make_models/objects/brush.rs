@@ -1,0 +1,34 @@
+//! The picture of a stroke with a brush that runs dry: full of ink where it is set down, streaks of bristles where it is lifted.
+
+use ligne::geometry::numbers::noise::{hash, smooth, unit};
+
+const WIDTH: usize = 640;
+const HEIGHT: usize = 64;
+
+/// A PNG file, dark on white.
+pub fn dry() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, WIDTH as u32, HEIGHT as u32);
+    encoder.set_color(png::ColorType::Grayscale);
+    let shades: Vec<u8> = (0..WIDTH * HEIGHT).map(|k| shade(k % WIDTH, k / WIDTH)).collect();
+    let mut writer = encoder.write_header().expect("a header");
+    writer.write_image_data(&shades).expect("pixels");
+    drop(writer);
+    bytes
+}
+
+fn shade(column: usize, row: usize) -> u8 {
+    let (x, y) = ((column as f64 + 0.5) / WIDTH as f64, (row as f64 + 0.5) / HEIGHT as f64 - 0.5);
+    // Neighbouring bristles stick together; each has so much ink, and loses it unevenly.
+    let bristle = row as f64 / 2.6;
+    let load = 0.75 * smooth(1, bristle) + 0.25 * (2.0 * unit(hash(2, &[row as u64])) - 1.0);
+    let uneven = smooth(3 + (row / 2) as u64, column as f64 / 42.0);
+    let wet = 0.95 + 0.55 * load + 0.3 * uneven - 1.35 * ((x - 0.18).max(0.0) / 0.82);
+    // The edges of the stroke: round where it is set down, ragged where it is dry.
+    let round = (x / 0.045).min(1.0);
+    let half = 0.46 * (round * (2.0 - round)).sqrt();
+    let ragged = 0.03 * smooth(90 + u64::from(y > 0.0), column as f64 / 30.0);
+    let inside = (half + ragged - y.abs()) * HEIGHT as f64;
+    let ink = (wet * 6.0).clamp(0.0, 1.0).min(inside.clamp(0.0, 1.0));
+    (255.0 * (1.0 - ink)).round() as u8
+}

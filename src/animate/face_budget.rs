@@ -1,0 +1,143 @@
+//! [`Budget`]: how many faces the next frame may have, so that frames take no longer than they may.
+//!
+//! Source: A. Lake, C. Marshall, M. Harris and M. Blackstein, *Stylized Rendering Techniques for Scalable Real-Time 3D Animation*,
+//! NPAR 2000, section 7 and figure 19: resolution follows the time a frame took. Where this differs: faces go down at once and up
+//! slowly, in steps, so that a level lasts.
+
+/// A frame is aimed at this part of the time it may take: what varies from frame to frame has room.
+const AIM: f64 = 0.6;
+
+/// Below this part of the time there is room for more.
+const ROOM: f64 = 0.42;
+
+/// So many frames in a row must have room before there is more.
+const PATIENCE: u32 = 6;
+
+/// Each level has so many times the faces of the one below.
+const STEP: f64 = 1.25;
+
+/// No frame changes the number of faces by more than this at once.
+const MOST: f64 = 4.0;
+
+/// Fewer faces are never asked for.
+const FEWEST: f64 = 100.0;
+
+/// What is guessed of a machine before it has drawn anything: faces a millisecond.
+const GUESS: f64 = 150.0;
+
+/// Follows how long frames take.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Budget {
+    /// Milliseconds that a frame may take.
+    ms: f64,
+    /// Faces of the whole scene.
+    all: u64,
+    /// The level: so many steps below all faces.
+    level: u32,
+    /// Frames in a row with room for more.
+    patient: u32,
+}
+
+impl Budget {
+    /// For frames of a scene of so many faces that may take so many milliseconds each.
+    #[must_use]
+    pub fn new(ms: f64, all: u64) -> Self {
+        let mut budget = Self { ms, all, level: 0, patient: 0 };
+        budget.level = budget.level_of(ms * GUESS);
+        budget
+    }
+
+    /// How many faces the next frame may have.
+    #[must_use]
+    pub fn faces(&self) -> u64 {
+        let faces =
+            self.all as f64 / crate::geometry::numbers::portable_math::pow(STEP, f64::from(self.level));
+        (faces.max(FEWEST).ceil() as u64).min(self.all.max(1))
+    }
+
+    /// Learns how long a frame with as many faces took.
+    pub fn took(&mut self, ms: f64) {
+        let faces = self.faces() as f64;
+        if ms > self.ms * (AIM + ROOM).min(0.9) {
+            self.patient = 0;
+            let wanted = faces * (AIM * self.ms / ms).max(1.0 / MOST);
+            self.level = self.level_of(wanted).max(self.level + 1).min(self.lowest());
+        } else if ms < self.ms * ROOM && self.level > 0 {
+            self.patient += 1;
+            if self.patient >= PATIENCE {
+                self.patient = 0;
+                let wanted = faces * (AIM * self.ms / ms.max(1e-3)).min(MOST);
+                self.level = self.level_of(wanted).min(self.level - 1);
+            }
+        } else {
+            self.patient = 0;
+        }
+    }
+
+    /// The finest level of no more than so many faces.
+    fn level_of(&self, faces: f64) -> u32 {
+        let mut level = 0;
+        while level < self.lowest() && (Self { level, ..*self }).faces() as f64 > faces {
+            level += 1;
+        }
+        level
+    }
+
+    /// The coarsest level.
+    fn lowest(&self) -> u32 {
+        let mut level = 0;
+        while level < 200 && (Self { level, ..*self }).faces() as f64 > FEWEST {
+            level += 1;
+        }
+        level
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::numbers::noise::{hash, unit};
+
+    /// Frames of a machine that draws so many faces a millisecond, more or less: faces and times.
+    fn run(budget: &mut Budget, frames: u64, speed: impl Fn(u64) -> f64) -> Vec<(u64, f64)> {
+        let frame = |number: u64| {
+            let faces = budget.faces();
+            let ms = faces as f64 / speed(number) * (0.85 + 0.3 * unit(hash(1, &[number])));
+            budget.took(ms);
+            (faces, ms)
+        };
+        (0..frames).map(frame).collect()
+    }
+
+    #[test]
+    fn frames_come_to_take_what_they_may_and_levels_last() {
+        for speed in [20.0, 400.0, 3000.0] {
+            let mut budget = Budget::new(33.0, 200_000);
+            let frames = run(&mut budget, 400, |_| speed);
+            let late = &frames[60..];
+            assert!(late.iter().all(|(_, ms)| *ms <= 33.0), "{speed}");
+            let wanted = (speed * 33.0 * 0.3).min(200_000.0);
+            assert!(late.iter().all(|(faces, _)| *faces as f64 >= wanted), "{speed}: {:?}", late[0]);
+            let changes = late.windows(2).filter(|pair| pair[0].0 != pair[1].0).count();
+            assert!(changes <= 4, "{speed}: {changes}");
+        }
+    }
+
+    #[test]
+    fn a_machine_that_slows_down_is_followed_at_once_and_back_slowly() {
+        let mut budget = Budget::new(33.0, 1_000_000);
+        let frames = run(&mut budget, 300, |frame| if (100..150).contains(&frame) { 100.0 } else { 400.0 });
+        assert!(frames[104..150].iter().all(|(_, ms)| *ms < 33.0));
+        assert!(frames[103].0 < frames[99].0 / 2);
+        assert!(frames[299].0 > frames[149].0 * 2);
+    }
+
+    #[test]
+    fn small_scenes_are_left_whole() {
+        let mut budget = Budget::new(33.0, 60);
+        assert_eq!(budget.faces(), 60);
+        budget.took(1e9);
+        assert_eq!(budget.faces(), 60);
+        assert_eq!(Budget::new(33.0, 0).faces(), 1);
+    }
+}

@@ -1,0 +1,94 @@
+//! Strokes that come or go grow or fade over several frames.
+//!
+//! A frame looks at its neighbours, so many before and behind: of a stroke that the nearest of them lacks, so much is drawn as that
+//! one is far. A stroke that goes on under another name, as part of a longer line or in parts, is not gone: the cells of the model
+//! it runs through are those of lines that are there.
+
+use kurbo::{BezPath, ParamCurve, ParamCurveNearest, PathEl, Point};
+use rustc_hash::FxHashSet;
+
+use crate::colour::srgb::Colour;
+use crate::drawing::{Drawing, Paint};
+use crate::motion::FadeBy;
+
+/// A stroke of another name is there as long as this part of its cells holds lines.
+const THERE: f64 = 0.5;
+
+/// What axes may be simplified by where outlines are drawn nearer to them, px.
+const FLAT: f64 = 0.05;
+
+/// What is known of the strokes of a frame.
+#[derive(Debug, Clone, Default)]
+pub struct Trace {
+    names: FxHashSet<u64>,
+    places: FxHashSet<u64>,
+}
+
+impl Trace {
+    /// Of a drawing of an [`Animator`](super::Animator).
+    #[must_use]
+    pub fn of(drawing: &Drawing) -> Self {
+        let mut trace = Self::default();
+        for mark in drawing.layers.iter().flat_map(|layer| &layer.marks) {
+            if mark.provenance.identity != 0 {
+                trace.names.insert(mark.provenance.identity);
+                trace.places.extend(mark.provenance.places.iter());
+            }
+        }
+        trace
+    }
+
+    fn has(&self, name: u64, places: &[u64]) -> bool {
+        let held = || places.iter().filter(|place| self.places.contains(place)).count();
+        self.names.contains(&name) || (!places.is_empty() && held() as f64 >= THERE * places.len() as f64)
+    }
+}
+
+/// Draws less of the strokes that some of the frames around lack: `around` are the frames before and behind this one, the nearest
+/// first, and none beyond the begin and the end, where nothing is lacking. Strokes painted with a picture are left as they are.
+pub fn fade(drawing: &mut Drawing, around: &[[Option<&Trace>; 2]], by: FadeBy) {
+    for mark in drawing.layers.iter_mut().flat_map(|layer| &mut layer.marks) {
+        let (name, places) = (mark.provenance.identity, &mark.provenance.places);
+        let lacks = |pair: &[Option<&Trace>; 2]| pair.iter().flatten().any(|trace| !trace.has(name, places));
+        let Some(far) = around.iter().position(lacks).filter(|_| name != 0) else { continue };
+        let share = (far + 1) as f64 / (around.len() + 1) as f64;
+        let pale = |colour: Colour| Colour { a: (f64::from(colour.a) * share).round() as u8, ..colour };
+        match (&mut mark.paint, by) {
+            (Paint::Stroke(stroke), FadeBy::Width) => stroke.width *= share,
+            (Paint::Outline(outline), FadeBy::Width) => {
+                mark.path = thinned(&mark.path, &outline.axis, share);
+                outline.width *= share;
+                outline.pen_width *= share;
+            }
+            (Paint::Stroke(stroke), FadeBy::Opacity) => stroke.colour = pale(stroke.colour),
+            (Paint::Outline(outline), FadeBy::Opacity) => outline.colour = pale(outline.colour),
+            (Paint::Fill(colour), _) => *colour = pale(*colour),
+            (Paint::Gradient(gradient), _) => {
+                gradient.stops.iter_mut().for_each(|(_, colour)| *colour = pale(*colour));
+            }
+            (Paint::Image(_), _) => {}
+        }
+    }
+}
+
+/// An outline whose points are as much nearer to the axis as a share says.
+fn thinned(outline: &BezPath, axis: &BezPath, share: f64) -> BezPath {
+    let mut flat = BezPath::new();
+    kurbo::flatten(axis, FLAT, |element| flat.push(element));
+    let near = |point: Point| {
+        let nearest = flat.segments().map(|segment| {
+            let nearest = segment.nearest(point, FLAT);
+            (nearest.distance_sq, segment.eval(nearest.t))
+        });
+        let nearest = nearest.min_by(|a, b| a.0.total_cmp(&b.0));
+        nearest.map_or(point, |(_, on_axis)| on_axis.lerp(point, share))
+    };
+    let thin = |element: PathEl| match element {
+        PathEl::MoveTo(p) => PathEl::MoveTo(near(p)),
+        PathEl::LineTo(p) => PathEl::LineTo(near(p)),
+        PathEl::QuadTo(a, p) => PathEl::QuadTo(near(a), near(p)),
+        PathEl::CurveTo(a, b, p) => PathEl::CurveTo(near(a), near(b), near(p)),
+        PathEl::ClosePath => PathEl::ClosePath,
+    };
+    outline.elements().iter().copied().map(thin).collect()
+}

@@ -1,0 +1,103 @@
+//! [`Values`]: what cameras, lights and materials have become while clips play.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use super::clip::{Clip, Finish, Lens, Playing, Shine, Target};
+use super::material_factors::Factors;
+use super::rig::mixed;
+use super::track::Track;
+use crate::scene::{Camera, Light, LightKind, Projection};
+
+/// Which values of cameras, lights and materials clips move, by which tracks, at which time and weight.
+///
+/// A value that no camera or light can have, such as an angle of view below 0 between the keys of a cubic, leaves the stored one.
+pub(crate) struct Values<'a>(BTreeMap<Target, Vec<(&'a Track, f64, f64)>>);
+
+impl<'a> Values<'a> {
+    pub fn new(clips: &'a [Clip], playing: &[Playing]) -> Self {
+        let mut moved: BTreeMap<Target, Vec<_>> = BTreeMap::new();
+        for Playing { clip, time, weight } in playing.iter().filter(|playing| playing.weight > 0.0) {
+            let channels = clips.get(*clip).into_iter().flat_map(|clip| &clip.channels);
+            for channel in channels.filter(|channel| channel.target.of_node().is_none()) {
+                moved.entry(channel.target).or_default().push((&channel.track, *time, *weight));
+            }
+        }
+        Self(moved)
+    }
+
+    /// A value that rests at `rest`; none if nothing moves it.
+    fn of<const N: usize>(&self, target: Target, rest: [f64; N]) -> Option<[f64; N]> {
+        let tracks = self.0.get(&target)?;
+        let mut now = rest;
+        for (number, own) in now.iter_mut().enumerate() {
+            let values = tracks
+                .iter()
+                .filter_map(|(track, time, weight)| Some((*track.at(*time).get(number)?, *weight)));
+            *own = mixed(*own, values);
+        }
+        now.iter().all(|value| value.is_finite()).then_some(now)
+    }
+
+    /// What a camera, of this number in the file, sees now from where it rests.
+    pub fn camera(&self, number: usize, mut camera: Camera) -> Camera {
+        let of = |lens, rest: f64| Some(self.of(Target::Camera(number, lens), [rest])?[0]);
+        let positive = |value: &f64| *value > 0.0;
+        let aspect = camera.width / camera.height;
+        let near = of(Lens::Near, camera.near.unwrap_or(0.0));
+        match &mut camera.projection {
+            Projection::Perspective { fov_y_deg } => {
+                let angle = of(Lens::FieldOfView, fov_y_deg.to_radians());
+                *fov_y_deg = angle.filter(|a| *a > 0.0 && *a < PI).map_or(*fov_y_deg, f64::to_degrees);
+                let aspect = of(Lens::Aspect, aspect).filter(positive);
+                camera.width = aspect.map_or(camera.width, |aspect| camera.height * aspect);
+                camera.near = near.filter(positive).or(camera.near);
+            }
+            Projection::Orthographic { height } => {
+                // Magnifications may be negative: so they are at rest.
+                let (x, y) = (*height / 2.0 * aspect, *height / 2.0);
+                let half = |lens, rest: f64| of(lens, rest).map(f64::abs).filter(positive);
+                let (now_x, now_y) = (half(Lens::HalfWidth, x), half(Lens::HalfHeight, y));
+                *height = now_y.map_or(*height, |y| 2.0 * y);
+                if now_x.is_some() || now_y.is_some() {
+                    camera.width = camera.height * (now_x.unwrap_or(x) / now_y.unwrap_or(y));
+                }
+                camera.near = near.or(camera.near);
+            }
+        }
+        camera
+    }
+
+    /// What a light, of this number in the file, is now where it rests.
+    pub fn light(&self, number: usize, light: &mut Light) {
+        let of = |shine, rest: f64| Some(self.of(Target::Light(number, shine), [rest])?[0]);
+        if let Some(colour) = self.of(Target::Light(number, Shine::Colour), light.colour.map(f64::from)) {
+            light.colour = colour.map(|channel| channel.max(0.0) as f32);
+        }
+        let at_least_none = |value: &f64| *value >= 0.0;
+        light.intensity =
+            of(Shine::Intensity, light.intensity).filter(at_least_none).unwrap_or(light.intensity);
+        light.range = of(Shine::Range, light.range.unwrap_or(f64::INFINITY)).or(light.range);
+        if let LightKind::Spot { inner_angle, outer_angle, .. } = &mut light.kind {
+            *inner_angle = of(Shine::InnerAngle, *inner_angle).filter(at_least_none).unwrap_or(*inner_angle);
+            *outer_angle = of(Shine::OuterAngle, *outer_angle).filter(at_least_none).unwrap_or(*outer_angle);
+        }
+    }
+
+    /// What the values of a material are now; none if nothing moves them.
+    pub fn material(&self, number: usize, rest: &Factors) -> Option<Factors> {
+        let target = |finish| Target::Material(number, finish);
+        let one = |finish, rest: f32| Some(self.of(target(finish), [f64::from(rest)])?[0] as f32);
+        let base = self.of(target(Finish::Base), rest.base.map(f64::from));
+        let emissive = rest.emissive.map(|rest| self.of(target(Finish::Emissive), rest.map(f64::from)));
+        let now = Factors {
+            base: base.map_or(rest.base, |base| base.map(|channel| channel as f32)),
+            emissive: emissive.flatten().map(|own| own.map(|channel| channel as f32)).or(rest.emissive),
+            cutoff: one(Finish::Cutoff, rest.cutoff).unwrap_or(rest.cutoff),
+            roughness: one(Finish::Roughness, rest.roughness.unwrap_or(1.0)).or(rest.roughness),
+            transmission: one(Finish::Transmission, rest.transmission).unwrap_or(rest.transmission),
+            ..*rest
+        };
+        (now != *rest).then_some(now)
+    }
+}

@@ -1,0 +1,248 @@
+//! Poses: positions of parts and vertices of a scene while clips play.
+//!
+//! ```
+//! use ligne::animation::{Playing, Rigged};
+//!
+//! let pump = Rigged::open("examples/models/pump.glb")?;
+//! assert!(pump.rig.clips.is_empty());
+//! assert_eq!(pump.posed(&[])?.parts, pump.scene.parts);
+//! assert!(pump.posed(&[Playing::all(0, 1.5)]).is_err());
+//! # Ok::<(), ligne::Error>(())
+//! ```
+//!
+//! 1. [`track`] interpolates keys in time; a [`clip`] is a set of tracks with their targets.
+//! 2. [`rig`] mixes the clips that play into a transform, weights and visibility for each node.
+//! 3. [`deformable_mesh`] moves vertices by morph targets, then by the joints of a skin.
+//! 4. `animated_values` gives cameras, lights and materials their values; [`material_factors`] converts those
+//!    of materials.
+//!
+//! [`posed_vertices`] gives the positions of single vertices without posing the whole scene.
+
+mod animated_values;
+pub mod clip;
+pub mod deformable_mesh;
+pub mod material_factors;
+pub mod posed_vertices;
+pub mod rig;
+pub mod track;
+
+pub use clip::{Channel, Clip, Finish, Lens, Playing, Property, Shine, Target};
+pub use deformable_mesh::Body;
+pub use material_factors::Factors;
+pub use posed_vertices::Moment;
+pub use rig::Rig;
+pub use track::{Interpolation, Track};
+
+use std::collections::BTreeSet;
+
+use glam::{DAffine3, DVec3};
+
+use crate::error::Error;
+use crate::scene::{Camera, LightKind, NamedCamera, Scene};
+use animated_values::Values;
+use rig::{Held, Stance};
+
+/// A scene as it is stored, and what moves it.
+#[derive(Debug, Clone, Default)]
+pub struct Rigged {
+    /// The scene in the pose that the file stores, with the parts and lights that are hidden in it and that a clip shows at some time:
+    /// [`Rigged::posed`] leaves these out while they are hidden. The rig knows parts, geometries, cameras and lights by their places:
+    /// leave some out of what that gives, not here.
+    pub scene: Scene,
+    /// What moves it; empty for formats without animation.
+    pub rig: Rig,
+}
+
+impl From<Scene> for Rigged {
+    /// A scene that stands still.
+    fn from(scene: Scene) -> Self {
+        Self { scene, rig: Rig::default() }
+    }
+}
+
+impl Rigged {
+    /// The scene while clips play; as it is stored if none does.
+    ///
+    /// # Errors
+    /// If a clip is none of the file's, if a time or a weight is not a number, or if a pose leads beyond all numbers.
+    pub fn posed(&self, playing: &[Playing]) -> Result<Scene, Error> {
+        self.check(playing)?;
+        if playing.is_empty() && !self.hides() {
+            return Ok(self.scene.clone());
+        }
+        let mut scene = self.scene.clone();
+        if playing.is_empty() {
+            self.keep_shown(&self.rig.stance(playing), &mut scene);
+            return Ok(scene);
+        }
+        let rig = &self.rig;
+        let stance = self.stance(playing)?;
+        self.move_vertices(&stance, &mut scene)?;
+        let skinned: Vec<bool> = rig.forms.iter().map(|form| form.skin.is_some()).collect();
+        for (part, (node, place)) in scene.parts.iter_mut().zip(&rig.parts) {
+            // The joints have carried a skinned mesh into the world already.
+            let is_skinned = skinned.get(part.geometry).copied().unwrap_or(false);
+            let world = if is_skinned { DAffine3::IDENTITY } else { stance.world[*node] };
+            part.world_from_part = world * *place;
+        }
+        let values = Values::new(&rig.clips, playing);
+        for (named, held) in scene.cameras.iter_mut().zip(&rig.cameras) {
+            named.camera = now_camera(&named.camera, *held, &stance, &values);
+        }
+        for (light, held) in scene.lights.iter_mut().zip(&rig.lights) {
+            values.light(held.number, light);
+            light.kind = moved_light(light.kind, stance.world[held.node]);
+        }
+        for (number, (material, rest)) in scene.materials.iter_mut().zip(&rig.materials).enumerate() {
+            if let Some(now) = values.material(number, rest) {
+                now.give(material);
+            }
+        }
+        self.keep_shown(&stance, &mut scene);
+        Ok(scene)
+    }
+
+    /// Whether the scene has parts or lights that are hidden while nothing plays.
+    #[must_use]
+    pub fn hides(&self) -> bool {
+        let rig = &self.rig;
+        let nodes = rig.parts.iter().map(|(node, _)| *node).chain(rig.lights.iter().map(|held| held.node));
+        if rig.nodes.iter().all(|node| node.visible) {
+            return false;
+        }
+        let stance = rig.stance(&[]);
+        nodes.into_iter().any(|node| stance.visible.get(node) == Some(&false))
+    }
+
+    /// Leaves out the parts and lights of a scene whose nodes are hidden.
+    fn keep_shown(&self, stance: &Stance, scene: &mut Scene) {
+        let shown = |node: usize| stance.visible.get(node).copied().unwrap_or(true);
+        let mut nodes = self.rig.parts.iter().map(|(node, _)| *node);
+        scene.parts.retain(|_| nodes.next().is_none_or(shown));
+        let mut nodes = self.rig.lights.iter().map(|held| held.node);
+        scene.lights.retain(|_| nodes.next().is_none_or(shown));
+    }
+
+    /// The cameras of the scene while clips play; cheaper than all of it.
+    ///
+    /// # Errors
+    /// As [`Rigged::posed`].
+    pub fn cameras(&self, playing: &[Playing]) -> Result<Vec<NamedCamera>, Error> {
+        self.check(playing)?;
+        if playing.is_empty() {
+            return Ok(self.scene.cameras.clone());
+        }
+        let stance = self.stance(playing)?;
+        let values = Values::new(&self.rig.clips, playing);
+        let moved = |(named, held): (&NamedCamera, &Held)| {
+            let camera = now_camera(&named.camera, *held, &stance, &values);
+            NamedCamera { camera, ..named.clone() }
+        };
+        Ok(self.scene.cameras.iter().zip(&self.rig.cameras).map(moved).collect())
+    }
+
+    /// Keeps the parts that [`Scene::keep_parts`] would, also for what moves them.
+    pub fn keep_parts(&mut self, only: &[String], hide: &[String]) {
+        let names: Vec<String> = self.scene.parts.iter().map(|part| part.name.clone()).collect();
+        self.scene.keep_parts(only, hide);
+        // Whole names stay or go, so that what stays can be told by name.
+        let kept: BTreeSet<&str> = self.scene.parts.iter().map(|part| part.name.as_str()).collect();
+        let mut stays = names.iter().map(|name| kept.contains(name.as_str()));
+        self.rig.parts.retain(|_| stays.next().unwrap_or(true));
+    }
+
+    /// Where the nodes are while clips play.
+    fn stance(&self, playing: &[Playing]) -> Result<Stance, Error> {
+        let stance = self.rig.stance(playing);
+        match stance.world.iter().position(|world| !world.is_finite()) {
+            Some(node) => {
+                Err(Error::new("its transform is not finite at this time").at(format!("node {node}")))
+            }
+            None => Ok(stance),
+        }
+    }
+
+    /// Refuses what cannot play.
+    fn check(&self, playing: &[Playing]) -> Result<(), Error> {
+        for Playing { clip, time, weight } in playing {
+            if *clip >= self.rig.clips.len() {
+                let count = self.rig.clips.len();
+                return Err(Error::new(format!("there is no clip {clip}; the file has {count}")));
+            }
+            if !(time.is_finite() && weight.is_finite() && *weight >= 0.0) {
+                return Err(Error::new(format!("no time or no weight: {time} s, {weight}"))
+                    .remedy("give finite numbers, and no weight below 0"));
+            }
+        }
+        Ok(())
+    }
+
+    fn move_vertices(&self, stance: &Stance, scene: &mut Scene) -> Result<(), Error> {
+        for (geometry, form) in scene.geometries.iter_mut().zip(&self.rig.forms) {
+            let joints = form
+                .skin
+                .and_then(|skin| self.rig.skins.get(skin))
+                .map(|skin| skin.transforms(&stance.world));
+            for body in &form.bodies {
+                let (mut positions, mut normals) = (body.positions.clone(), body.normals.clone());
+                body.pose((&mut positions, &mut normals), &stance.weights[form.node], joints.as_deref());
+                if positions
+                    .iter()
+                    .zip(&body.positions)
+                    .any(|(now, rest)| rest.is_finite() && !now.is_finite())
+                {
+                    return Err(
+                        Error::new("a vertex is not finite at this time").at(format!("node {}", form.node))
+                    );
+                }
+                let range = body.start..body.start + positions.len();
+                let finite = |(to, from): (&mut DVec3, DVec3)| {
+                    if from.is_finite() {
+                        *to = from;
+                    }
+                };
+                geometry
+                    .positions
+                    .get_mut(range.clone())
+                    .into_iter()
+                    .flatten()
+                    .zip(positions)
+                    .for_each(finite);
+                let to = geometry.normals.get_mut(range).into_iter().flatten();
+                to.zip(normals).for_each(|(to, from)| *to = from);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A camera with its lens as it is now, where its node is now.
+fn now_camera(camera: &Camera, held: Held, stance: &Stance, values: &Values) -> Camera {
+    moved_camera(&values.camera(held.number, *camera), stance.world[held.node])
+}
+
+/// A camera where its node is now: at its origin, looking along -z with y up.
+fn moved_camera(camera: &Camera, world: DAffine3) -> Camera {
+    let ways = [DVec3::NEG_Z, DVec3::Y].map(|way| world.transform_vector3(way).try_normalize());
+    match ways {
+        [Some(ahead), Some(up)] => {
+            Camera { eye: world.translation, target: world.translation + ahead, up, ..*camera }
+        }
+        _ => *camera,
+    }
+}
+
+/// A light where its node is now: at its origin, shining along -z.
+fn moved_light(kind: LightKind, world: DAffine3) -> LightKind {
+    let along = |before: DVec3| world.transform_vector3(DVec3::NEG_Z).try_normalize().unwrap_or(before);
+    match kind {
+        LightKind::Directional { direction } => LightKind::Directional { direction: along(direction) },
+        LightKind::Point { .. } => LightKind::Point { position: world.translation },
+        LightKind::Spot { direction, inner_angle, outer_angle, .. } => LightKind::Spot {
+            position: world.translation,
+            direction: along(direction),
+            inner_angle,
+            outer_angle,
+        },
+    }
+}

@@ -1,0 +1,209 @@
+//! [`Track`]: how some numbers change in time, between keys.
+//!
+//! Source: Khronos Group, glTF 2.0 specification, appendix C (interpolation modes).
+
+use glam::DQuat;
+
+use crate::geometry::numbers::portable_math::{atan2, sin};
+
+/// What is between two keys.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Interpolation {
+    /// Straight from one to the next; rotations by the shorter way, at one speed.
+    #[default]
+    Linear,
+    /// The earlier one, up to the next.
+    Step,
+    /// A cubic with a tangent before and one behind each key.
+    CubicSpline,
+}
+
+/// How some numbers change in time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Track {
+    times: Vec<f64>,
+    values: Vec<f64>,
+    /// Numbers a key.
+    width: usize,
+    interpolation: Interpolation,
+}
+
+impl Track {
+    /// A track of keys at `times`, in seconds and not falling, with as many numbers each as fit; for a cubic each key has its tangent
+    /// before it, its value, and its tangent behind it.
+    ///
+    /// # Errors
+    /// Says what is wrong with the keys.
+    pub fn new(times: Vec<f64>, values: Vec<f64>, interpolation: Interpolation) -> Result<Self, String> {
+        let keys = times.len();
+        if keys == 0 {
+            return Err("it has no keys".to_owned());
+        }
+        if let Some(k) = times.iter().position(|time| !time.is_finite()) {
+            return Err(format!("the time of key {k} is not a number"));
+        }
+        if let Some(k) = times.array_windows().position(|[a, b]| b < a) {
+            return Err(format!("key {} is earlier than the one before it", k + 1));
+        }
+        let a_key = if interpolation == Interpolation::CubicSpline { 3 } else { 1 };
+        let width = values.len() / keys / a_key;
+        if width == 0 || width * keys * a_key != values.len() {
+            return Err(format!("{} numbers for {keys} keys", values.len()));
+        }
+        if let Some(k) = values.iter().position(|value| !value.is_finite()) {
+            return Err(format!("key {} has a value that is not a number", k / width / a_key));
+        }
+        Ok(Self { times, values, width, interpolation })
+    }
+
+    /// How many numbers it tells.
+    #[must_use]
+    pub const fn width(&self) -> usize {
+        self.width
+    }
+
+    /// When its keys are, in seconds.
+    #[must_use]
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// The numbers at a time; before the first key and behind the last one those of these.
+    #[must_use]
+    pub fn at(&self, time: f64) -> Vec<f64> {
+        match self.between(time) {
+            (k, None) => self.value(k).to_vec(),
+            (k, Some((share, span))) => self.blend(k, share, span),
+        }
+    }
+
+    /// The rotation at a time, of a track of quaternions (x, y, z, w); none if its numbers are no rotation.
+    #[must_use]
+    pub fn rotation_at(&self, time: f64) -> Option<DQuat> {
+        let quaternion = |values: &[f64]| <[f64; 4]>::try_from(values).ok().and_then(unit_quaternion);
+        match self.between(time) {
+            (k, Some((share, _))) if self.interpolation == Interpolation::Linear => {
+                Some(slerp(quaternion(self.value(k))?, quaternion(self.value(k + 1))?, share))
+            }
+            _ => quaternion(&self.at(time)),
+        }
+    }
+
+    /// The last key at or before a time, and between it and the next one, the share of the way and how long that takes.
+    fn between(&self, time: f64) -> (usize, Option<(f64, f64)>) {
+        let after = self.times.partition_point(|key| *key <= time);
+        let Some(k) = after.checked_sub(1) else { return (0, None) };
+        let Some(next) = self.times.get(after) else { return (k, None) };
+        let span = next - self.times[k];
+        (k, Some(((time - self.times[k]) / span, span)))
+    }
+
+    fn value(&self, key: usize) -> &[f64] {
+        let (place, a_key) = if self.interpolation == Interpolation::CubicSpline { (1, 3) } else { (0, 1) };
+        self.numbers(key * a_key + place)
+    }
+
+    fn numbers(&self, place: usize) -> &[f64] {
+        self.values.get(place * self.width..(place + 1) * self.width).unwrap_or_default()
+    }
+
+    fn blend(&self, key: usize, s: f64, span: f64) -> Vec<f64> {
+        let (from, to) = (self.value(key), self.value(key + 1));
+        match self.interpolation {
+            Interpolation::Step => from.to_vec(),
+            Interpolation::Linear => from.iter().zip(to).map(|(a, b)| a + (b - a) * s).collect(),
+            Interpolation::CubicSpline => {
+                let (out, into) = (self.numbers(key * 3 + 2), self.numbers(key * 3 + 3));
+                let (s2, s3) = (s * s, s * s * s);
+                let (of_from, of_to) = (2.0 * s3 - 3.0 * s2 + 1.0, 3.0 * s2 - 2.0 * s3);
+                let (of_out, of_into) = (span * (s3 - 2.0 * s2 + s), span * (s3 - s2));
+                (0..self.width)
+                    .map(|i| of_from * from[i] + of_out * out[i] + of_to * to[i] + of_into * into[i])
+                    .collect()
+            }
+        }
+    }
+}
+
+/// The rotation that a quaternion near unit length stands for; none if it has hardly any length.
+#[must_use]
+pub fn unit_quaternion(xyzw: [f64; 4]) -> Option<DQuat> {
+    let length = xyzw.iter().map(|v| v * v).sum::<f64>().sqrt();
+    // Files round their components; a length far from 1 is a mistake all the same, but turning
+    // by its direction is what every viewer does.
+    (length.is_finite() && length > 1e-6).then(|| DQuat::from_array(xyzw.map(|v| v / length)))
+}
+
+/// The rotation a share of the shorter way from one to another.
+fn slerp(from: DQuat, to: DQuat, share: f64) -> DQuat {
+    let to = if from.dot(to) < 0.0 { -to } else { to };
+    // Half the angle from its chord and its span: exact also where it is small.
+    let angle = 2.0 * atan2((to - from).length(), (to + from).length());
+    let whole = sin(angle);
+    if whole <= f64::MIN_POSITIVE {
+        return from;
+    }
+    (from * (sin((1.0 - share) * angle) / whole) + to * (sin(share * angle) / whole)).normalize()
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_three_ways_between_keys() {
+        let track = |values: &[f64], interpolation| {
+            Track::new(vec![1.0, 3.0], values.to_vec(), interpolation).unwrap()
+        };
+        let linear = track(&[0.0, 10.0, 4.0, 30.0], Interpolation::Linear);
+        assert_eq!([0.0, 1.0, 1.5, 3.0, 9.0].map(|t| linear.at(t)[0]), [0.0, 0.0, 1.0, 4.0, 4.0]);
+        assert_eq!(linear.at(2.0), [2.0, 20.0]);
+        let step = track(&[5.0, 6.0], Interpolation::Step);
+        assert_eq!([0.0, 2.999, 3.0].map(|t| step.at(t)[0]), [5.0, 5.0, 6.0]);
+        // t² and its tangents give t² back.
+        let square = track(&[0.0, 1.0, 2.0, 6.0, 9.0, 0.0], Interpolation::CubicSpline);
+        for t in [1.0, 1.3, 2.0, 2.9, 3.0] {
+            assert!((square.at(t)[0] - t * t).abs() < 1e-12, "{t}");
+        }
+    }
+
+    #[test]
+    fn rotations_go_the_shorter_way_at_one_speed() {
+        let turn = |degrees: f64| {
+            let half = degrees.to_radians() / 2.0;
+            [0.0, sin(half), 0.0, crate::geometry::numbers::portable_math::cos(half)]
+        };
+        let keys = |b: [f64; 4]| [turn(20.0), b].concat();
+        for to in [turn(80.0), turn(80.0).map(|v| -v)] {
+            let track = Track::new(vec![0.0, 1.0], keys(to), Interpolation::Linear).unwrap();
+            for share in [0.0, 0.25, 0.5, 0.9, 1.0] {
+                let (own, right) = (track.rotation_at(share).unwrap(), turn(20.0 + 60.0 * share));
+                assert!(own.dot(DQuat::from_array(right)).abs() > 1.0 - 1e-12, "{share}");
+            }
+        }
+        let same = Track::new(vec![0.0, 1.0], keys(turn(20.0)), Interpolation::Linear).unwrap();
+        assert!(same.rotation_at(0.5).unwrap().dot(DQuat::from_array(turn(20.0))) > 1.0 - 1e-12);
+        let none = Track::new(vec![0.0], vec![0.0; 4], Interpolation::Linear).unwrap();
+        assert!(none.rotation_at(0.0).is_none());
+    }
+
+    #[test]
+    fn broken_keys_are_told() {
+        let new = |times: &[f64], values: &[f64]| {
+            Track::new(times.to_vec(), values.to_vec(), Interpolation::Linear).map(|_| ()).unwrap_err()
+        };
+        assert_eq!(new(&[], &[]), "it has no keys");
+        assert_eq!(new(&[0.0, f64::NAN], &[1.0, 1.0]), "the time of key 1 is not a number");
+        assert_eq!(new(&[1.0, 0.0], &[1.0, 1.0]), "key 1 is earlier than the one before it");
+        assert_eq!(new(&[0.0, 1.0], &[1.0, 1.0, 2.0]), "3 numbers for 2 keys");
+        assert_eq!(new(&[0.0, 1.0], &[1.0, f64::INFINITY]), "key 1 has a value that is not a number");
+    }
+
+    #[test]
+    fn keys_at_one_time_jump() {
+        let track = Track::new(vec![0.0, 1.0, 1.0, 2.0], vec![0.0, 1.0, 5.0, 6.0], Interpolation::Linear);
+        let track = track.unwrap();
+        assert_eq!([0.5, 1.0, 1.5].map(|t| track.at(t)[0]), [0.5, 5.0, 5.5]);
+    }
+}

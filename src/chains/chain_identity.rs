@@ -1,0 +1,225 @@
+//! Identities of chains: numbers that strokes keep while the model moves, made from what of it lies under them.
+//!
+//! Space round the model at rest is cut into cells. Each cell a chain runs through draws a lot, the better the longer the
+//! chain is in it, and the best lot names the chain: two chains have the same name as often as they have the same cells, so
+//! that one which loses or gains a little keeps its name mostly. Where several chains run through a cell, the one whose lot is best has
+//! it, and the others have the next best of theirs that is free; what finds none is named by finer cells. Nothing is asked but
+//! the chains themselves: a frame's names depend on no other frame.
+//!
+//! Source: lots are weighted minwise hashing (Ioffe, Improved Consistent Sampling, Weighted Minhash and L1 Sketching, ICDM
+//! 2010), with exponential lots.
+
+use std::sync::Arc;
+
+use rustc_hash::FxHashSet;
+
+use super::{Anchor, Chain};
+use crate::geometry::numbers::noise::{hash, unit};
+use crate::geometry::numbers::portable_math::ln;
+use crate::lines::LineKind;
+
+/// Cells along the diagonal of a model, from coarse to fine, for contours, which creep over these while
+/// the eye moves, and for all others, which stay.
+const SLIDING: [f64; 5] = [6.0, 18.0, 54.0, 160.0, 500.0];
+const STAYING: [f64; 5] = [24.0, 72.0, 216.0, 650.0, 4000.0];
+
+/// The most cells that are told apart between two points of a line.
+const MOST_CELLS: usize = 1024;
+
+/// Shifts the cells, so that no plane of symmetry is between two of them.
+const SHIFT: f64 = 0.372_915;
+
+/// Cells along the diagonal of a model that tell where contours, and where all others run.
+const PLACES: [f64; 2] = [32.0, 96.0];
+
+/// Names the chains that know where on the model they are, and tells them their cells; `parts` tell parts apart.
+pub(crate) fn name(chains: &mut [Chain], parts: &[u64]) {
+    for chain in chains.iter_mut().filter(|chain| is_anchored(chain)) {
+        chain.places = places(chain, parts);
+    }
+    let mut open: Vec<usize> =
+        (0..chains.len()).filter(|number| chains.get(*number).is_some_and(is_anchored)).collect();
+    for level in 0..SLIDING.len() {
+        let mut wishes: Vec<(f64, u64, usize)> = Vec::new();
+        for number in &open {
+            let lots = chains.get(*number).map(|chain| lots(chain, parts, level)).unwrap_or_default();
+            wishes.extend(lots.into_iter().map(|(lot, name)| (lot, name, *number)));
+        }
+        wishes.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+        let mut given: FxHashSet<u64> = FxHashSet::default();
+        for (_, name, number) in wishes {
+            if let Some(chain) = chains.get_mut(number).filter(|chain| chain.identity == 0)
+                && given.insert(name)
+            {
+                chain.identity = name;
+            }
+        }
+        open.retain(|number| chains.get(*number).is_some_and(|chain| chain.identity == 0));
+    }
+    // What even the finest cells do not tell apart lies one upon the other.
+    for (order, number) in open.into_iter().enumerate() {
+        if let Some(chain) = chains.get_mut(number) {
+            let name = lots(chain, parts, SLIDING.len() - 1).first().map_or(1, |(_, name)| *name);
+            chain.identity = hash(name, &[order as u64]).max(1);
+        }
+    }
+}
+
+fn is_anchored(chain: &Chain) -> bool {
+    chain.samples.iter().any(|sample| sample.anchor.is_known())
+}
+
+/// The numbers of the cells that a chain runs through.
+fn places(chain: &Chain, parts: &[u64]) -> Arc<[u64]> {
+    let slides = chain.kind == LineKind::Contour;
+    let part = parts.get(chain.part.index()).copied().unwrap_or_default();
+    let mut cells = Vec::new();
+    for [from, to] in sides(chain) {
+        in_cells(from, to, PLACES[usize::from(!slides)], |cell, _| {
+            if cells.last() != Some(&cell) {
+                cells.push(cell);
+            }
+        });
+    }
+    let mut numbers: Vec<u64> =
+        cells.into_iter().map(|cell| hash(part, &cell.map(i64::cast_unsigned)) ^ u64::from(slides)).collect();
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers.into()
+}
+
+/// The lots of the cells of a chain, and what they would name it.
+fn lots(chain: &Chain, parts: &[u64], level: usize) -> Vec<(f64, u64)> {
+    let slides = chain.kind == LineKind::Contour;
+    let cells = if slides { SLIDING[level] } else { STAYING[level] };
+    let part = parts.get(chain.part.index()).copied().unwrap_or_default();
+    let mut weights: Vec<([i64; 3], f64)> = Vec::new();
+    for [from, to] in sides(chain) {
+        in_cells(from, to, cells, |cell, length| match weights.last_mut() {
+            Some((last, weight)) if *last == cell => *weight += length,
+            _ => weights.push((cell, length)),
+        });
+    }
+    weights.sort_by_key(|(cell, _)| *cell);
+    weights.dedup_by(|next, kept| {
+        let same = next.0 == kept.0;
+        if same {
+            kept.1 += next.1;
+        }
+        same
+    });
+    let lot = |(cell, weight): &([i64; 3], f64)| {
+        let words = cell.map(i64::cast_unsigned);
+        let own = hash(part, &[u64::from(slides), level as u64, words[0], words[1], words[2]]);
+        (-ln(unit(hash(own, &[0])).max(f64::MIN_POSITIVE)) / weight.max(f64::MIN_POSITIVE), own)
+    };
+    weights.iter().map(lot).map(|(lot, own)| (lot, own.max(1))).collect()
+}
+
+/// The straight pieces of a chain, from place to place of the model at rest.
+fn sides(chain: &Chain) -> impl Iterator<Item = [[f64; 3]; 2]> + '_ {
+    let count = chain.samples.len();
+    let sides = if chain.closed { count } else { count.saturating_sub(1) };
+    (0..sides).filter_map(move |side| {
+        let ends = [side, (side + 1) % count].map(|at| chain.samples.get(at).map(|sample| sample.anchor));
+        let [Some(from), Some(to)] = ends else { return None };
+        let place = |anchor: Anchor| anchor.place.map(f64::from);
+        (from.is_known() && to.is_known()).then(|| [place(from), place(to)])
+    })
+}
+
+/// Tells the cells that a straight piece runs through, in its order, and its length in each. The length is that on the model
+/// at rest: what of a line is seen counts, not how it is seen, so that a line that turns keeps its name.
+fn in_cells(from: [f64; 3], to: [f64; 3], cells: f64, mut told: impl FnMut([i64; 3], f64)) {
+    let [from, to] = [from, to].map(|place| place.map(|x| (x + SHIFT) * cells));
+    let way = [0, 1, 2].map(|axis| to[axis] - from[axis]);
+    let length = (way[0] * way[0] + way[1] * way[1] + way[2] * way[2]).sqrt();
+    let mut walls: Vec<f64> = vec![0.0, 1.0];
+    for axis in 0..3 {
+        let (low, high) = (from[axis].min(to[axis]).floor() as i64, from[axis].max(to[axis]).floor() as i64);
+        let crossed = (low.saturating_add(1)..=high).take(MOST_CELLS);
+        walls.extend(crossed.map(|wall| ((wall as f64 - from[axis]) / way[axis]).clamp(0.0, 1.0)));
+    }
+    walls.sort_by(f64::total_cmp);
+    for pair in walls.windows(2) {
+        let middle = (pair[0] + pair[1]) / 2.0;
+        let cell = [0, 1, 2].map(|axis| (from[axis] + way[axis] * middle).floor() as i64);
+        told(cell, (pair[1] - pair[0]) * length);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use kurbo::{BezPath, Point};
+
+    use super::super::Sample;
+    use super::*;
+    use crate::geometry::numbers::portable_math::{cos, sin};
+    use crate::mesh::{MaterialId, PartId};
+
+    /// A chain along a straight line of the model at rest.
+    fn chain(from: [f64; 3], to: [f64; 3], points: usize) -> Chain {
+        let at = |k: usize| k as f64 / (points - 1) as f64;
+        let place = |t: f64| [0, 1, 2].map(|axis| (from[axis] + (to[axis] - from[axis]) * t) as f32);
+        let sample =
+            |k| Sample { anchor: Anchor { place: place(at(k)), scale: 500.0 }, ..Sample::new(1.0, 1.0) };
+        Chain {
+            points: (0..points).map(|k| Point::new(400.0 * at(k), 0.0)).collect(),
+            samples: (0..points).map(sample).collect(),
+            closed: false,
+            kind: LineKind::Crease,
+            silhouette: false,
+            invisibility: 0,
+            veiled: false,
+            both_seen: true,
+            part: PartId(0),
+            material: MaterialId(0),
+            smooth: false,
+            covered: [false; 2],
+            segment: 0,
+            identity: 0,
+            places: Arc::default(),
+            path: BezPath::new(),
+        }
+    }
+
+    fn names(mut chains: Vec<Chain>) -> Vec<u64> {
+        name(&mut chains, &[7]);
+        chains.iter().map(|chain| chain.identity).collect()
+    }
+
+    /// The ends of lines all over the model.
+    fn lines() -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
+        (0..300).map(f64::from).map(|k| {
+            let from = [0.3 * cos(k), 0.3 * sin(1.7 * k), 0.3 * cos(2.3 * k)];
+            (from, [from[0] + 0.2 * sin(0.9 * k), from[1] + 0.2 * cos(0.9 * k), from[2] + 0.1])
+        })
+    }
+
+    #[test]
+    fn a_line_that_loses_a_tenth_keeps_its_name_nine_times_of_ten() {
+        let kept = lines().filter(|(from, to)| {
+            let shorter = [0, 1, 2].map(|axis| from[axis] + 0.9 * (to[axis] - from[axis]));
+            names(vec![chain(*from, *to, 9)]) == names(vec![chain(*from, shorter, 9)])
+        });
+        let kept = kept.count();
+        assert!((255..300).contains(&kept), "{kept} of 300");
+    }
+
+    #[test]
+    fn points_more_or_fewer_do_not_change_a_name() {
+        for (from, to) in lines() {
+            assert_eq!(names(vec![chain(from, to, 2)]), names(vec![chain(from, to, 65)]));
+        }
+    }
+
+    #[test]
+    fn lines_through_the_same_cells_have_names_of_their_own() {
+        let beside = |k: i32| chain([0.0, f64::from(k) * 1e-5, 0.0], [0.3, f64::from(k) * 1e-5, 0.1], 4);
+        let mut given = names((0..40).map(beside).collect());
+        assert!(given.iter().all(|name| *name != 0));
+        given.sort_unstable();
+        given.dedup();
+        assert_eq!(given.len(), 40);
+    }
+}

@@ -1,0 +1,250 @@
+//! [`arcs`]: the stretches of a polyline whose corners lie on one circle, within the rounding of the file.
+//!
+//! A tessellated circle has all corners on the circle, except for the rounding of the file. Five corners or more that pass this test are an
+//! arc if no chord turns by more than 22.5 degrees: 16 corners a turn, four chords a quarter.
+//!
+//! 1. From each corner the stretch is made as long as it can be: doubled while it fits, then halved. Each attempt fits a circle to all its
+//!    corners by least squares (Kåsa) and measures them. Every part of a stretch that fits, fits: so the search finds the longest.
+//! 2. A closed line is one circle, or is begun anew where a stretch ends, so that no arc is cut.
+//! 3. An arc that turns too little has an uncertain radius, and may be a piece of an ellipse: it is left alone.
+//! 4. Where a line ends inside a chord of an arc, because something hides the rest, the arc goes on to its end.
+//! 5. An arc goes exactly through its first and last corner. It is written as cubics of up to 45 degrees.
+
+use std::f64::consts::{FRAC_PI_4, TAU};
+
+use kurbo::{BezPath, Point, Vec2};
+
+use crate::geometry::numbers::portable_math::{atan2, cos, sin, tan};
+use crate::geometry::plane::planar_distance::{length, nearest_centre};
+
+/// Fewest corners of a stretch, and of a circle.
+const MIN_CORNERS: usize = 5;
+const MIN_OF_CIRCLE: usize = 16;
+
+/// The largest turn from chord to chord, radians: that of a polygon of 16 sides, and by how much rounding may widen it. One of 15 sides turns by
+/// 0.026 more.
+const MAX_STEP: f64 = TAU / 16.0;
+const MAX_WIDER: f64 = 0.02;
+
+/// The radius of an arc is uncertain by so many times the rounding, divided by the square of the angle: the height of an arc over its chord is
+/// an eighth of its radius times that square.
+const UNCERTAIN: f64 = 8.0;
+
+/// An arc that turns by this much is one whatever the rounding, radians: over an eighth of a turn an ellipse that is a tenth longer than wide is off
+/// each circle by a thousandth of its length. A little less for rounding.
+const CERTAIN_TURN: f64 = FRAC_PI_4 * 0.999;
+
+/// How near corners are to circles, user units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Nearness {
+    /// How far the rounding of the file moves a corner.
+    pub rounding: f64,
+    /// By how much the radius may be uncertain.
+    pub radius: f64,
+}
+
+/// A stretch of a polyline on one circle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Arc {
+    /// Its first and its last corner. Those of a closed line count on after its end.
+    pub first: usize,
+    pub last: usize,
+    pub centre: Point,
+    pub radius: f64,
+    /// The angle by which it turns, radians, positive from x to y; a full turn for a whole circle.
+    pub turn: f64,
+}
+
+impl Arc {
+    /// Whether it is a whole circle.
+    pub fn is_circle(&self) -> bool {
+        self.turn.abs() >= TAU
+    }
+
+    /// Adds it to a path that stands at its first corner; `end` is its last one.
+    pub fn add(&self, start: Point, end: Point, path: &mut BezPath) {
+        let count = (self.turn.abs() / FRAC_PI_4 - 1e-9).ceil().max(1.0);
+        let step = self.turn / count;
+        // The length of a handle for a circle of radius 1.
+        let handle = 4.0 / 3.0 * tan(step / 4.0);
+        let out = start - self.centre;
+        let at = |k: f64| {
+            let (s, c) = (sin(step * k), cos(step * k));
+            Vec2::new(out.x * c - out.y * s, out.x * s + out.y * c)
+        };
+        let across = |v: Vec2| Vec2::new(-v.y, v.x) * handle;
+        for k in 0..count as u32 {
+            let (from, to) = (at(f64::from(k)), at(f64::from(k + 1)));
+            let last = if f64::from(k + 1) >= count { end } else { self.centre + to };
+            path.curve_to(self.centre + from + across(from), self.centre + to - across(to), last);
+        }
+    }
+}
+
+/// The arcs of a polyline, in its order. A closed line is to be begun at the first corner of the first one.
+pub(crate) fn arcs(points: &[Point], closed: bool, near: Nearness) -> Vec<Arc> {
+    let n = points.len();
+    if n < MIN_CORNERS || !points.iter().all(|p| p.is_finite()) {
+        return Vec::new();
+    }
+    if !closed {
+        return stretches(points, near);
+    }
+    if let Some(circle) = whole(points, near) {
+        return vec![circle];
+    }
+    // Twice round: the first stretch that ends before the second round ends where one does.
+    let twice: Vec<Point> = points.iter().chain(points).copied().collect();
+    let Some(begin) = longest_from(&twice, near).map(|arc| arc.last).find(|last| last + 1 < twice.len())
+    else {
+        return Vec::new();
+    };
+    let begin = begin % n;
+    let once: Vec<Point> = (0..=n).map(|k| points[(begin + k) % n]).collect();
+    let found = stretches(&once, near);
+    found.into_iter().map(|arc| Arc { first: arc.first + begin, last: arc.last + begin, ..arc }).collect()
+}
+
+/// Takes the ends of an open line into the arcs next to them, if they lie inside a chord of these: such an end is moved onto the arc.
+pub(crate) fn extend_to_ends(points: &mut [Point], arcs: &mut [Arc], near: Nearness) {
+    let n = points.len();
+    if let Some(arc) = arcs.last_mut().filter(|arc| arc.last + 2 == n)
+        && let Some((end, step)) = onto_arc(arc, [points[n - 2], points[n - 1]], arc.turn, near)
+    {
+        points[n - 1] = end;
+        (arc.last, arc.turn) = (n - 1, arc.turn + step);
+    }
+    if let Some(arc) = arcs.first_mut().filter(|arc| arc.first == 1)
+        && let Some((end, step)) = onto_arc(arc, [points[1], points[0]], -arc.turn, near)
+    {
+        points[0] = end;
+        (arc.first, arc.turn) = (0, arc.turn - step);
+    }
+}
+
+/// Where the end of a line is on an arc that goes on so from its corner, and the angle from there.
+fn onto_arc(arc: &Arc, [corner, end]: [Point; 2], turn: f64, near: Nearness) -> Option<(Point, f64)> {
+    let (a, b) = (corner - arc.centre, end - arc.centre);
+    let step = atan2(a.cross(b), a.dot(b));
+    let inside = arc.radius - length(b);
+    let is_on = step * turn > 0.0
+        && step.abs() <= MAX_STEP
+        && (turn + step).abs() < TAU
+        && inside >= -near.rounding
+        && inside <= near.radius;
+    is_on.then(|| (arc.centre + b * (arc.radius / length(b)), step))
+}
+
+/// The whole circle that closed points are on.
+fn whole(points: &[Point], near: Nearness) -> Option<Arc> {
+    if points.len() < MIN_OF_CIRCLE {
+        return None;
+    }
+    let mut round: Vec<Point> = points.to_vec();
+    round.push(*points.first()?);
+    let (centre, radius, turn) = circle(&round, near.rounding)?;
+    let is_round = (turn.abs() - TAU).abs() < 1e-6;
+    is_round.then(|| Arc { first: 0, last: points.len(), centre, radius, turn: TAU.copysign(turn) })
+}
+
+/// The arcs among the longest stretches of an open line, one after the other.
+fn stretches(points: &[Point], near: Nearness) -> Vec<Arc> {
+    let is_certain = |arc: &Arc| {
+        let turn = arc.turn.abs();
+        turn >= CERTAIN_TURN || UNCERTAIN * near.rounding <= near.radius * turn * turn
+    };
+    longest_from(points, near).filter(is_certain).map(|arc| through_ends(arc, points)).collect()
+}
+
+/// The longest stretches of an open line, one after the other.
+fn longest_from(points: &[Point], near: Nearness) -> impl Iterator<Item = Arc> {
+    let mut from = 0;
+    std::iter::from_fn(move || {
+        while from + MIN_CORNERS <= points.len() {
+            if let Some(arc) = longest(points, from, near) {
+                // A point next to an arc that is nearly on it, such as an end inside a chord, is none of it.
+                let next = longest(points, from + 1, near).filter(|next| next.last > arc.last);
+                let arc = next.unwrap_or(arc);
+                from = arc.last;
+                return Some(arc);
+            }
+            from += 1;
+        }
+        None
+    })
+}
+
+/// The longest stretch from a corner.
+fn longest(points: &[Point], first: usize, near: Nearness) -> Option<Arc> {
+    let attempt = |last: usize| {
+        let (centre, radius, turn) = circle(points.get(first..=last)?, near.rounding)?;
+        (turn.abs() < TAU).then_some(Arc { first, last, centre, radius, turn })
+    };
+    let end = points.len().checked_sub(1)?;
+    let mut best = attempt(first + MIN_CORNERS - 1)?;
+    let mut bad = end + 1;
+    while bad > end && best.last < end {
+        let next = (first + 2 * (best.last - first)).min(end);
+        match attempt(next) {
+            Some(arc) => best = arc,
+            None => bad = next,
+        }
+    }
+    while best.last + 1 < bad {
+        let middle = best.last.midpoint(bad);
+        match attempt(middle) {
+            Some(arc) => best = arc,
+            None => bad = middle,
+        }
+    }
+    Some(best)
+}
+
+/// The circle that all points are on within `rounding`, each farther round than the one before, and the angle from the first to the last.
+fn circle(points: &[Point], rounding: f64) -> Option<(Point, f64, f64)> {
+    let centre = nearest_centre(points)?;
+    let radius = points.iter().map(|p| length(*p - centre)).sum::<f64>() / points.len() as f64;
+    if points.iter().any(|p| (length(*p - centre) - radius).abs() > rounding) {
+        return None;
+    }
+    let most = MAX_STEP + 1e-6 + (2.0 * rounding / radius).min(MAX_WIDER);
+    let mut turn = 0.0;
+    for pair in points.windows(2) {
+        let (a, b) = (pair[0] - centre, pair[1] - centre);
+        let step = atan2(a.cross(b), a.dot(b));
+        if step == 0.0 || step.abs() > most || step * turn < 0.0 {
+            return None;
+        }
+        turn += step;
+    }
+    Some((centre, radius, turn))
+}
+
+/// The arc with its centre moved so that it goes through both end corners.
+fn through_ends(arc: Arc, points: &[Point]) -> Arc {
+    let (start, end) = (points[arc.first], points[arc.last]);
+    let (middle, chord) = (start.midpoint(end), end - start);
+    let far = length(chord);
+    if far <= 0.0 {
+        return arc;
+    }
+    let across = Vec2::new(-chord.y, chord.x) / far;
+    let centre = middle + across * (arc.centre - middle).dot(across);
+    let (a, b) = (start - centre, end - centre);
+    let turn = atan2(a.cross(b), a.dot(b));
+    // By the way round that the corners go.
+    let turns = [turn, turn + TAU, turn - TAU];
+    let nearest = turns.into_iter().min_by(|a, b| (a - arc.turn).abs().total_cmp(&(b - arc.turn).abs()));
+    Arc { centre, radius: length(a), turn: nearest.unwrap_or(turn), ..arc }
+}
+
+/// The path of a whole circle, begun at a corner.
+pub(crate) fn circle_path(arc: &Arc, corner: Point) -> BezPath {
+    let out = corner - arc.centre;
+    let start = arc.centre + out * (arc.radius / length(out).max(f64::MIN_POSITIVE));
+    let mut path = BezPath::new();
+    path.move_to(start);
+    arc.add(start, start, &mut path);
+    path.close_path();
+    path
+}

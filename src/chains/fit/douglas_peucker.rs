@@ -1,0 +1,204 @@
+//! Leaves out points that a line does without.
+//!
+//! Source: Douglas and Peucker, Algorithms for the reduction of the number of points required to
+//! represent a digitized line, Cartographica 1973; measured against the segment, not its line, so
+//! that a line that doubles back keeps its tip.
+
+use kurbo::{Point, Vec2};
+
+use crate::chains::sampled_line::Line;
+
+/// Points this near to the straight line between their neighbours, in user units, are rounding.
+const COLLINEAR: f64 = 1e-9;
+
+/// Points between two that are enough for two threads, where each gets no less than one part in so many.
+const LONG: usize = 512;
+const EVEN: usize = 8;
+
+/// How much the strength of a line may be off where points are left out.
+const STRENGTH: f64 = 0.08;
+
+/// Leaves out the points that lie in line between their neighbours, and no others: a line that
+/// turns back stays as long as it is.
+pub(crate) fn straighten(line: Line) -> Line {
+    if line.len() < 3 {
+        return line;
+    }
+    let between = |a: usize, b: usize, c: usize| {
+        let (to, on) = (line.points[b] - line.points[a], line.points[c] - line.points[b]);
+        let whole = line.points[c] - line.points[a];
+        to.dot(on) > 0.0 && to.cross(whole).powi(2) <= COLLINEAR * COLLINEAR * whole.hypot2()
+    };
+    let mut kept: Vec<usize> = Vec::with_capacity(line.len());
+    for c in 0..line.len() {
+        if let &[.., a, b] = &kept[..]
+            && line.soft[a] == line.soft[b]
+            && between(a, b, c)
+            && Chord::new(&line, a, c).off(b).1 <= STRENGTH
+        {
+            kept.pop();
+        }
+        kept.push(c);
+    }
+    if line.closed && kept.len() > 3 {
+        if between(kept[kept.len() - 2], kept[kept.len() - 1], kept[0]) {
+            kept.pop();
+        }
+        if kept.len() > 3 && between(kept[kept.len() - 1], kept[0], kept[1]) {
+            kept.remove(0);
+        }
+    }
+    if kept.len() == line.len() {
+        return line;
+    }
+    line.pick(&kept)
+}
+
+/// Keeps the ends and every point without which the line would move by more than `tolerance`. A
+/// closed line keeps its first point and the one farthest from it.
+pub(crate) fn simplify(line: &Line, tolerance: f64) -> Line {
+    let n = line.len();
+    if n < 3 {
+        return line.clone();
+    }
+    let tolerance2 = tolerance * tolerance;
+    if !line.closed {
+        let kept = keep(line, tolerance2);
+        return line.pick(&kept);
+    }
+    let away = |i: &usize| (line.points[*i] - line.points[0]).hypot2();
+    let far = (1..n).max_by(|a, b| away(a).total_cmp(&away(b)).then(b.cmp(a))).unwrap_or(1);
+    let whole = line.opened_at(0);
+    let mut kept = keep(&whole.slice(0, far), tolerance2);
+    kept.pop();
+    kept.extend(keep(&whole.slice(far, n), tolerance2).into_iter().map(|i| i + far));
+    kept.pop();
+    line.pick(&kept)
+}
+
+/// Indices of the points that stay in an open line.
+fn keep(line: &Line, tolerance2: f64) -> Vec<usize> {
+    let n = line.len();
+    let mut stays = vec![true; n];
+    if let [_, between @ .., _] = &mut stays[..] {
+        between.fill(false);
+        split(line, tolerance2, [0, n - 1], between);
+    }
+    (0..n).filter(|i| stays[*i]).collect()
+}
+
+/// Says which of the points between two that stay do so too.
+fn split(line: &Line, tolerance2: f64, [mut a, mut b]: [usize; 2], mut between: &mut [bool]) {
+    while let Some(i) = worst(line, a, b, tolerance2) {
+        let (low, high) = between.split_at_mut(i - a - 1);
+        let Some((stays, high)) = high.split_first_mut() else { return };
+        *stays = true;
+        let (below, above) = (i - a, b - i);
+        // Deep only where the halves are halves, and no deeper than their number has digits.
+        if below.min(above) * EVEN >= b - a && b - a >= LONG {
+            crate::parallel::join(
+                || split(line, tolerance2, [a, i], low),
+                || split(line, tolerance2, [i, b], high),
+            );
+            return;
+        }
+        if below < above {
+            split(line, tolerance2, [a, i], low);
+            (a, between) = (i, high);
+        } else {
+            split(line, tolerance2, [i, b], high);
+            (b, between) = (i, low);
+        }
+    }
+}
+
+/// The first of the points between two others that is farthest off them, if that is too far.
+fn worst(line: &Line, a: usize, b: usize, tolerance2: f64) -> Option<usize> {
+    let chord = Chord::new(line, a, b);
+    let mut worst = (tolerance2, None);
+    for i in a + 1..b {
+        let (distance2, strength) = chord.off(i);
+        let strength = strength / STRENGTH;
+        let d = distance2.max(strength * strength * tolerance2);
+        if d > worst.0 {
+            worst = (d, Some(i));
+        }
+    }
+    worst.1
+}
+
+/// The straight way from one point of a line to another.
+struct Chord<'a> {
+    line: &'a Line,
+    from: Point,
+    way: Vec2,
+    length2: f64,
+    strength: f64,
+    /// By how much the strength changes along it.
+    change: f64,
+}
+
+impl<'a> Chord<'a> {
+    fn new(line: &'a Line, a: usize, b: usize) -> Self {
+        let (from, strength) = (line.points[a], line.samples[a].strength);
+        let (way, change) = (line.points[b] - from, line.samples[b].strength - strength);
+        Self { line, from, way, length2: way.hypot2(), strength, change }
+    }
+
+    /// How far a point of the line is off, squared, and by how much its strength differs from what lies on the way.
+    #[inline]
+    fn off(&self, i: usize) -> (f64, f64) {
+        let p = self.line.points[i];
+        let t = if self.length2 > 0.0 {
+            ((p - self.from).dot(self.way) / self.length2).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
+        let strength = self.line.samples[i].strength - (self.strength + self.change * t);
+        ((p - (self.from + self.way * t)).hypot2(), strength.abs())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chains::Sample;
+    use crate::geometry::dice::Dice;
+    use crate::geometry::plane::planar_distance::distance2;
+
+    /// The same, one stretch after the other, and with nothing known of a stretch beforehand.
+    fn plain(line: &Line, [a, b]: [usize; 2], tolerance2: f64, stays: &mut Vec<usize>) {
+        let off = |i: usize| {
+            let [at, from, to] = [i, a, b].map(|k| line.samples[k].strength);
+            let (p, way) = (line.points[i] - line.points[a], line.points[b] - line.points[a]);
+            let t = if way.hypot2() > 0.0 { (p.dot(way) / way.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
+            let strength = (at - (from + (to - from) * t)).abs() / STRENGTH;
+            distance2(line.points[i], line.points[a], line.points[b]).max(strength * strength * tolerance2)
+        };
+        let far = (a + 1..b).filter(|i| off(*i) > tolerance2);
+        let Some(worst) = far.max_by(|i, k| off(*i).total_cmp(&off(*k)).then(k.cmp(i))) else { return };
+        plain(line, [a, worst], tolerance2, stays);
+        stays.push(worst);
+        plain(line, [worst, b], tolerance2, stays);
+    }
+
+    #[test]
+    fn points_stay_as_one_stretch_after_the_other_says() {
+        let mut dice = Dice::new(7);
+        for n in [2, 3, 40, 700, 5000] {
+            let mut line = Line::default();
+            let (mut p, mut strength) = (Point::ZERO, 1.0);
+            for _ in 0..n {
+                p += Vec2::new(dice.between(0.2, 1.0), dice.between(-0.6, 0.6));
+                strength = f64::clamp(strength + dice.between(-0.02, 0.02), 0.0, 1.0);
+                line.push(p, Sample::new(1.0, strength), true, false);
+            }
+            for tolerance in [0.1, 1.0, 10.0] {
+                let mut stays = vec![0];
+                plain(&line, [0, n - 1], tolerance * tolerance, &mut stays);
+                stays.push(n - 1);
+                assert_eq!(keep(&line, tolerance * tolerance), stays, "{n} points, {tolerance}");
+            }
+        }
+    }
+}

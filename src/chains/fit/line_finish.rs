@@ -1,0 +1,335 @@
+//! Makes the drawn curve and the points of a chain from the raw line of a route.
+
+use kurbo::{BezPath, Point};
+
+use super::circular_arcs::{Arc, Nearness, arcs, circle_path, extend_to_ends};
+use super::corner_points::corners;
+use super::curve_path::{add_exact, add_smooth, closed_exact, closed_smooth, polyline};
+use super::douglas_peucker::{simplify, straighten};
+use super::foldbacks::unfold;
+use super::resampling::resample;
+use super::whittaker_smoothing::smooth;
+use crate::chains::sampled_line::Line;
+use crate::geometry::plane::planar_distance::length;
+
+/// Options in user units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Tolerances {
+    /// A CSS px.
+    pub px: f64,
+    pub smooth: f64,
+    pub simplify: f64,
+    pub tidy: f64,
+    /// Whether the line turns at a vertex only where what it shows does: no noise of triangles.
+    pub clean: bool,
+    /// 0 when curves are not fitted.
+    pub fit: f64,
+    /// How near corners are to the circles that they make; `None` where no circles are sought.
+    pub circle: Option<Nearness>,
+    /// Whether the points are asked for too where a curve is fitted.
+    pub points: bool,
+}
+
+/// Spacing of the points that smoothing works on, px.
+const SPACING_PX: f64 = 1.0;
+
+/// Length over which a turn must last to be a corner, px.
+const CORNER_PX: f64 = 6.0;
+
+/// Length over which a turn of a line without noise is measured, px.
+const SHARP_PX: f64 = 2.0;
+
+/// Points of a line that it is worth another thread for.
+const LONG: usize = 256;
+
+/// Cosine of the turn (35 degrees) over that length that makes a corner.
+const SHARP_COSINE: f64 = 0.82;
+
+/// A finished line and its path, with the arcs that its corners lie on; the line has no points where a curve is fitted and they are not asked for.
+pub(crate) fn finish(raw: Line, t: Tolerances) -> (Line, BezPath) {
+    let Some(near) = t.circle else { return finish_between(raw, t) };
+    let mut raw = straighten(raw);
+    let mut found = arcs(&raw.points, raw.closed, near);
+    if !raw.closed {
+        extend_to_ends(&mut raw.points, &mut found, near);
+    }
+    match found.as_slice() {
+        [] => finish_between(raw, t),
+        [circle] if circle.is_circle() => {
+            let path = circle_path(circle, raw.points[0]);
+            (raw, path)
+        }
+        [first, ..] if raw.closed => {
+            let begun = raw.opened_at(first.first % raw.len());
+            let moved =
+                |arc: &Arc| Arc { first: arc.first - first.first, last: arc.last - first.first, ..*arc };
+            let (mut line, mut path) = with_arcs(&begun, &found.iter().map(moved).collect::<Vec<_>>(), t);
+            close(&mut line);
+            path.close_path();
+            (line, path)
+        }
+        _ => with_arcs(&raw, &found, t),
+    }
+}
+
+/// An open line with arcs, between which it is finished stretch by stretch.
+fn with_arcs(raw: &Line, arcs: &[Arc], t: Tolerances) -> (Line, BezPath) {
+    let mut line = Line::default();
+    let mut path = BezPath::new();
+    if let Some(first) = raw.points.first() {
+        path.move_to(*first);
+    }
+    let last = raw.len().saturating_sub(1);
+    let mut at = 0;
+    let between = |from: usize, to: usize, line: &mut Line, path: &mut BezPath| {
+        if to > from {
+            let (part, drawn) = finish_between(raw.slice(from, to), t);
+            append(line, &part);
+            path.extend(drawn.elements().iter().skip(1).copied());
+        }
+    };
+    for arc in arcs {
+        between(at, arc.first, &mut line, &mut path);
+        arc.add(raw.points[arc.first], raw.points[arc.last], &mut path);
+        if t.points {
+            append(&mut line, &raw.slice(arc.first, arc.last));
+        }
+        at = arc.last;
+    }
+    between(at, last, &mut line, &mut path);
+    (line, path)
+}
+
+/// The same of a line without arcs.
+fn finish_between(raw: Line, t: Tolerances) -> (Line, BezPath) {
+    if t.smooth <= 0.0 || !raw.is_soft() {
+        return exact(raw, t);
+    }
+    if raw.closed {
+        let parts = |i: usize| !raw.soft[i] || is_sharp(&raw, i, t);
+        return match (0..raw.len()).find(|i| parts(*i)) {
+            None => closed(&raw, t),
+            // Begins with a stretch that is not smoothed, or at a corner, so that no smooth stretch is cut.
+            Some(hard) => {
+                let (mut line, mut path) = open(&raw.opened_at(hard), t);
+                close(&mut line);
+                path.close_path();
+                (line, path)
+            }
+        };
+    }
+    open(&raw, t)
+}
+
+/// Drops the repeated end of a line that ends where it began.
+fn close(line: &mut Line) {
+    line.closed = true;
+    line.pop();
+}
+
+/// A line nothing of which is smoothed.
+fn exact(raw: Line, t: Tolerances) -> (Line, BezPath) {
+    let straightened = straighten(raw);
+    // Ends stay.
+    let simple =
+        |line: Line| if t.simplify > 0.0 && line.len() > 2 { simplify(&line, t.simplify) } else { line };
+    if t.fit <= 0.0 {
+        let line = simple(straightened);
+        let path = polyline(&line);
+        return (line, path);
+    }
+    let path = if straightened.closed {
+        closed_exact(&straightened, t.fit)
+    } else {
+        let mut path = BezPath::new();
+        if let Some(first) = straightened.points.first() {
+            path.move_to(*first);
+            add_exact(&straightened.points, t.fit, &mut path);
+        }
+        path
+    };
+    let line = if t.points { simple(straightened) } else { Line::default() };
+    (line, path)
+}
+
+/// A closed line that is smooth all round.
+fn closed(raw: &Line, t: Tolerances) -> (Line, BezPath) {
+    let line = unfold(raw, t.smooth, t.tidy.max(4.0 * t.smooth));
+    let (dense, spacing) = resample(&line, SPACING_PX * t.px);
+    let found = find_corners(&dense, spacing, t);
+    if let Some(first) = found.first() {
+        let turned = dense.opened_at(*first);
+        let n = dense.len();
+        let cuts: Vec<usize> = found.iter().map(|c| (c + n - first) % n).chain([n]).collect();
+        let (mut line, mut path) = between(&turned, &cuts, t);
+        close(&mut line);
+        path.close_path();
+        return (line, path);
+    }
+    let mut dense = dense;
+    dense.points = smooth(&dense.points, true, t.smooth);
+    let fits = t.fit > 0.0 && dense.len() > 8;
+    let (line, path) = simple_and_fitted(&dense, fits, t, || closed_smooth(&dense.points, t.fit));
+    let path = path.unwrap_or_else(|| polyline(&line));
+    (line, path)
+}
+
+/// The points that stay of a line, where they are needed, and the curve through all of them where one is fitted: each is made
+/// without the other.
+fn simple_and_fitted<P: Send>(
+    dense: &Line,
+    fits: bool,
+    t: Tolerances,
+    fitted: impl FnOnce() -> P + Send,
+) -> (Line, Option<P>) {
+    let simple = || if t.points || !fits { simplify(dense, t.simplify) } else { Line::default() };
+    let fitted = || fits.then(fitted);
+    if dense.len() < LONG { (simple(), fitted()) } else { crate::parallel::join(simple, fitted) }
+}
+
+/// An open line, in stretches that are smooth and stretches that are exact.
+fn open(raw: &Line, t: Tolerances) -> (Line, BezPath) {
+    let mut line = Line::default();
+    let mut path = BezPath::new();
+    if let Some(first) = raw.points.first() {
+        path.move_to(*first);
+    }
+    let sides = raw.len().saturating_sub(1);
+    let mut i = 0;
+    while i < sides {
+        let soft = raw.soft[i];
+        let more = raw.soft[i + 1..sides].iter().enumerate();
+        let run = 1 + more.take_while(|(k, s)| **s == soft && !is_sharp(raw, i + 1 + k, t)).count();
+        let stretch = raw.slice(i, i + run);
+        let (part, drawn) = if soft { soft_stretch(&stretch, t) } else { exact(stretch, t) };
+        append(&mut line, &part);
+        path.extend(drawn.elements().iter().skip(1).copied());
+        i += run;
+    }
+    if sides == 0 {
+        append(&mut line, raw);
+    }
+    (line, path)
+}
+
+/// Whether a line without noise has a corner at a vertex.
+fn is_sharp(raw: &Line, i: usize, t: Tolerances) -> bool {
+    if !t.clean {
+        return false;
+    }
+    let n = raw.len();
+    // The chord to where the line is so far away, one way round or the other.
+    let chord = |step: usize| {
+        let ends_at = |k: usize| !raw.closed && (if step == 1 { i + k == n - 1 } else { i == k });
+        let at = |k: usize| raw.points[(i + k * step) % n];
+        let far = (1..n).find(|k| length(at(*k) - raw.points[i]) >= SHARP_PX * t.px || ends_at(*k))?;
+        let (before, behind) = (at(far - 1), at(far));
+        let (short, long) = (length(before - raw.points[i]), length(behind - raw.points[i]));
+        let share = ((SHARP_PX * t.px - short) / (long - short).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        Some(before.lerp(behind, share) - raw.points[i])
+    };
+    if !raw.closed && (i == 0 || i + 1 >= n) {
+        return false;
+    }
+    let (Some(ahead), Some(back)) = (chord(1), chord(n - 1)) else { return false };
+    -ahead.dot(back) < SHARP_COSINE * length(ahead) * length(back)
+}
+
+/// A smooth open stretch: cut at its corners, each part smoothed.
+fn soft_stretch(raw: &Line, t: Tolerances) -> (Line, BezPath) {
+    let line = unfold(raw, t.smooth, t.tidy.max(4.0 * t.smooth));
+    let (dense, spacing) = resample(&line, SPACING_PX * t.px);
+    let mut cuts = vec![0];
+    cuts.extend(find_corners(&dense, spacing, t));
+    cuts.push(dense.len().saturating_sub(1));
+    between(&dense, &cuts, t)
+}
+
+/// Corners are looked for on a line that is smoothed a little, as the raw one turns everywhere.
+fn find_corners(dense: &Line, spacing: f64, t: Tolerances) -> Vec<usize> {
+    let n = dense.len();
+    let mut points: Vec<Point> = dense.points.clone();
+    for _ in 0..2 {
+        let before = points.clone();
+        for i in 0..n {
+            if dense.closed || (i > 0 && i + 1 < n) {
+                let (a, b) = (before[(i + n - 1) % n], before[(i + 1) % n]);
+                points[i] = before[i].lerp(a.midpoint(b), 0.5);
+            }
+        }
+    }
+    corners(&points, dense.closed, spacing, CORNER_PX * t.px)
+}
+
+/// Smooths, simplifies and fits the parts of a dense open line between cuts.
+fn between(dense: &Line, cuts: &[usize], t: Tolerances) -> (Line, BezPath) {
+    let mut line = Line::default();
+    let mut path = BezPath::new();
+    if let Some(first) = dense.points.first() {
+        path.move_to(*first);
+    }
+    for pair in cuts.windows(2) {
+        let &[a, b] = pair else { continue };
+        if b <= a {
+            continue;
+        }
+        let mut part = dense.slice(a, b);
+        part.points = smooth(&part.points, false, t.smooth);
+        let fitted = || {
+            let mut path = BezPath::new();
+            path.move_to(part.points[0]);
+            add_smooth(&part.points, t.fit, &mut path);
+            path
+        };
+        let (simple, fitted) = simple_and_fitted(&part, t.fit > 0.0, t, fitted);
+        append(&mut line, &simple);
+        let drawn = fitted.unwrap_or_else(|| polyline(&simple));
+        path.extend(drawn.elements().iter().skip(1).copied());
+    }
+    (line, path)
+}
+
+/// Adds a line that begins where the other ends.
+fn append(line: &mut Line, part: &Line) {
+    for i in 0..part.len() {
+        line.push_of(part.points[i], part.samples[i], part.soft[i], part.silhouette[i], part.part[i]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chains::Sample;
+    use crate::geometry::numbers::portable_math::{cos, sin};
+
+    #[test]
+    fn curves_are_the_same_whether_points_are_asked_for_or_not() {
+        let t = Tolerances {
+            px: 1.0,
+            smooth: 0.4,
+            simplify: 0.1,
+            tidy: 0.0,
+            clean: false,
+            circle: None,
+            fit: 0.2,
+            points: true,
+        };
+        // Smooth all round, exact all round, and with a corner and a straight stretch; closed and open.
+        let kinds: [fn(usize) -> bool; 3] = [|_| true, |_| false, |i| i > 60];
+        for (is_soft, closed) in kinds.into_iter().flat_map(|soft| [(soft, true), (soft, false)]) {
+            for n in [12, 400] {
+                let mut line = Line { closed, ..Line::default() };
+                for i in 0..n {
+                    let turn = std::f64::consts::TAU * i as f64 / n as f64;
+                    let far = 200.0 + if i > n / 2 { 40.0 } else { 0.0 };
+                    let point = Point::new(far * cos(turn), far * sin(turn));
+                    line.push(point, Sample::new(0.0, 1.0), is_soft(i), false);
+                }
+                let (points, with) = finish(line.clone(), t);
+                let (none, without) = finish(line.clone(), Tolerances { points: false, ..t });
+                assert_eq!(with, without, "{n} points, closed: {closed}");
+                assert!(points.len() > 1 && none.len() == 0, "{n} points, closed: {closed}");
+            }
+        }
+    }
+}

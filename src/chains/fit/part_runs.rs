@@ -1,0 +1,276 @@
+//! [`PartRuns`]: cuts a finished line where it goes on from one part of a body to the next.
+//!
+//! A line along one surface is joined, smoothed and fitted as a whole, however the file splits the surface into parts. Only then
+//! it is cut, so that its pieces draw what the whole line does. Where parts meet is known on the raw line, and is found again on the
+//! finished one by how far along it lies, and how near.
+
+use kurbo::{BezPath, ParamCurve, ParamCurveArclen, ParamCurveNearest, PathSeg, Point};
+
+use crate::chains::sampled_line::Line;
+use crate::geometry::plane::planar_distance::length;
+use crate::mesh::PartId;
+
+/// From one place to the next, smoothing shifts a place along a line by no more than this (px) and this share of the way.
+const SHIFT_PX: f64 = 4.0;
+const SHIFT_SHARE: f64 = 0.1;
+
+/// Lengths of curves are measured within this, px.
+const LENGTH_PX: f64 = 0.01;
+
+/// Shares of a curve's parameter below this are no piece of it.
+const LEAST_SHARE: f64 = 1e-9;
+
+/// The runs of a raw line that lie in one part each.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct PartRuns {
+    /// How far along the line each begins, where that is, and its part.
+    runs: Vec<(f64, Point, PartId)>,
+    length: f64,
+    closed: bool,
+    points: Vec<Point>,
+}
+
+/// The piece of a finished line in one part.
+pub(crate) struct Piece {
+    pub line: Line,
+    pub path: BezPath,
+    pub part: PartId,
+    /// Whether it begins and ends where the whole line does.
+    pub is_end: [bool; 2],
+}
+
+/// A place on a line: a side of it, and where on that.
+type Place = (usize, f64);
+
+impl PartRuns {
+    /// Those of a raw line; `None` if all of it lies in one part.
+    pub fn of(line: &Line) -> Option<Self> {
+        let n = line.len();
+        let sides = if line.closed { n } else { n.saturating_sub(1) };
+        let first = line.part.first()?;
+        if line.part[..sides].iter().all(|part| part == first) {
+            return None;
+        }
+        let (mut runs, mut at) = (Vec::<(f64, Point, PartId)>::new(), 0.0);
+        for side in 0..sides {
+            if runs.last().is_none_or(|run| run.2 != line.part[side]) {
+                runs.push((at, line.points[side], line.part[side]));
+            }
+            at += length(line.points[(side + 1) % n] - line.points[side]);
+        }
+        // Over the seam of a closed line the last run goes on in the first.
+        if line.closed && runs.len() > 1 && runs[0].2 == runs[runs.len() - 1].2 {
+            runs.remove(0);
+        }
+        (at > 0.0).then(|| Self { runs, length: at, closed: line.closed, points: line.points.clone() })
+    }
+
+    /// The pieces of the finished line. The line has no points where none are asked for.
+    pub fn cut(mut self, line: &Line, path: &BezPath, px: f64) -> Vec<Piece> {
+        let curve: Vec<PathSeg> = path.segments().collect();
+        if self.closed {
+            let start = curve.first().map_or(self.points[0], PathSeg::start);
+            self.begin_at(start);
+        }
+        let sides = sides_of(line);
+        let [on_curve, on_line] = [&curve, &sides].map(|segments| self.places(segments, px));
+        let (Some(on_curve), on_line) = (on_curve, on_line) else {
+            return vec![Piece {
+                line: line.clone(),
+                path: path.clone(),
+                part: self.runs[0].2,
+                is_end: [true; 2],
+            }];
+        };
+        let count = self.runs.len();
+        let piece = |k: usize| {
+            let next = |places: &[Place]| if k + 1 < count { Some(places[k + 1]) } else { None };
+            let curve = between(&curve, on_curve[k], next(&on_curve), self.closed.then_some(on_curve[0]));
+            let mut path = BezPath::new();
+            for (i, segment) in curve.iter().enumerate() {
+                if i == 0 {
+                    path.move_to(segment.start());
+                }
+                path.push(segment.as_path_el());
+            }
+            let line = on_line.as_ref().map_or_else(Line::default, |places| {
+                line_between(line, places[k], next(places), self.closed.then_some(places[0]))
+            });
+            let is_end = [!self.closed && k == 0, !self.closed && k + 1 == count];
+            Piece { line, path, part: self.runs[k].2, is_end }
+        };
+        (0..count).map(piece).filter(|piece| !piece.path.elements().is_empty()).collect()
+    }
+
+    /// Measures a closed line from another place on it: finishing may begin elsewhere.
+    fn begin_at(&mut self, start: Point) {
+        let n = self.points.len();
+        let (mut at, mut nearest) = (0.0, (f64::INFINITY, 0.0));
+        for side in 0..n {
+            let (a, b) = (self.points[side], self.points[(side + 1) % n]);
+            let way = b - a;
+            let share = ((start - a).dot(way) / way.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            let apart = length(start - a.lerp(b, share));
+            if apart < nearest.0 {
+                nearest = (apart, at + share * length(way));
+            }
+            at += length(way);
+        }
+        for run in &mut self.runs {
+            run.0 = (run.0 - nearest.1).rem_euclid(self.length);
+        }
+        self.runs.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+
+    /// Where the runs begin on the finished line, ascending; `None` if that has no length.
+    fn places(&self, segments: &[PathSeg], px: f64) -> Option<Vec<Place>> {
+        // How far along the line each segment ends.
+        let mut whole = 0.0;
+        let ends: Vec<f64> = segments
+            .iter()
+            .map(|segment| {
+                whole += segment.arclen(LENGTH_PX * px);
+                whole
+            })
+            .collect();
+        if whole <= 0.0 {
+            return None;
+        }
+        let start = |i: usize| if i == 0 { 0.0 } else { ends[i - 1] };
+        // The place found last, how far along the finished line it is, and how far along the raw one.
+        let mut last: (Place, f64, f64) = ((0, 0.0), 0.0, 0.0);
+        let mut places = Vec::with_capacity(self.runs.len());
+        for (k, (at, point, _)) in self.runs.iter().enumerate() {
+            if k > 0 || self.closed {
+                let step = (at - last.2) / self.length * whole;
+                let (wanted, window) = (last.1 + step, SHIFT_PX * px + SHIFT_SHARE * step);
+                let first = ends.partition_point(|end| *end < wanted - window).max(last.0.0);
+                let near = (first..segments.len()).take_while(|i| start(*i) <= wanted + window);
+                let nearest = |i: usize| {
+                    let found = segments[i].nearest(*point, LENGTH_PX * px).t;
+                    let share = if i == last.0.0 { found.max(last.0.1) } else { found };
+                    ((segments[i].eval(share) - *point).hypot2(), (i, share))
+                };
+                let found = near.map(nearest).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.0.cmp(&b.1.0)));
+                if let Some((_, (i, share))) = found {
+                    last = ((i, share), start(i) + (ends[i] - start(i)) * share, *at);
+                }
+            }
+            places.push(last.0);
+        }
+        Some(places)
+    }
+}
+
+/// The sides of a polyline.
+fn sides_of(line: &Line) -> Vec<PathSeg> {
+    let n = line.len();
+    let sides = if line.closed { n } else { n.saturating_sub(1) };
+    let side = |i: usize| PathSeg::Line(kurbo::Line::new(line.points[i], line.points[(i + 1) % n]));
+    (0..sides).map(side).collect()
+}
+
+/// The stretches from one place to another, or to the end, and of a closed line on to the first place.
+fn stretches(count: usize, from: Place, to: Option<Place>, first: Option<Place>) -> Vec<(usize, f64, f64)> {
+    let run = |from: Place, to: Place| {
+        (from.0..=to.0.min(count.saturating_sub(1)))
+            .map(move |i| (i, if i == from.0 { from.1 } else { 0.0 }, if i == to.0 { to.1 } else { 1.0 }))
+    };
+    let end = (count.saturating_sub(1), 1.0);
+    let stretches: Vec<_> = match (to, first) {
+        (Some(to), _) => run(from, to).collect(),
+        (None, None) => run(from, end).collect(),
+        (None, Some(first)) => run(from, end).chain(run((0, 0.0), first)).collect(),
+    };
+    stretches.into_iter().filter(|(_, from, to)| to - from > LEAST_SHARE).collect()
+}
+
+fn between(segments: &[PathSeg], from: Place, to: Option<Place>, first: Option<Place>) -> Vec<PathSeg> {
+    let stretches = stretches(segments.len(), from, to, first).into_iter();
+    let part = |(i, from, to): (usize, f64, f64)| {
+        if from <= 0.0 && to >= 1.0 { segments[i] } else { segments[i].subsegment(from..to) }
+    };
+    stretches.map(part).collect()
+}
+
+fn line_between(line: &Line, from: Place, to: Option<Place>, first: Option<Place>) -> Line {
+    let n = line.len();
+    let sides = if line.closed { n } else { n.saturating_sub(1) };
+    let stretches = stretches(sides, from, to, first);
+    let mut part = Line::default();
+    let mut add = |i: usize, share: f64| {
+        let j = (i + 1) % n;
+        let (point, sample) = match share {
+            share if share <= 0.0 => (line.points[i], line.samples[i]),
+            share if share >= 1.0 => (line.points[j], line.samples[j]),
+            _ => (line.points[i].lerp(line.points[j], share), line.samples[i].lerp(line.samples[j], share)),
+        };
+        part.push_of(point, sample, line.soft[i], line.silhouette[i], line.part[i]);
+    };
+    for (i, from, to) in stretches {
+        add(i, from);
+        add(i, to);
+    }
+    part
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chains::Sample;
+    use crate::geometry::numbers::portable_math::{cos, sin};
+
+    fn ring(closed: bool, part: impl Fn(usize) -> u32) -> Line {
+        let mut line = Line { closed, ..Line::default() };
+        for i in 0..60 {
+            let turn = std::f64::consts::TAU * i as f64 / 60.0;
+            let point = Point::new(100.0 * cos(turn), 100.0 * sin(turn));
+            line.push_of(point, Sample::new(i as f64, 1.0), true, false, PartId(part(i)));
+        }
+        line
+    }
+
+    fn polyline(line: &Line) -> BezPath {
+        let mut path = BezPath::new();
+        line.points
+            .iter()
+            .enumerate()
+            .for_each(|(i, p)| if i == 0 { path.move_to(*p) } else { path.line_to(*p) });
+        if line.closed {
+            path.close_path();
+        }
+        path
+    }
+
+    #[test]
+    fn pieces_are_the_whole_line_and_begin_where_their_parts_do() {
+        for closed in [true, false] {
+            let line = ring(closed, |i| (i as u32 / 7) % 3);
+            let path = polyline(&line);
+            // A closed line that was begun elsewhere, too.
+            for turned in if closed { vec![0, 25] } else { vec![0] } {
+                let mut finished = line.clone();
+                if closed {
+                    finished = line.opened_at(turned);
+                    finished.pop();
+                    finished.closed = true;
+                }
+                let pieces = PartRuns::of(&line).unwrap().cut(&finished, &polyline(&finished), 1.0);
+                let drawn = |path: &BezPath| path.segments().map(|s| s.arclen(1e-6)).sum::<f64>();
+                let sum: f64 = pieces.iter().map(|piece| drawn(&piece.path)).sum();
+                assert!((sum - drawn(&path)).abs() < 1e-6, "{sum} {}", drawn(&path));
+                assert_eq!(pieces.len(), 9);
+                for piece in &pieces {
+                    // In the middle of each lies a side of its part.
+                    let middle = piece.line.points[piece.line.len() / 2];
+                    let near = |i: &usize| length(line.points[*i] - middle);
+                    let at = (0..60).min_by(|a, b| near(a).total_cmp(&near(b))).unwrap();
+                    assert_eq!(line.part[at], piece.part);
+                    let start = piece.path.segments().next().unwrap().start();
+                    assert!(length(piece.line.points[0] - start) < 1e-9);
+                }
+            }
+        }
+        assert_eq!(PartRuns::of(&ring(true, |_| 4)), None);
+    }
+}

@@ -1,0 +1,47 @@
+//! [`Step`]: a view edge as a line passes it, and the order of such that no map decides.
+
+use crate::geometry::plane::planar_distance::length;
+use crate::visibility::{ViewMap, ViewVertexId};
+
+/// One edge of a route and the sense it is passed in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Step {
+    pub edge: u32,
+    pub reversed: bool,
+}
+
+impl Step {
+    /// The same edge passed the other way.
+    pub fn turned(self) -> Self {
+        Self { reversed: !self.reversed, ..self }
+    }
+
+    pub fn from(self, map: &ViewMap) -> ViewVertexId {
+        let edge = &map.edges[self.edge as usize];
+        if self.reversed { edge.end } else { edge.start }
+    }
+
+    pub fn to(self, map: &ViewMap) -> ViewVertexId {
+        self.turned().from(map)
+    }
+
+    /// Length in the image.
+    pub fn length(self, map: &ViewMap) -> f64 {
+        let at = |v: ViewVertexId| map.vertices[v.index()].position;
+        length(at(self.to(map)) - at(self.from(map)))
+    }
+}
+
+/// Orders steps by where they begin and end, then by segment: the numbers of segments change with what else is
+/// drawn.
+pub(crate) fn order(map: &ViewMap, a: Step, b: Step) -> std::cmp::Ordering {
+    let segment = |s: Step| map.edges[s.edge as usize].segment;
+    let at = |v: ViewVertexId| map.vertices[v.index()].position;
+    let (p, q) = (at(a.from(map)), at(b.from(map)));
+    let (r, s) = (at(a.to(map)), at(b.to(map)));
+    (p.x.total_cmp(&q.x))
+        .then(p.y.total_cmp(&q.y))
+        .then(r.x.total_cmp(&s.x))
+        .then(r.y.total_cmp(&s.y))
+        .then(segment(a).cmp(&segment(b)))
+}

@@ -1,0 +1,297 @@
+//! Which ends of view edges continue each other: what of one class meets at a vertex, straight through junctions.
+
+use crate::parallel::prelude::*;
+use kurbo::Vec2;
+
+use super::directed_edge::{Step, order};
+use super::edge_class::Class;
+use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use crate::visibility::ViewMap;
+
+/// The end that nothing continues.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// Beyond this many ends at a vertex only pieces of one segment are paired: nothing continues
+/// through the tip of a fan.
+const MOST_ENDS: usize = 48;
+
+/// Cosine of the sharpest turn (50 degrees) a line takes at a junction of its own class.
+const JUNCTION_COSINE: f64 = 0.643;
+
+/// Vertices that one task looks at.
+const CHUNK: usize = 4096;
+
+/// Edge ends around each vertex; end `2e` is the start of edge `e`, `2e + 1` its end.
+struct Ends(Grouped<u32>);
+
+impl Ends {
+    /// Collects the ends of the edges that `keep` admits.
+    fn new(map: &ViewMap, keep: impl Fn(usize) -> bool) -> Self {
+        Self(grouped(map.vertices.len(), |put| {
+            for (e, edge) in map.edges.iter().enumerate().filter(|(e, _)| keep(*e)) {
+                put(edge.start.index(), (2 * e) as u32);
+                put(edge.end.index(), (2 * e + 1) as u32);
+            }
+        }))
+    }
+
+    fn at(&self, vertex: usize) -> &[u32] {
+        self.0.of(vertex)
+    }
+}
+
+/// What meets at some vertices.
+#[derive(Debug, Default)]
+struct Met {
+    /// Two ends that nothing else of their class meets.
+    pairs: Vec<[u32; 2]>,
+    /// Ends of which more meet, group by group, and where each group ends.
+    crowds: Vec<u32>,
+    crowd_ends: Vec<usize>,
+}
+
+impl Met {
+    /// What meets at the vertices of a chunk.
+    fn at(vertices: std::ops::Range<usize>, ends: &Ends, classes: &[Option<Class>]) -> Self {
+        let mut met = Self::default();
+        let mut rest: Vec<u32> = Vec::new();
+        for vertex in vertices {
+            match *ends.at(vertex) {
+                [] | [_] => {}
+                [a, b] => {
+                    if class(classes, a) == class(classes, b) {
+                        met.pairs.push([a, b]);
+                    }
+                }
+                ref around => {
+                    rest.clear();
+                    rest.extend_from_slice(around);
+                    while let Some(first) = rest.first() {
+                        let own = class(classes, *first);
+                        let begin = met.crowds.len();
+                        rest.retain(|end| {
+                            let is_own = class(classes, *end) == own;
+                            if is_own {
+                                met.crowds.push(*end);
+                            }
+                            !is_own
+                        });
+                        if let [a, b] = met.crowds[begin..] {
+                            met.pairs.push([a, b]);
+                        }
+                        if met.crowds.len() <= begin + 2 {
+                            met.crowds.truncate(begin);
+                        } else {
+                            met.crowd_ends.push(met.crowds.len());
+                        }
+                    }
+                }
+            }
+        }
+        met
+    }
+
+    /// The pairs that crowds are made of, where `partner` knows all other pairs.
+    fn matched(mut self, map: &ViewMap, partner: &[u32], window: f64) -> Vec<[u32; 2]> {
+        let step = |end: u32| Step { edge: end / 2, reversed: end % 2 == 1 };
+        let mut junction = Junction::default();
+        let mut matched = Vec::with_capacity(self.crowd_ends.len());
+        let mut begin = 0;
+        for end in self.crowd_ends {
+            let crowd = &mut self.crowds[begin..end];
+            // Junctions of equal turns are paired by what the edges are, not by where they are in the map.
+            crowd.sort_by(|a, b| order(map, step(*a), step(*b)));
+            junction.straightest(map, crowd, partner, window, &mut matched);
+            begin = end;
+        }
+        matched
+    }
+}
+
+/// The end that continues each end of the edges that have a class, or [`NONE`]; `window` is the length over which directions
+/// are measured at junctions.
+pub(crate) fn partners(map: &ViewMap, classes: &[Option<Class>], window: f64) -> Vec<u32> {
+    let ends = Ends::new(map, |e| classes[e].is_some());
+    let mut partner = vec![NONE; 2 * map.edges.len()];
+    let count = map.vertices.len();
+    let chunk = |k: usize| Met::at(k * CHUNK..count.min((k + 1) * CHUNK), &ends, classes);
+    let met: Vec<Met> = (0..count.div_ceil(CHUNK)).into_par_iter().with_max_len(1).map(chunk).collect();
+    let mut join = |[a, b]: [u32; 2]| {
+        partner[a as usize] = b;
+        partner[b as usize] = a;
+    };
+    met.iter().flat_map(|met| &met.pairs).for_each(|pair| join(*pair));
+    // Directions are all taken before any junction is paired, so that no order matters.
+    let matched: Vec<Vec<[u32; 2]>> =
+        met.into_par_iter().with_max_len(1).map(|met| met.matched(map, &partner, window)).collect();
+    for [a, b] in matched.into_iter().flatten() {
+        partner[a as usize] = b;
+        partner[b as usize] = a;
+    }
+    partner
+}
+
+fn class(classes: &[Option<Class>], end: u32) -> Option<Class> {
+    classes[(end / 2) as usize]
+}
+
+/// Room for what is known of one junction after the other.
+#[derive(Debug, Default)]
+struct Junction {
+    directions: Vec<Vec2>,
+    pairs: Vec<(bool, f64, usize, usize)>,
+    taken: Vec<bool>,
+}
+
+impl Junction {
+    /// Pairs ends of one class at a junction: pieces of one segment, then the smallest turns.
+    fn straightest(
+        &mut self,
+        map: &ViewMap,
+        crowd: &[u32],
+        partner: &[u32],
+        window: f64,
+        matched: &mut Vec<[u32; 2]>,
+    ) {
+        let Self { directions, pairs, taken } = self;
+        let segment = |end: u32| map.edges[(end / 2) as usize].segment;
+        directions.clear();
+        if crowd.len() <= MOST_ENDS {
+            directions.extend(crowd.iter().map(|end| direction(map, *end, partner, window)));
+        }
+        pairs.clear();
+        for i in 0..crowd.len() {
+            for j in i + 1..crowd.len() {
+                let one = segment(crowd[i]) == segment(crowd[j]) && crowd[i] / 2 != crowd[j] / 2;
+                let cosine = match (directions.get(i), directions.get(j)) {
+                    (Some(a), Some(b)) => -a.dot(*b),
+                    _ => -1.0,
+                };
+                if one || cosine > JUNCTION_COSINE {
+                    pairs.push((one, cosine, i, j));
+                }
+            }
+        }
+        pairs.sort_by(|a, b| b.0.cmp(&a.0).then(b.1.total_cmp(&a.1)).then((a.2, a.3).cmp(&(b.2, b.3))));
+        taken.clear();
+        taken.resize(crowd.len(), false);
+        for &(_, _, i, j) in &*pairs {
+            if !taken[i] && !taken[j] {
+                taken[i] = true;
+                taken[j] = true;
+                matched.push([crowd[i], crowd[j]]);
+            }
+        }
+    }
+}
+
+/// Unit direction in which a line leaves the vertex at `end`, seen over `window`; zero if it does
+/// not leave at all.
+fn direction(map: &ViewMap, end: u32, partner: &[u32], window: f64) -> Vec2 {
+    let position = |end: u32| {
+        let edge = &map.edges[(end / 2) as usize];
+        map.vertices[if end & 1 == 0 { edge.start } else { edge.end }.index()].position
+    };
+    let from = position(end);
+    let mut at = end;
+    let mut to = from;
+    for _ in 0..64 {
+        to = position(at ^ 1);
+        if (to - from).hypot2() >= window * window {
+            break;
+        }
+        match partner[(at ^ 1) as usize] {
+            NONE => break,
+            next if next / 2 == end / 2 => break,
+            next => at = next,
+        }
+    }
+    let way = to - from;
+    let length = way.hypot2().sqrt();
+    if length > 0.0 { way / length } else { Vec2::ZERO }
+}
+
+#[cfg(test)]
+mod tests {
+    use kurbo::Point;
+
+    use super::*;
+    use crate::geometry::numbers::noise::hash;
+    use crate::lines::LineKind;
+    use crate::mesh::{MaterialId, PartId};
+    use crate::surface::Origin;
+    use crate::visibility::{ViewEdge, ViewVertex, ViewVertexId, ViewVertexKind};
+
+    /// So many edges between so many vertices, thrown by chance.
+    fn tangle(vertices: u64, edges: u64) -> ViewMap {
+        let roll = |what: u64, k: u64, sides: u64| hash(what, &[k, vertices, edges]) % sides;
+        let mut map = ViewMap::default();
+        for k in 0..vertices {
+            let position = Point::new(roll(0, k, 1000) as f64, roll(1, k, 1000) as f64);
+            map.vertices.push(ViewVertex {
+                position,
+                depth: 1.0,
+                strength: 1.0,
+                kind: ViewVertexKind::Vertex,
+            });
+        }
+        for k in 0..edges {
+            let [start, end] = [2, 3].map(|what| ViewVertexId(roll(what, k, vertices) as u32));
+            map.edges.push(ViewEdge {
+                start,
+                end,
+                kind: if roll(4, k, 3) == 0 { LineKind::Border } else { LineKind::Crease },
+                invisibility: 0,
+                silhouette: false,
+                both_seen: roll(5, k, 2) == 0,
+                smooth: false,
+                origin: Origin::Constructed,
+                strength: 90.0,
+                part: PartId(0),
+                material: MaterialId(0),
+                segment: roll(6, k, edges) as u32,
+            });
+        }
+        map
+    }
+
+    /// The same, one vertex and one class after the other.
+    fn plain(map: &ViewMap, classes: &[Option<Class>], window: f64) -> Vec<u32> {
+        let step = |end: u32| Step { edge: end / 2, reversed: end % 2 == 1 };
+        let all = || (0..2 * map.edges.len() as u32).filter(|end| class(classes, *end).is_some());
+        let mut groups: Vec<Vec<u32>> = Vec::new();
+        for vertex in 0..map.vertices.len() {
+            for first in all().filter(|end| step(*end).from(map).index() == vertex) {
+                let alike = |end: &u32| class(classes, *end) == class(classes, first);
+                let group = all().filter(|end| step(*end).from(map).index() == vertex).filter(alike);
+                groups.push(group.collect());
+            }
+        }
+        let mut partner = vec![NONE; 2 * map.edges.len()];
+        for group in groups.iter().filter(|group| group.len() == 2) {
+            (partner[group[0] as usize], partner[group[1] as usize]) = (group[1], group[0]);
+        }
+        let before = partner.clone();
+        for group in groups.iter_mut().filter(|group| group.len() > 2) {
+            group.sort_by(|a, b| order(map, step(*a), step(*b)));
+            let mut matched = Vec::new();
+            Junction::default().straightest(map, group, &before, window, &mut matched);
+            for [a, b] in matched {
+                (partner[a as usize], partner[b as usize]) = (b, a);
+            }
+        }
+        partner
+    }
+
+    #[test]
+    fn ends_continue_each_other_as_one_vertex_after_the_other_says() {
+        for (vertices, edges) in [(1, 9), (20, 30), (300, 400), (150, 600)] {
+            let map = tangle(vertices, edges);
+            let of = |(k, edge): (usize, &ViewEdge)| (k % 7 != 3).then(|| Class::of(&map, edge));
+            let classes: Vec<Option<Class>> = map.edges.iter().enumerate().map(of).collect();
+            for window in [0.0, 500.0] {
+                assert_eq!(partners(&map, &classes, window), plain(&map, &classes, window), "{edges} edges");
+            }
+        }
+    }
+}

@@ -1,0 +1,137 @@
+//! [`Routes`]: which view edges follow each other, every edge in exactly one route.
+//!
+//! Two edges of one class continue each other where they are the only two of their class at a view
+//! vertex. Where more meet, pieces of one feature segment come first, then the straightest pairs,
+//! with directions taken over a few px so that the zigzag of small triangles has no say.
+
+use std::ops::Range;
+
+use crate::parallel::prelude::*;
+use crate::parallel::{self, Parallel};
+
+use super::directed_edge::{Step, order};
+use super::edge_class::Class;
+use super::junction_pairing::{NONE, partners};
+use crate::visibility::ViewMap;
+
+/// Edges in the order and sense in which lines pass through them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Routes {
+    steps: Vec<Step>,
+    spans: Vec<Span>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Span {
+    first: u32,
+    end: u32,
+    closed: bool,
+    /// The first of the feature segments it has pieces of.
+    segment: u32,
+}
+
+impl Routes {
+    pub fn len(&self) -> usize {
+        self.spans.len()
+    }
+
+    /// The steps of a route and whether its end joins its beginning.
+    pub fn get(&self, route: usize) -> (&[Step], bool) {
+        let span = self.spans[route];
+        (&self.steps[span.first as usize..span.end as usize], span.closed)
+    }
+
+    pub fn iter(&self) -> Parallel<Range<usize>, impl parallel::Step<Range<usize>, Item = (&[Step], bool)>> {
+        (0..self.len()).into_par_iter().with_min_len(CHUNK).map(|route| self.get(route))
+    }
+
+    /// Changes each route, which must still follow each other as they were found.
+    fn each(&mut self, change: impl Fn(&mut [Step], &mut Span) + Sync) {
+        let mut rest = &mut self.steps[..];
+        let mut tasks = Vec::with_capacity(self.spans.len().div_ceil(CHUNK));
+        for spans in self.spans.chunks_mut(CHUNK) {
+            let (Some(first), Some(last)) = (spans.first(), spans.last()) else { continue };
+            let count = (last.end - first.first) as usize;
+            let (steps, after) = std::mem::take(&mut rest).split_at_mut(count);
+            rest = after;
+            tasks.push((steps, spans));
+        }
+        tasks.into_par_iter().with_max_len(1).for_each(|(mut steps, spans)| {
+            for span in spans {
+                let (own, after) = steps.split_at_mut((span.end - span.first) as usize);
+                change(own, span);
+                steps = after;
+            }
+        });
+    }
+}
+
+/// Routes that one task looks at.
+const CHUNK: usize = 1024;
+
+/// Joins the edges that have a class; `window` is the length over which directions are measured at
+/// junctions. The result does not depend on the order or sense of the edges, but for lines that
+/// coincide exactly.
+pub(crate) fn routes(map: &ViewMap, classes: &[Option<Class>], window: f64) -> Routes {
+    let partner = partners(map, classes, window);
+    let mut used: Vec<bool> = classes.iter().map(Option::is_none).collect();
+    let mut routes = Routes { steps: Vec::with_capacity(map.edges.len()), spans: Vec::new() };
+    // Open routes start at the ends that nothing continues; what they leave is closed.
+    for open in [true, false] {
+        for end in 0..partner.len() {
+            if used[end / 2] || (open && partner[end] != NONE) {
+                continue;
+            }
+            let first = routes.steps.len();
+            let mut at = end as u32;
+            loop {
+                used[(at / 2) as usize] = true;
+                routes.steps.push(Step { edge: at / 2, reversed: at % 2 == 1 });
+                let next = partner[(at ^ 1) as usize];
+                if next == NONE || used[(next / 2) as usize] {
+                    break;
+                }
+                at = next;
+            }
+            let end = routes.steps.len() as u32;
+            routes.spans.push(Span { first: first as u32, end, closed: !open, segment: NONE });
+        }
+    }
+    routes.each(|steps, span| {
+        make_canonical(map, steps, span.closed);
+        let segments = steps.iter().map(|step| map.edges[step.edge as usize].segment);
+        span.segment = segments.min().unwrap_or(NONE);
+    });
+    let steps = &routes.steps;
+    routes.spans.par_sort_by(|a, b| {
+        let start = |s: &Span| steps[s.first as usize];
+        a.segment.cmp(&b.segment).then_with(|| order(map, start(a), start(b)))
+    });
+    routes
+}
+
+/// Turns a route to the sense, and a closed one to the start, that its edges alone decide.
+fn make_canonical(map: &ViewMap, steps: &mut [Step], closed: bool) {
+    let reverse = |steps: &mut [Step]| {
+        steps.reverse();
+        for step in steps {
+            *step = step.turned();
+        }
+    };
+    if closed {
+        let lower = |s: Step| if order(map, s, s.turned()).is_le() { s } else { s.turned() };
+        let least = |a: &usize, b: &usize| order(map, lower(steps[*a]), lower(steps[*b]));
+        let Some(start) = (0..steps.len()).min_by(least) else { return };
+        if order(map, steps[start], steps[start].turned()).is_le() {
+            steps.rotate_left(start);
+        } else {
+            reverse(steps);
+            let last = steps.len() - 1;
+            steps.rotate_left(last - start);
+        }
+    } else if let (Some(first), Some(last)) = (steps.first(), steps.last())
+        && order(map, *first, last.turned()).is_gt()
+    {
+        reverse(steps);
+    }
+}

@@ -1,0 +1,153 @@
+//! [`Line`]: the polyline of a route, on its way to becoming a chain.
+
+use kurbo::Point;
+
+use super::Sample;
+use crate::chains::link::directed_edge::Step;
+use crate::geometry::plane::planar_distance::length;
+use crate::mesh::PartId;
+use crate::visibility::{ViewMap, ViewVertex};
+
+/// A polyline in user units. A closed one does not repeat its first point.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(crate) struct Line {
+    pub points: Vec<Point>,
+    /// One a point.
+    pub samples: Vec<Sample>,
+    /// Whether the piece that follows each point lies on a smooth surface; one a point (the last
+    /// of an open line repeats the one before).
+    pub soft: Vec<bool>,
+    /// Whether the piece that follows each point has background behind it; likewise.
+    pub silhouette: Vec<bool>,
+    /// The part of the piece that follows each point; likewise.
+    pub part: Vec<PartId>,
+    pub closed: bool,
+}
+
+impl Line {
+    /// The points of a route, points that coincide once; if `noisy`, all of it counts as lying on a
+    /// smooth surface.
+    pub fn of_route(map: &ViewMap, steps: &[Step], closed: bool, noisy: bool) -> Self {
+        let mut line = Self { closed, ..Self::with_capacity(steps.len() + 1) };
+        for step in steps {
+            let vertex = &map.vertices[step.from(map).index()];
+            let edge = &map.edges[step.edge as usize];
+            line.push_of(vertex.position, sample(vertex), noisy || edge.smooth, edge.silhouette, edge.part);
+        }
+        if let (false, Some(last)) = (closed, steps.last()) {
+            let vertex = &map.vertices[last.to(map).index()];
+            let edge = &map.edges[last.edge as usize];
+            line.push_of(vertex.position, sample(vertex), noisy || edge.smooth, edge.silhouette, edge.part);
+        }
+        while closed && line.points.len() > 1 && line.points.first() == line.points.last() {
+            line.pop();
+        }
+        line
+    }
+
+    fn with_capacity(count: usize) -> Self {
+        Self {
+            points: Vec::with_capacity(count),
+            samples: Vec::with_capacity(count),
+            soft: Vec::with_capacity(count),
+            silhouette: Vec::with_capacity(count),
+            part: Vec::with_capacity(count),
+            closed: false,
+        }
+    }
+
+    /// Adds a point of a line of the first part, or renews the last one if it lies there already.
+    pub fn push(&mut self, point: Point, sample: Sample, soft: bool, silhouette: bool) {
+        self.push_of(point, sample, soft, silhouette, PartId::default());
+    }
+
+    /// Adds a point, or renews the last one if it lies there already.
+    pub fn push_of(&mut self, point: Point, sample: Sample, soft: bool, silhouette: bool, part: PartId) {
+        if self.points.last() == Some(&point) {
+            if let (Some(was_soft), Some(was)) = (self.soft.last_mut(), self.silhouette.last_mut()) {
+                *was_soft = soft;
+                *was = silhouette;
+            }
+            if let Some(was) = self.part.last_mut() {
+                *was = part;
+            }
+            return;
+        }
+        self.points.push(point);
+        self.samples.push(sample);
+        self.soft.push(soft);
+        self.silhouette.push(silhouette);
+        self.part.push(part);
+    }
+
+    /// Takes the last point away.
+    pub fn pop(&mut self) {
+        self.points.pop();
+        self.samples.pop();
+        self.soft.pop();
+        self.silhouette.pop();
+        self.part.pop();
+    }
+
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// Whether any of it lies on a smooth surface.
+    pub fn is_soft(&self) -> bool {
+        self.soft.iter().any(|soft| *soft)
+    }
+
+    /// Its length, each part weighted by its strength.
+    pub fn strength(&self) -> f64 {
+        let n = self.len();
+        let sides = if self.closed { n } else { n.saturating_sub(1) };
+        let side = |i: usize| {
+            let j = (i + 1) % n;
+            let mean = (self.samples[i].strength + self.samples[j].strength) / 2.0;
+            mean * length(self.points[j] - self.points[i])
+        };
+        (0..sides).map(side).sum()
+    }
+
+    /// Its greatest strength.
+    pub fn peak(&self) -> f64 {
+        self.samples.iter().map(|sample| sample.strength).fold(0.0, f64::max)
+    }
+
+    /// The line cut open at point `start`, which is repeated at the end.
+    pub fn opened_at(&self, start: usize) -> Self {
+        let n = self.len();
+        let index = (0..=n).map(|i| (start + i) % n.max(1));
+        let index: Vec<usize> = if n == 0 { Vec::new() } else { index.collect() };
+        Self { closed: false, ..self.pick(&index) }
+    }
+
+    /// Points `first..=last` as an open line.
+    pub fn slice(&self, first: usize, last: usize) -> Self {
+        Self {
+            points: self.points[first..=last].to_vec(),
+            samples: self.samples[first..=last].to_vec(),
+            soft: self.soft[first..=last].to_vec(),
+            silhouette: self.silhouette[first..=last].to_vec(),
+            part: self.part[first..=last].to_vec(),
+            closed: false,
+        }
+    }
+
+    /// The points at these indices, in this order.
+    pub fn pick(&self, index: &[usize]) -> Self {
+        Self {
+            points: index.iter().map(|i| self.points[*i]).collect(),
+            samples: index.iter().map(|i| self.samples[*i]).collect(),
+            soft: index.iter().map(|i| self.soft[*i]).collect(),
+            silhouette: index.iter().map(|i| self.silhouette[*i]).collect(),
+            part: index.iter().map(|i| self.part[*i]).collect(),
+            closed: self.closed,
+        }
+    }
+}
+
+fn sample(vertex: &ViewVertex) -> Sample {
+    Sample::new(vertex.depth, f64::from(vertex.strength))
+}

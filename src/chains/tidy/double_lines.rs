@@ -1,0 +1,431 @@
+//! Drops second strokes: what of lines runs beside a longer one within a pen's width.
+
+use std::ops::RangeInclusive;
+
+use crate::parallel::prelude::*;
+use kurbo::{Point, Vec2};
+use rustc_hash::FxHashMap;
+
+use super::raw_line::{Degrees, Raw};
+use super::removed_lines::{Bin, Reason};
+use super::short_lines::may_be_noise;
+use crate::chains::sampled_line::Line;
+use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::geometry::plane::planar_distance::{distance2, length};
+use crate::lines::LineKind;
+use crate::surface::Origin;
+use crate::visibility::ViewVertexId;
+
+/// Lines nearer than this part of the tidy length are double strokes.
+const DOUBLE: f64 = 0.3;
+
+/// Cosine of the largest angle (35 degrees) between strokes that count as parallel.
+const PARALLEL_COSINE: f64 = 0.82;
+
+/// Part of a line that must run beside others for the whole to be a double.
+const COVERED: f64 = 0.8;
+
+/// Length, in distances, over which the direction of a jagged line is taken.
+const WINDOW: f64 = 4.0;
+
+/// A line shorter than this many distances, or one of a rim that is, is a flake, and doubles another at this much more
+/// than the distance.
+const FLAKE: f64 = 21.0;
+const FLAKE_DISTANCE: f64 = 4.0;
+
+/// Part of a flake that may be silhouette.
+const OUTLINE: f64 = 0.25;
+
+/// What of a double runs by itself for more than so many distances is drawn, and all of it that is outline.
+const BARE: f64 = 10.0;
+
+/// Lines that one task looks at, at least.
+const MIN_LINES: usize = 8;
+
+/// Part of the distance by which lines beside each other may miss each other lengthwise.
+const ABREAST: f64 = 0.3;
+
+/// A piece of a visible line in a bucket of the page.
+#[derive(Debug, Clone, Copy)]
+struct LinePiece {
+    line: u32,
+    a: Point,
+    b: Point,
+    direction: Vec2,
+}
+
+/// Pieces by square cells of the page.
+struct Buckets {
+    cell: f64,
+    corner: Point,
+    columns: usize,
+    rows: usize,
+    pieces: Grouped<u32>,
+}
+
+/// Leaves out smooth contours and noisy creases that double a longer visible line within so many tidy lengths,
+/// but for what of them runs by itself. A line that may go for noise stands for no other; the middle line of a rounding gives way
+/// to any other line, and none to it.
+pub(crate) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: &mut Bin) {
+    let distance = DOUBLE * tidy;
+    if !raws.par_iter().any(is_suspect) {
+        return;
+    }
+    let pieces_of = |(i, raw): (usize, &Raw)| {
+        let pieces = if raw.class.hidden { Vec::new() } else { collect(i as u32, &raw.line, distance) };
+        (pieces, raw.length())
+    };
+    let (found, lengths): (Vec<Vec<LinePiece>>, Vec<f64>) = raws
+        .par_iter()
+        .enumerate()
+        .with_min_len(MIN_LINES)
+        .with_max_len(2 * MIN_LINES)
+        .map(pieces_of)
+        .unzip();
+    let mut ends = 0;
+    let end = |pieces: &Vec<LinePiece>| {
+        ends += pieces.len();
+        ends
+    };
+    let spans: Vec<usize> = std::iter::once(0).chain(found.iter().map(end)).collect();
+    let pieces = found.concat();
+    let Some(buckets) = Buckets::new(&pieces, 4.0 * distance) else { return };
+    let rims = Rims::of(raws, &lengths);
+    let may_go: Vec<bool> = raws.iter().map(|raw| may_be_noise(raw, tidy)).collect();
+    let roundings: Vec<bool> = raws.iter().map(is_rounding).collect();
+    // Which sides of a line run by themselves, if it is a double. Only longer lines make it one, so that it does not matter which of
+    // those are doubles themselves: of lines beside each other the longest is left.
+    let alone = |i: usize| -> Option<Vec<bool>> {
+        if !is_suspect(&raws[i]) {
+            return None;
+        }
+        let own = &pieces[spans[i]..spans[i + 1]];
+        let total = lengths[i];
+        // The shorter, the more likely a flake; but a gap in the outline is worse.
+        let whole = rims.length(&raws[i], total);
+        let flake = whole < FLAKE * distance && raws[i].silhouette_part() < OUTLINE;
+        let distance = if flake { FLAKE_DISTANCE * distance } else { distance };
+        let allowed = (1.0 - COVERED) * total;
+        let mut bare = 0.0;
+        let mut alone = Vec::with_capacity(own.len());
+        for piece in own {
+            let side = length(piece.b - piece.a);
+            let parts = (side / distance).ceil().clamp(1.0, 256.0);
+            let before = bare;
+            for k in 0..parts as usize {
+                let point = piece.a.lerp(piece.b, (k as f64 + 0.5) / parts);
+                let stands = |other: u32| {
+                    let other = other as usize;
+                    let goes_before = match [roundings[i], roundings[other]] {
+                        [true, false] => true,
+                        [false, true] => false,
+                        _ => lengths[other] > total,
+                    };
+                    goes_before && !may_go[other]
+                };
+                if !buckets.beside(&pieces, point, piece.direction, distance, stands) {
+                    bare += side / parts;
+                }
+                if bare > allowed {
+                    return None;
+                }
+            }
+            alone.push(bare > before);
+        }
+        (total > 0.0).then_some(alone)
+    };
+    let gone: Vec<Option<Vec<bool>>> = (0..raws.len())
+        .into_par_iter()
+        .with_min_len(MIN_LINES)
+        .with_max_len(2 * MIN_LINES)
+        .map(alone)
+        .collect();
+    if gone.iter().all(Option::is_none) {
+        return;
+    }
+    let mut kept = Vec::with_capacity(raws.len());
+    for (raw, alone) in std::mem::take(raws).into_iter().zip(gone) {
+        let Some(alone) = alone else {
+            kept.push(raw);
+            continue;
+        };
+        let parts = parts_alone(&raw, &alone, distance);
+        bin.put(&raw, || Reason::Double);
+        if parts.is_empty() {
+            degrees.leave_out(&raw);
+        }
+        kept.extend(parts);
+    }
+    *raws = kept;
+}
+
+/// The lengths of lines that begin and end in the same two places, such as the near and the far side of the rim of a
+/// hole: together they are as long as the rim.
+struct Rims(FxHashMap<[ViewVertexId; 2], f64>);
+
+impl Rims {
+    fn of(raws: &[Raw], lengths: &[f64]) -> Self {
+        let mut rims = FxHashMap::default();
+        for (raw, length) in raws.iter().zip(lengths).filter(|(raw, _)| !raw.class.hidden && !raw.is_ring()) {
+            *rims.entry(Self::key(raw)).or_insert(0.0) += length;
+        }
+        Self(rims)
+    }
+
+    fn key(raw: &Raw) -> [ViewVertexId; 2] {
+        let [a, b] = raw.ends;
+        [a.min(b), a.max(b)]
+    }
+
+    /// The length of the rim of which a line is a side; its own if it is none.
+    fn length(&self, raw: &Raw, own: f64) -> f64 {
+        if raw.is_ring() { own } else { self.0.get(&Self::key(raw)).copied().unwrap_or(own) }
+    }
+}
+
+/// What of a double is drawn: runs of sides that are alone and long, or that are outline for more than a distance.
+fn parts_alone(raw: &Raw, alone: &[bool], distance: f64) -> Vec<Raw> {
+    if !alone.contains(&true) {
+        return Vec::new();
+    }
+    // A ring is opened where it is not alone.
+    let start = if raw.line.closed { alone.iter().position(|alone| !alone).unwrap_or(0) } else { 0 };
+    let open = if raw.line.closed { raw.line.opened_at(start) } else { raw.line.clone() };
+    let is_alone = |side: usize| alone.get((side + start) % alone.len()).copied().unwrap_or(false);
+    let sides = open.len() - 1;
+    let mut parts = Vec::new();
+    let mut first = 0;
+    while first < sides {
+        if !is_alone(first) {
+            first += 1;
+            continue;
+        }
+        let last = (first..sides).take_while(|side| is_alone(*side)).last().unwrap_or(first);
+        let long = |side: usize| length(open.points[side + 1] - open.points[side]);
+        let all: f64 = (first..=last).map(long).sum();
+        let outline: f64 = (first..=last).filter(|side| open.silhouette[*side]).map(long).sum();
+        if all > BARE * distance || outline > distance {
+            let ends = [first == 0, last + 1 == sides];
+            let covered = [0, 1].map(|end| !raw.line.closed && ends[end] && raw.covered[end]);
+            // Where it was cut another line runs on, so that its vertices stay joined.
+            let part =
+                Raw { line: open.slice(first, last + 1), covered, vertices: Vec::new(), ..raw.clone() };
+            parts.push(part);
+        }
+        first = last + 1;
+    }
+    parts
+}
+
+/// Whether a line may be a double at all: exact models draw every line they have.
+fn is_suspect(raw: &Raw) -> bool {
+    !raw.class.hidden
+        && match raw.class.kind {
+            LineKind::Contour => raw.smooth,
+            LineKind::Crease => raw.class.origin == Origin::Scanned || is_rounding(raw),
+            _ => false,
+        }
+}
+
+/// Whether it is the middle line of a rounding: a crease on a surface that goes on over it.
+fn is_rounding(raw: &Raw) -> bool {
+    raw.class.kind == LineKind::Crease && raw.smooth && raw.class.origin != Origin::Scanned
+}
+
+/// The pieces of a line, with the direction each has over a few distances.
+fn collect(index: u32, line: &Line, distance: f64) -> Vec<LinePiece> {
+    let n = line.len();
+    let sides = if line.closed { n } else { n - 1 };
+    let mut pieces = Vec::with_capacity(sides);
+    let reach = WINDOW * distance / 2.0;
+    for k in 0..sides {
+        let (a, b) = (line.points[k], line.points[(k + 1) % n]);
+        let mut low = k;
+        while low > 0 && length(line.points[low] - a) < reach {
+            low -= 1;
+        }
+        let mut high = k + 1;
+        while high < sides && length(line.points[high % n] - b) < reach {
+            high += 1;
+        }
+        let direction = crate::chains::fit::bezier_fit::unit(line.points[high % n] - line.points[low]);
+        pieces.push(LinePiece { line: index, a, b, direction });
+    }
+    pieces
+}
+
+/// Pieces that one task looks at.
+const PIECES: usize = 1 << 10;
+
+/// Cells for each piece, at most.
+const CELLS_OF_PIECE: usize = 8;
+
+impl Buckets {
+    fn new(pieces: &[LinePiece], cell: f64) -> Option<Self> {
+        let ends = || pieces.iter().flat_map(|p| [p.a, p.b]);
+        let mut low = ends().next()?;
+        let mut high = low;
+        for p in ends() {
+            low = Point::new(low.x.min(p.x), low.y.min(p.y));
+            high = Point::new(high.x.max(p.x), high.y.max(p.y));
+        }
+        // Giant pages get larger cells rather than more than a million, and few pieces do with few.
+        let (width, height) = (high.x - low.x, high.y - low.y);
+        let of_piece = (width * height / (CELLS_OF_PIECE * pieces.len()) as f64).sqrt();
+        let cell = cell.max(width / 1000.0).max(height / 1000.0).max(of_piece);
+        if !cell.is_finite() || cell <= 0.0 {
+            return None;
+        }
+        let (columns, rows) = ((width / cell) as usize + 1, (height / cell) as usize + 1);
+        let mut buckets = Self { cell, corner: low, columns, rows, pieces: Grouped::default() };
+        let cells_of = |(chunk, some): (usize, &[LinePiece])| {
+            let mut found = Vec::with_capacity(2 * some.len());
+            for (i, piece) in (chunk * PIECES..).zip(some) {
+                buckets.each_cell(piece.a, piece.b, |cell| found.push((cell, i as u32)));
+            }
+            found
+        };
+        let found: Vec<Vec<(usize, u32)>> =
+            pieces.par_chunks(PIECES).enumerate().with_max_len(1).map(cells_of).collect();
+        buckets.pieces = grouped_pairs(columns * rows, found.iter().flatten().copied());
+        Some(buckets)
+    }
+
+    /// Columns and rows of the box round two points, widened by `margin`.
+    fn range(&self, p: Point, q: Point, margin: f64) -> (RangeInclusive<usize>, RangeInclusive<usize>) {
+        let column = |x: f64| (((x - self.corner.x) / self.cell).max(0.0) as usize).min(self.columns - 1);
+        let row = |y: f64| (((y - self.corner.y) / self.cell).max(0.0) as usize).min(self.rows - 1);
+        (
+            column(p.x.min(q.x) - margin)..=column(p.x.max(q.x) + margin),
+            row(p.y.min(q.y) - margin)..=row(p.y.max(q.y) + margin),
+        )
+    }
+
+    /// Cells that a segment touches; long segments are taken in parts so that their boxes stay
+    /// small, and may give a cell twice.
+    fn each_cell(&self, a: Point, b: Point, mut visit: impl FnMut(usize)) {
+        let parts = ((length(b - a) / self.cell).ceil() as usize).clamp(1, 4096);
+        for part in 0..parts {
+            let p = a.lerp(b, part as f64 / parts as f64);
+            let q = a.lerp(b, (part + 1) as f64 / parts as f64);
+            let (columns, rows) = self.range(p, q, 0.0);
+            for row in rows {
+                columns.clone().for_each(|column| visit(row * self.columns + column));
+            }
+        }
+    }
+
+    /// Whether a parallel piece of an admitted line runs beside `point` within `distance`.
+    fn beside(
+        &self,
+        pieces: &[LinePiece],
+        point: Point,
+        direction: Vec2,
+        distance: f64,
+        admit: impl Fn(u32) -> bool,
+    ) -> bool {
+        let (columns, rows) = self.range(point, point, distance);
+        rows.flat_map(|row| columns.clone().map(move |column| (row, column))).any(|(row, column)| {
+            self.pieces.of(row * self.columns + column).iter().map(|i| &pieces[*i as usize]).any(|other| {
+                other.direction.dot(direction).abs() >= PARALLEL_COSINE
+                    && other.is_abreast(point, ABREAST * distance)
+                    && admit(other.line)
+                    && distance2(point, other.a, other.b) <= distance * distance
+            })
+        })
+    }
+}
+
+impl LinePiece {
+    /// Whether a point lies beside the piece rather than ahead of it or behind, but for `slack`.
+    fn is_abreast(&self, point: Point, slack: f64) -> bool {
+        let side = self.b - self.a;
+        let along = (point - self.a).dot(side);
+        let slack = slack * length(side);
+        (-slack..=side.hypot2() + slack).contains(&along)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::chains::link::edge_class::Class;
+    use crate::chains::sample::Sample;
+    use crate::mesh::{MaterialId, PartId};
+    use crate::visibility::ViewMap;
+
+    fn contour(points: &[(f64, f64)], ends: [u32; 2]) -> Raw {
+        let mut line = Line::default();
+        points.iter().for_each(|p| line.push(Point::new(p.0, p.1), Sample::new(0.0, 1.0), true, false));
+        let class = Class {
+            kind: LineKind::Contour,
+            body: PartId(0),
+            material: MaterialId(0),
+            hidden: false,
+            silhouette: false,
+            both_seen: false,
+            origin: Origin::Scanned,
+        };
+        Raw {
+            line,
+            class,
+            invisibility: 0,
+            smooth: true,
+            ends: ends.map(ViewVertexId),
+            vertices: Vec::new(),
+            covered: [false; 2],
+            pronounced: 0.0,
+            segment: 0,
+        }
+    }
+
+    #[test]
+    fn the_rim_of_a_small_hole_by_an_outline_is_no_flake() {
+        // Each side of the rim is as short as a flake, both together are not.
+        let left = |far_ends: [u32; 2]| {
+            let outline = contour(&[(0.0, 0.0), (200.0, 0.0)], [0, 1]);
+            let near = contour(&[(50.0, 3.0), (65.0, 3.0)], [2, 3]);
+            let far = contour(&[(50.0, 3.0), (57.0, 7.0), (65.0, 3.0)], far_ends);
+            let mut raws = vec![outline, near, far];
+            let mut degrees = Degrees::new(&ViewMap::default(), &[]);
+            drop_doubles(&mut raws, &mut degrees, 4.0, &mut Bin::default());
+            raws.iter().map(|raw| raw.ends[0].0).collect::<Vec<_>>()
+        };
+        assert_eq!(left([3, 2]), [0, 2, 3], "both sides of a rim end in the same two places");
+        assert_eq!(left([4, 5]), [0, 4], "a flake beside the outline");
+    }
+
+    #[test]
+    fn a_crease_that_may_go_for_noise_stands_for_no_contour() {
+        let left = |pronounced: f64| {
+            let rim = contour(&[(50.0, 3.0), (120.0, 3.0)], [0, 1]);
+            let mut crease = contour(&[(0.0, 2.5), (200.0, 2.5)], [2, 3]);
+            crease.class.kind = LineKind::Crease;
+            crease.smooth = false;
+            crease.pronounced = pronounced;
+            let mut raws = vec![rim, crease];
+            let mut degrees = Degrees::new(&ViewMap::default(), &[]);
+            drop_doubles(&mut raws, &mut degrees, 4.0, &mut Bin::default());
+            raws.iter().map(|raw| raw.ends[0].0).collect::<Vec<_>>()
+        };
+        assert_eq!(left(100.0), [2], "a sharp crease beside a contour");
+        assert_eq!(left(3.0), [0, 2], "one that turns too little for its length");
+    }
+
+    #[test]
+    fn the_middle_line_of_a_rounding_gives_way_to_a_contour() {
+        let left = |is_rounding: bool| {
+            let outline = contour(&[(50.0, 3.0), (120.0, 3.0)], [0, 1]);
+            let mut crease = contour(&[(50.0, 2.5), (119.0, 2.5), (123.0, 2.5)], [2, 3]);
+            crease.class.kind = LineKind::Crease;
+            (crease.class.origin, crease.smooth, crease.pronounced) =
+                (Origin::Constructed, is_rounding, 100.0);
+            let mut raws = vec![outline, crease];
+            let mut degrees = Degrees::new(&ViewMap::default(), &[]);
+            drop_doubles(&mut raws, &mut degrees, 4.0, &mut Bin::default());
+            raws.iter().map(|raw| raw.ends[0].0).collect::<Vec<_>>()
+        };
+        assert_eq!(left(true), [0]);
+        assert_eq!(left(false), [2], "a crease that is longer");
+    }
+}

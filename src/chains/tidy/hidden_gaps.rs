@@ -1,0 +1,117 @@
+//! Closes the tiny gaps in the visible part of a line.
+//!
+//! Contours of meshes dip behind the folds of their own neighbourhood for a fraction of a px; a pen
+//! makes one line of them.
+
+use crate::chains::link::directed_edge::Step;
+use crate::chains::link::edge_class::Class;
+use crate::chains::link::routes::Routes;
+use crate::lines::LineKind;
+use crate::visibility::{Ahead, ViewMap, Way};
+
+/// A stretch of a route over which something stays the same.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    first: usize,
+    end: usize,
+    length: f64,
+    value: bool,
+}
+
+/// Makes hidden stretches of smooth contours shorter than `gap` visible where the line is visible
+/// before and behind them, and nothing but their own surface hides them. `routes` must join edges
+/// regardless of visibility.
+pub(crate) fn bridge(
+    map: &ViewMap,
+    routes: &Routes,
+    gap: f64,
+    ahead: Option<&Ahead>,
+    classes: &mut [Option<Class>],
+) {
+    let gaps: Vec<Gap> =
+        routes.iter().flat_map_iter(|(steps, closed)| gaps(map, steps, closed, gap, classes)).collect();
+    let ways: Vec<Way> = gaps.iter().map(|gap| gap.way).collect();
+    let hidden = ahead.map_or_else(|| vec![false; ways.len()], |ahead| ahead.hides(&ways));
+    for (gap, _) in gaps.iter().zip(hidden).filter(|(_, hidden)| !hidden) {
+        for step in &gap.steps {
+            if let Some(class) = &mut classes[step.edge as usize] {
+                class.hidden = false;
+            }
+        }
+    }
+}
+
+/// A stretch that may be bridged.
+struct Gap {
+    steps: Vec<Step>,
+    way: Way,
+}
+
+/// The hidden stretches of a route shorter than `gap` that lie in visible ones of one smooth contour.
+fn gaps(map: &ViewMap, steps: &[Step], closed: bool, gap: f64, classes: &[Option<Class>]) -> Vec<Gap> {
+    let is_hidden = |step: &Step| class(classes, step).is_none_or(|c| c.hidden);
+    if !steps.iter().any(is_hidden) {
+        return Vec::new();
+    }
+    let runs = runs(map, steps, closed, is_hidden);
+    let count = runs.len();
+    let smooth = |step: &Step| {
+        let edge = &map.edges[step.edge as usize];
+        edge.kind == LineKind::Contour && edge.smooth
+    };
+    let mut gaps = Vec::new();
+    for (i, run) in runs.iter().enumerate() {
+        let inner = closed && count > 1 || (i > 0 && i + 1 < count);
+        let beside = |j: usize| runs[j % count].length;
+        if !run.value || !inner || run.length >= gap {
+            continue;
+        }
+        // Two crumbs do not make a line by what is between them.
+        if beside(i + count - 1).max(beside(i + 1)) < run.length {
+            continue;
+        }
+        let own: Vec<Step> = (run.first..run.end).map(|k| steps[k % steps.len()]).collect();
+        if own.iter().all(smooth) {
+            gaps.extend(Gap::new(map, own));
+        }
+    }
+    gaps
+}
+
+impl Gap {
+    fn new(map: &ViewMap, steps: Vec<Step>) -> Option<Self> {
+        let (first, last) = (*steps.first()?, *steps.last()?);
+        let ends = [first.from(map), last.to(map)].map(|v| map.vertices[v.index()]);
+        let way = Way {
+            ends: ends.map(|vertex| vertex.position),
+            depths: ends.map(|vertex| vertex.depth),
+            segments: [first, last].map(|step| map.edges[step.edge as usize].segment),
+        };
+        Some(Self { steps, way })
+    }
+}
+
+/// The runs of equal value along a route. In a closed route the first run may begin before the
+/// route's start: its `end` then exceeds the number of steps.
+fn runs(map: &ViewMap, steps: &[Step], closed: bool, value: impl Fn(&Step) -> bool) -> Vec<Stretch> {
+    let n = steps.len();
+    let start =
+        if closed { (1..n).find(|k| value(&steps[*k]) != value(&steps[k - 1])).unwrap_or(0) } else { 0 };
+    let mut runs: Vec<Stretch> = Vec::new();
+    for k in start..start + n {
+        let step = &steps[k % n];
+        let (now, length) = (value(step), step.length(map));
+        match runs.last_mut() {
+            Some(run) if run.value == now => {
+                run.end = k + 1;
+                run.length += length;
+            }
+            _ => runs.push(Stretch { first: k, end: k + 1, length, value: now }),
+        }
+    }
+    runs
+}
+
+fn class(classes: &[Option<Class>], step: &Step) -> Option<Class> {
+    classes[step.edge as usize]
+}

@@ -1,0 +1,21 @@
+//! Tidying: decides which lines are drawn, and joins those that one pen stroke would draw.
+//!
+//! 1. Short hidden stretches of a smooth contour are made visible.
+//! 2. Three rounds of: stitch contours across small gaps, drop double lines, drop short and noisy lines.
+//! 3. Each line is cut where it changes between silhouette and inner contour.
+//!
+//! Source: Bénard, Hertzmann and Kass, Computing smooth surface contours with accurate topology, ACM TOG
+//! 2014, section 6.
+//!
+//! Files, in reading order: [`tidy_passes`] the order of the steps; [`raw_line`] a line with what tidying
+//! needs; [`hidden_gaps`]; [`stitching`]; [`double_lines`]; [`short_lines`]; [`silhouette_runs`];
+//! [`removed_lines`] a report of what was dropped and why.
+
+mod double_lines;
+mod hidden_gaps;
+pub(crate) mod raw_line;
+pub mod removed_lines;
+mod short_lines;
+mod silhouette_runs;
+mod stitching;
+pub(crate) mod tidy_passes;

@@ -1,0 +1,120 @@
+//! Cuts lines where silhouette turns into inner contour, but not where it only flickers, as the contours of rounded surfaces do.
+
+use super::raw_line::Raw;
+use crate::chains::link::edge_class::Class;
+use crate::chains::sampled_line::Line;
+use crate::geometry::plane::planar_distance::length;
+
+/// A stretch of a line, from one side to another, that is silhouette or is not.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    first: usize,
+    end: usize,
+    length: f64,
+    value: bool,
+    /// Whether all of it lies on edges that are meant to be sharp: it ends at computed places.
+    is_hard: bool,
+}
+
+/// How short stretches of a line may be, user units.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shortest {
+    /// On rounded surfaces, and where lines were found in images.
+    pub soft: f64,
+    /// On edges that are meant to be sharp.
+    pub hard: f64,
+}
+
+/// The parts of a line that are silhouette throughout or nowhere, none shorter than `shortest` unless the whole line is; `None` for
+/// a line that is one such part itself and then knows which.
+pub(crate) fn cut(raw: &mut Raw, shortest: Shortest) -> Option<Vec<Raw>> {
+    if raw.line.silhouette.iter().all(|s| *s == raw.line.silhouette[0]) {
+        raw.class.silhouette = raw.line.silhouette[0];
+        return None;
+    }
+    // A closed line begins where the value changes, so that no run goes over its seam.
+    let n = raw.line.len();
+    let change = (0..n).find(|i| raw.line.silhouette[*i] != raw.line.silhouette[(i + n - 1) % n]);
+    let opened = raw.line.closed.then(|| raw.line.opened_at(change.unwrap_or(0)));
+    let open = opened.as_ref().unwrap_or(&raw.line);
+    let runs = even(runs(open), shortest);
+    if let [run] = runs[..] {
+        raw.class.silhouette = run.value;
+        return None;
+    }
+    let part = |(i, run): (usize, &Stretch)| {
+        let mut part = with_silhouette(raw, open.slice(run.first, run.end), run.value);
+        part.covered = [i == 0 && raw.covered[0], i + 1 == runs.len() && raw.covered[1]];
+        part
+    };
+    Some(runs.iter().enumerate().map(part).collect())
+}
+
+/// A part of a line; nobody asks any more which vertices are its own.
+fn with_silhouette(raw: &Raw, line: Line, silhouette: bool) -> Raw {
+    Raw { line, class: Class { silhouette, ..raw.class }, vertices: Vec::new(), ..*raw }
+}
+
+fn runs(line: &Line) -> Vec<Stretch> {
+    let mut runs: Vec<Stretch> = Vec::new();
+    for i in 0..line.len() - 1 {
+        let (value, side) = (line.silhouette[i], length(line.points[i + 1] - line.points[i]));
+        let is_hard = !line.soft[i];
+        match runs.last_mut() {
+            Some(run) if run.value == value => {
+                run.end = i + 1;
+                run.length += side;
+                run.is_hard &= is_hard;
+            }
+            _ => runs.push(Stretch { first: i, end: i + 1, length: side, value, is_hard }),
+        }
+    }
+    runs
+}
+
+/// Joins the shortest run that is too short to its neighbours until all are long enough.
+fn even(mut runs: Vec<Stretch>, shortest: Shortest) -> Vec<Stretch> {
+    while runs.len() > 1 {
+        let least = |run: &Stretch| if run.is_hard { shortest.hard } else { shortest.soft };
+        let too_short = (0..runs.len()).filter(|k| runs[*k].length < least(&runs[*k]));
+        let Some(least) = too_short.min_by(|a, b| runs[*a].length.total_cmp(&runs[*b].length)) else { break };
+        let low = least.saturating_sub(1);
+        let high = (least + 1).min(runs.len() - 1);
+        let value = if low == least { runs[high].value } else { runs[low].value };
+        let joined = Stretch {
+            first: runs[low].first,
+            end: runs[high].end,
+            length: runs[low..=high].iter().map(|r| r.length).sum(),
+            value,
+            is_hard: runs[low..=high].iter().all(|r| r.is_hard),
+        };
+        runs.splice(low..=high, [joined]);
+    }
+    runs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The lengths of what is left of stretches that are silhouette by turns.
+    fn left(lengths: &[f64], is_hard: bool) -> Vec<f64> {
+        let stretch = |(k, length): (usize, &f64)| Stretch {
+            first: k,
+            end: k + 1,
+            length: *length,
+            value: k % 2 == 0,
+            is_hard,
+        };
+        let stretches = lengths.iter().enumerate().map(stretch).collect();
+        even(stretches, Shortest { soft: 12.0, hard: 4.0 }).iter().map(|stretch| stretch.length).collect()
+    }
+
+    #[test]
+    fn stretches_of_sharp_edges_stay_that_would_be_noise_on_a_rounded_surface() {
+        assert_eq!(left(&[30.0, 9.0, 40.0], false), [79.0]);
+        assert_eq!(left(&[30.0, 9.0, 40.0], true), [30.0, 9.0, 40.0]);
+        assert_eq!(left(&[30.0, 3.0, 40.0], true), [73.0]);
+        assert_eq!(left(&[3.0, 30.0], true), [33.0]);
+    }
+}

@@ -1,0 +1,363 @@
+//! Sews contours on smooth surfaces together where one ends on, or just short of, the beginning of
+//! the next.
+//!
+//! The outline of a mesh is woven of many contours, each running out behind the next at a
+//! T-junction a px from where that one begins. In the drawing they are one line, and the stub
+//! before the junction is a spur.
+
+use crate::parallel::prelude::*;
+use kurbo::{Point, Vec2};
+
+use super::raw_line::{Degrees, Raw};
+use super::removed_lines::{Bin, Reason};
+use crate::chains::Sample;
+use crate::chains::sampled_line::Line;
+use crate::geometry::plane::planar_distance::{distance2, length};
+use crate::visibility::{Ahead, Way};
+
+/// Tidy lengths that a stitch may jump when nothing is trimmed, and when a stub is.
+const JUMP: f64 = 2.5;
+const JUMP_TRIMMED: f64 = 0.6;
+
+/// Tidy lengths beyond which a jump must go on more or less, straight, and dead straight between
+/// lines longer than itself.
+const HOP: f64 = 0.35;
+const LEAP: f64 = 0.8;
+const FLIGHT: f64 = 1.5;
+
+/// Tidy lengths that a stub may have, and that directions are taken over.
+const STUB: f64 = 8.0;
+
+/// Tidy lengths beyond which a stub must lie on the other line, and how near to it.
+const LONG_STUB: f64 = 4.0;
+const LONG_STUB_NEAR: f64 = 0.3;
+const WINDOW: f64 = 1.5;
+
+/// Ends that one task looks at, at least.
+const MIN_ENDS: usize = 16;
+
+/// Cosine of the sharpest turn (45 degrees) at a stitch.
+const STITCH_COSINE: f64 = 0.707;
+
+/// Cosines of the sharpest turns (53, 30 and 16 degrees) into and out of such jumps.
+const HOP_COSINE: f64 = 0.6;
+const LEAP_COSINE: f64 = 0.866;
+const FLIGHT_COSINE: f64 = 0.96;
+
+/// A possible stitch between two ends (`2 * line + side`), the parts cut off either line.
+#[derive(Debug, Clone, Copy)]
+struct Stitch {
+    cost: f64,
+    a: usize,
+    b: usize,
+    cut_a: SeamEnd,
+    cut_b: SeamEnd,
+}
+
+impl Stitch {
+    /// Where the thread is laid.
+    fn way(&self, raws: &[Raw]) -> Way {
+        let cuts = [self.cut_a, self.cut_b];
+        Way {
+            ends: cuts.map(|cut| cut.point),
+            depths: cuts.map(|cut| cut.sample.depth),
+            segments: [self.a, self.b].map(|end| raws[end / 2].segment),
+        }
+    }
+}
+
+/// What is left of a line at one end: it begins at `point` and goes on with point `next`, counted
+/// from that end.
+#[derive(Debug, Clone, Copy)]
+struct SeamEnd {
+    point: Point,
+    sample: Sample,
+    next: usize,
+    trimmed: f64,
+}
+
+/// Sews what can be sewn; lines keep the order and sense of the first of those they are made of.
+/// No thread is laid behind another surface than theirs.
+pub(crate) fn stitch(
+    mut raws: Vec<Raw>,
+    degrees: &mut Degrees,
+    tidy: f64,
+    ahead: Option<&Ahead>,
+    bin: &mut Bin,
+) -> Vec<Raw> {
+    let stitches = choose(&raws, degrees, tidy, ahead);
+    if stitches.is_empty() {
+        return raws;
+    }
+    let mut link: Vec<Option<(usize, SeamEnd)>> = vec![None; 2 * raws.len()];
+    for s in stitches {
+        for (end, cut) in [(s.a, s.cut_a), (s.b, s.cut_b)] {
+            if cut.trimmed > 0.0 {
+                let walk = Walk::new(&raws[end / 2].line, end % 2);
+                let stub = || (0..cut.next).map(|k| walk.point(k)).chain([cut.point]).collect();
+                bin.put_part(&raws[end / 2], Reason::Stub, stub);
+                degrees.cut_off(raws[end / 2].ends[end % 2]);
+            }
+        }
+        link[s.a] = Some((s.b, s.cut_a));
+        link[s.b] = Some((s.a, s.cut_b));
+    }
+    let mut used = vec![false; raws.len()];
+    let mut sewn = Vec::with_capacity(raws.len());
+    for i in 0..raws.len() {
+        if used[i] {
+            continue;
+        }
+        // Back to where the sewn line begins, then forth along all of it.
+        let mut start = 2 * i;
+        while let Some((other, _)) = link[start] {
+            start = other ^ 1;
+            if start / 2 == i {
+                break;
+            }
+        }
+        let closed = link[start].is_some();
+        let first = std::mem::take(&mut raws[i].line);
+        let vertices = std::mem::take(&mut raws[i].vertices);
+        let mut whole = Raw { line: Line::default(), vertices, ..raws[i] };
+        if !closed && link[start ^ 1].is_none() {
+            used[i] = true;
+            sewn.push(Raw { line: first, ..whole });
+            continue;
+        }
+        raws[i].line = first;
+        let end = |end: usize| (raws[end / 2].ends[end % 2], raws[end / 2].covered[end % 2]);
+        let mut at = start;
+        let last = loop {
+            used[at / 2] = true;
+            if at / 2 != i {
+                whole.pronounced += raws[at / 2].pronounced;
+                whole.segment = whole.segment.min(raws[at / 2].segment);
+                whole.vertices.extend(&raws[at / 2].vertices);
+            }
+            let line = &raws[at / 2].line;
+            add(&mut whole.line, line, at % 2 == 1, link[at].map(|l| l.1), link[at ^ 1].map(|l| l.1));
+            match link[at ^ 1] {
+                Some((next, _)) if !used[next / 2] => at = next,
+                _ => break at ^ 1,
+            }
+        };
+        let ((from, covered_from), (to, covered_to)) = (end(start), end(last));
+        whole.ends = [from, to];
+        whole.covered = [covered_from, covered_to];
+        if closed && whole.line.points.first() == whole.line.points.last() {
+            whole.line.pop();
+        }
+        whole.line.closed = closed && whole.line.len() > 2;
+        sewn.push(whole);
+    }
+    sewn
+}
+
+/// The cheapest stitches, each end in at most one.
+fn choose(raws: &[Raw], degrees: &Degrees, tidy: f64, ahead: Option<&Ahead>) -> Vec<Stitch> {
+    let mut ends: Vec<(Point, usize)> = Vec::new();
+    for (i, raw) in raws.iter().enumerate() {
+        if raw.smooth && !raw.class.hidden && !raw.line.closed && raw.line.len() > 1 {
+            let points = &raw.line.points;
+            for (side, point) in [points.first(), points.last()].into_iter().enumerate() {
+                if let (true, Some(p)) = (degrees.is_free(raw.ends[side]), point) {
+                    ends.push((*p, 2 * i + side));
+                }
+            }
+        }
+    }
+    ends.sort_by(|a, b| a.0.x.total_cmp(&b.0.x).then(a.0.y.total_cmp(&b.0.y)).then(a.1.cmp(&b.1)));
+    let reach = STUB * tidy;
+    let of_end = |(k, (p, a)): (usize, &(Point, usize))| {
+        let (p, a) = (*p, *a);
+        let near = ends[k + 1..].iter().take_while(move |(q, _)| q.x - p.x <= reach);
+        near.filter_map(move |(q, b)| {
+            let may = (q.y - p.y).abs() <= reach && raws[a / 2].class == raws[b / 2].class;
+            if may { best(raws, a, *b, tidy) } else { None }
+        })
+    };
+    let all = ends.par_iter().enumerate().with_min_len(MIN_ENDS);
+    let mut found: Vec<Stitch> = all.flat_map_iter(of_end).collect();
+    if let Some(ahead) = ahead {
+        let ways: Vec<Way> = found.iter().map(|stitch| stitch.way(raws)).collect();
+        let mut hidden = ahead.hides(&ways).into_iter();
+        found.retain(|_| !hidden.next().unwrap_or(false));
+    }
+    found.sort_by(|s, u| s.cost.total_cmp(&u.cost).then((s.a, s.b).cmp(&(u.a, u.b))));
+    let mut taken = vec![false; 2 * raws.len()];
+    found.retain(|s| {
+        let free = !taken[s.a] && !taken[s.b];
+        if free {
+            taken[s.a] = true;
+            taken[s.b] = true;
+        }
+        free
+    });
+    found
+}
+
+/// The better of the ways to sew two ends: as they are, or with the stub of either cut off.
+fn best(raws: &[Raw], a: usize, b: usize, tidy: f64) -> Option<Stitch> {
+    let (from, to) = (Walk::new(&raws[a / 2].line, a), Walk::new(&raws[b / 2].line, b));
+    let same = a / 2 == b / 2;
+    let total = |walk: &Walk| walk.arc(6.0 * tidy);
+    if same && total(&from) < 6.0 * tidy {
+        return None;
+    }
+    let whole = |walk: &Walk| walk.cut(0, 0.0, 0.0);
+    let ways = [
+        Some((whole(&from), whole(&to))),
+        to.nearest(from.point(0), STUB * tidy).map(|cut| (whole(&from), cut)),
+        from.nearest(to.point(0), STUB * tidy).map(|cut| (cut, whole(&to))),
+    ];
+    let stitches = ways.into_iter().flatten().filter_map(|(cut_a, cut_b)| {
+        let jump = cut_b.point - cut_a.point;
+        let trimmed = cut_a.trimmed + cut_b.trimmed;
+        let most = if trimmed > 0.0 { JUMP_TRIMMED } else { JUMP };
+        if length(jump) > most * tidy {
+            return None;
+        }
+        let back = from.direction(&cut_a, WINDOW * tidy);
+        let ahead = to.direction(&cut_b, WINDOW * tidy);
+        let bent = -back.dot(ahead) < STITCH_COSINE;
+        let way = crate::chains::fit::bezier_fit::unit(jump);
+        let least = match length(jump) / tidy {
+            far if far > FLIGHT => FLIGHT_COSINE,
+            far if far > LEAP => LEAP_COSINE,
+            far if far > HOP => HOP_COSINE,
+            _ => -1.0,
+        };
+        let aside = trimmed <= 0.0 && way.dot(ahead).min(-way.dot(back)) < least;
+        // A line that is mostly stub is another line.
+        let eaten =
+            |walk: &Walk, cut: &SeamEnd| cut.trimmed > 0.0 && walk.arc(2.0 * cut.trimmed) < 2.0 * cut.trimmed;
+        let consumed = trimmed > LONG_STUB * tidy && (eaten(&from, &cut_a) || eaten(&to, &cut_b));
+        // Two crumbs do not make a line by what is between them.
+        let far = length(jump);
+        let arcs = [from.arc(1.5 * far), to.arc(1.5 * far)];
+        let thin = arcs[0].max(arcs[1]) < far || (far > FLIGHT * tidy && arcs[0].min(arcs[1]) < 1.5 * far);
+        // A stub is cut off only where it runs beside the other line.
+        let apart = from.strays(&cut_a, &to, tidy) || to.strays(&cut_b, &from, tidy);
+        (!bent && !aside && !thin && !consumed && !apart).then(|| Stitch {
+            cost: length(jump) + 0.25 * trimmed,
+            a,
+            b,
+            cut_a,
+            cut_b,
+        })
+    });
+    stitches.min_by(|s, u| s.cost.total_cmp(&u.cost))
+}
+
+/// A line walked from one of its ends.
+struct Walk<'a> {
+    line: &'a Line,
+    backwards: bool,
+}
+
+impl<'a> Walk<'a> {
+    fn new(line: &'a Line, end: usize) -> Self {
+        Self { line, backwards: end % 2 == 1 }
+    }
+
+    fn index(&self, k: usize) -> usize {
+        if self.backwards { self.line.len() - 1 - k } else { k }
+    }
+
+    fn point(&self, k: usize) -> Point {
+        self.line.points[self.index(k)]
+    }
+
+    /// Arc length, counted up to `most`.
+    fn arc(&self, most: f64) -> f64 {
+        let mut arc = 0.0;
+        for k in 1..self.line.len() {
+            arc += length(self.point(k) - self.point(k - 1));
+            if arc >= most {
+                return most;
+            }
+        }
+        arc
+    }
+
+    /// The cut at part `t` of the side after point `k`.
+    fn cut(&self, k: usize, t: f64, trimmed: f64) -> SeamEnd {
+        let sample = |k: usize| self.line.samples[self.index(k)];
+        let point = if t > 0.0 { self.point(k).lerp(self.point(k + 1), t) } else { self.point(k) };
+        let sample = if t > 0.0 { sample(k).lerp(sample(k + 1), t) } else { sample(k) };
+        SeamEnd { point, sample, next: k + 1, trimmed }
+    }
+
+    /// The cut nearest to `p` within the first `reach` of the line, but for its very end.
+    fn nearest(&self, p: Point, reach: f64) -> Option<SeamEnd> {
+        let mut arc = 0.0;
+        let mut least: Option<(f64, SeamEnd)> = None;
+        for k in 0..self.line.len() - 1 {
+            let (a, b) = (self.point(k), self.point(k + 1));
+            let side = length(b - a);
+            if arc > reach {
+                break;
+            }
+            let t = if side > 0.0 { ((p - a).dot(b - a) / (side * side)).clamp(0.0, 1.0) } else { 0.0 };
+            let away = (a.lerp(b, t) - p).hypot2();
+            let trimmed = arc + t * side;
+            let last = k + 2 == self.line.len() && t >= 1.0;
+            if trimmed > 0.0 && trimmed <= reach && !last && least.as_ref().is_none_or(|l| away < l.0) {
+                least = Some((away, self.cut(k, t, trimmed)));
+            }
+            arc += side;
+        }
+        least.map(|l| l.1)
+    }
+
+    /// Unit direction in which the line leaves a cut.
+    fn direction(&self, cut: &SeamEnd, window: f64) -> Vec2 {
+        let far = (cut.next..self.line.len()).find(|k| length(self.point(*k) - cut.point) >= window);
+        crate::chains::fit::bezier_fit::unit(self.point(far.unwrap_or(self.line.len() - 1)) - cut.point)
+    }
+
+    /// Whether what is cut off lies away from the beginning of the other line.
+    fn strays(&self, cut: &SeamEnd, other: &Walk, tidy: f64) -> bool {
+        if cut.trimmed <= 0.0 {
+            return false;
+        }
+        let near = tidy * if cut.trimmed > LONG_STUB * tidy { LONG_STUB_NEAR } else { JUMP_TRIMMED };
+        let near = near * near;
+        (0..cut.next).any(|k| {
+            let p = self.point(k);
+            let mut arc = 0.0;
+            (1..other.line.len())
+                .take_while(|j| {
+                    let before = arc;
+                    arc += length(other.point(*j) - other.point(j - 1));
+                    before < (STUB + 1.0) * tidy
+                })
+                .all(|j| distance2(p, other.point(j - 1), other.point(j)) > near)
+        })
+    }
+}
+
+/// Adds a line, walked backwards or not, without what is cut off at its beginning and end.
+fn add(whole: &mut Line, line: &Line, backwards: bool, begin: Option<SeamEnd>, end: Option<SeamEnd>) {
+    let n = line.len();
+    let index = |k: usize| if backwards { n - 1 - k } else { k };
+    let first = begin.map_or(0, |cut| cut.next);
+    let last = n - end.map_or(0, |cut| cut.next);
+    // The side between two points that follow each other on the walk begins at the lesser of them.
+    let side_before = |k: usize| index(k.saturating_sub(1)).min(index(k.min(n - 1)));
+    if let Some(cut) = begin {
+        let side = side_before(first);
+        whole.push_of(cut.point, cut.sample, true, line.silhouette[side], line.part[side]);
+    }
+    for k in first..last.max(first) {
+        // Walked backwards, the side after a point is the one before it.
+        let side = if backwards { index(k).saturating_sub(1) } else { index(k) };
+        let (soft, silhouette) = (line.soft[side], line.silhouette[side]);
+        whole.push_of(line.points[index(k)], line.samples[index(k)], soft, silhouette, line.part[side]);
+    }
+    if let Some(cut) = end {
+        let side = side_before(last);
+        whole.push_of(cut.point, cut.sample, true, line.silhouette[side], line.part[side]);
+    }
+}

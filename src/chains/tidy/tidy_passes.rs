@@ -1,0 +1,135 @@
+//! Decides which lines are drawn and sews them together.
+//!
+//! Source: Bénard, Hertzmann and Kass, Computing smooth surface contours with accurate topology,
+//! ACM Transactions on Graphics 2014, section 6: lines without junctions that are short and end
+//! free, loop on themselves or lie beside others go, until none is left.
+
+use crate::parallel::prelude::*;
+
+use super::double_lines::drop_doubles;
+use super::hidden_gaps::bridge;
+use super::raw_line::{Degrees, Raw};
+use super::removed_lines::{Bin, Reason};
+use super::short_lines::drop_crumbs;
+use super::silhouette_runs::{self, Shortest};
+use super::stitching::stitch;
+use crate::chains::link::edge_class::Class;
+use crate::chains::link::routes::routes;
+use crate::lines::{HiddenLines, LineKind};
+use crate::surface::Origin;
+use crate::visibility::{Ahead, ViewEdge, ViewMap};
+
+/// Hidden gaps are bridged up to this part of the tidy length.
+const GAP: f64 = 0.6;
+
+/// The line on a rounded surface changes between silhouette and inner contour no more often than every so many tidy
+/// lengths.
+const SILHOUETTE: f64 = 3.0;
+
+/// The same on an edge that is meant to be sharp, where such stretches begin and end at computed places.
+const SILHOUETTE_OF_EDGE: f64 = 1.0;
+
+/// A line shorter than this many tidy lengths is less than a dot of the pen.
+const POINT: f64 = 0.1;
+
+/// Rounds of dropping and sewing; each may free the ends of others.
+const ROUNDS: usize = 3;
+
+/// The tidied lines of a view map. Hidden ones are left out where they are not drawn; what else is
+/// left out goes to the bin.
+pub(crate) fn tidied(
+    map: &ViewMap,
+    hidden: HiddenLines,
+    tidy: f64,
+    window: f64,
+    ahead: Option<&Ahead>,
+    bin: &mut Bin,
+) -> Vec<Raw> {
+    let mut classes: Vec<Option<Class>> = map.edges.par_iter().map(|e| Some(Class::of(map, e))).collect();
+    if tidy > 0.0 {
+        leave_out_needles(map, &mut classes, bin);
+        // Lines of other kinds have no gaps, and what continues a line is of its own kind.
+        let is_contour = |e: &ViewEdge| e.kind == LineKind::Contour;
+        if map.edges.par_iter().any(|e| e.invisibility > 0 && e.smooth && is_contour(e)) {
+            let source = |(e, class): (&ViewEdge, &Option<Class>)| {
+                class.filter(|_| is_contour(e)).map(|_| Class::of_source(map, e))
+            };
+            let sources: Vec<Option<Class>> = map.edges.par_iter().zip(&classes).map(source).collect();
+            bridge(map, &routes(map, &sources, window), GAP * tidy, ahead, &mut classes);
+        }
+    }
+    classes.par_iter_mut().for_each(|slot| {
+        let Some(class) = slot else { return };
+        if class.hidden && hidden == HiddenLines::None {
+            *slot = None;
+        } else if tidy > 0.0 {
+            class.silhouette = false;
+        } else {
+            // Nothing is taken for noise.
+            class.origin = Origin::Constructed;
+        }
+    });
+    let routes = routes(map, &classes, window);
+    let raw = |route| Raw::of_route(map, &routes, route, &classes);
+    let all = || (0..routes.len()).into_par_iter().with_min_len(64).with_max_len(128).map(raw).collect();
+    let (raws, mut degrees): (Vec<Option<Raw>>, Degrees) =
+        crate::parallel::join(all, || Degrees::new(map, &classes));
+    let mut raws: Vec<Raw> = raws.into_iter().flatten().collect();
+    if tidy <= 0.0 {
+        return raws;
+    }
+    for _ in 0..ROUNDS {
+        let count = raws.len();
+        raws = stitch(raws, &mut degrees, tidy, ahead, bin);
+        drop_doubles(&mut raws, &mut degrees, tidy, bin);
+        drop_crumbs(&mut raws, &mut degrees, tidy, bin);
+        if raws.len() == count {
+            break;
+        }
+    }
+    cut(raws, tidy, bin)
+}
+
+/// Lines without dots, cut where silhouette begins and ends.
+fn cut(mut raws: Vec<Raw>, tidy: f64, bin: &mut Bin) -> Vec<Raw> {
+    let shortest = Shortest { soft: SILHOUETTE * tidy, hard: SILHOUETTE_OF_EDGE * tidy };
+    let parts = |raw: &mut Raw| {
+        let is_dot = !raw.class.hidden && raw.length() < POINT * tidy;
+        if is_dot { Some(Vec::new()) } else { silhouette_runs::cut(raw, shortest) }
+    };
+    let parts: Vec<Option<Vec<Raw>>> = raws.par_iter_mut().with_max_len(16).map(parts).collect();
+    // Most lines stay whole, and then nothing is moved.
+    if parts.iter().all(Option::is_none) {
+        return raws;
+    }
+    let mut all = Vec::with_capacity(raws.len());
+    for (raw, parts) in raws.into_iter().zip(parts) {
+        match parts {
+            None => all.push(raw),
+            Some(parts) => {
+                if parts.is_empty() {
+                    bin.put(&raw, || Reason::Point);
+                }
+                all.extend(parts);
+            }
+        }
+    }
+    all
+}
+
+/// Takes the sides of folds that are thinner than a pen from the lines, but for what of them is outline.
+fn leave_out_needles(map: &ViewMap, classes: &mut [Option<Class>], bin: &mut Bin) {
+    if map.needles.is_empty() {
+        return;
+    }
+    for (edge, class) in map.edges.iter().zip(classes) {
+        // A gap in the outline is worse.
+        if !edge.silhouette && map.needles.binary_search(&edge.segment).is_ok() {
+            *class = None;
+            if edge.invisibility == 0 {
+                let ends = [edge.start, edge.end].map(|v| map.vertices[v.index()].position);
+                bin.put_piece(edge.kind, Reason::Double, ends);
+            }
+        }
+    }
+}

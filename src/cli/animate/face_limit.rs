@@ -1,0 +1,71 @@
+//! Frames with as many faces as asked for, as there is time for, or as a file says.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use crate::error::Error;
+
+/// How many faces frames have.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Faces {
+    /// All.
+    All,
+    /// No more than so many.
+    Most(u64),
+    /// As many as can be drawn in so many milliseconds.
+    Budget(f64),
+    /// Each drawing its own.
+    Listed(Vec<u64>),
+}
+
+/// A time a frame: `33ms`, `0.1s`, or milliseconds.
+pub(crate) fn budget(text: &str) -> Result<f64, String> {
+    let (number, factor) = match (text.strip_suffix("ms"), text.strip_suffix('s')) {
+        (Some(number), _) => (number, 1.0),
+        (None, Some(number)) => (number, 1000.0),
+        (None, None) => (text, 1.0),
+    };
+    let ms = number.trim().parse::<f64>().ok().map(|number| number * factor);
+    ms.filter(|ms| ms.is_finite() && *ms > 0.0).ok_or_else(|| "write a time, such as 33ms".to_owned())
+}
+
+/// The levels of a file: a list of numbers of faces, one a drawing.
+pub(crate) fn read_levels(path: &Path, drawings: usize) -> Result<Vec<u64>, Error> {
+    let remedy = "write one with --budget TIME --save-levels FILE";
+    let text =
+        std::fs::read_to_string(path).map_err(|error| Error::io("cannot read", error).in_file(path))?;
+    let value: Value = serde_json::from_str(&text)
+        .map_err(|error| Error::json("this is not JSON", &error).in_file(path).remedy(remedy))?;
+    let list = value.get("faces").and_then(Value::as_array);
+    let faces: Option<Vec<u64>> = list.and_then(|list| list.iter().map(Value::as_u64).collect());
+    let faces =
+        faces.ok_or_else(|| Error::new("this is not a list of face counts").in_file(path).remedy(remedy))?;
+    if faces.len() != drawings {
+        return Err(Error::new(format!("it has {} levels, and there are {drawings} drawings", faces.len()))
+            .in_file(path)
+            .remedy("draw the same frames as when the file was written"));
+    }
+    Ok(faces)
+}
+
+/// The file that [`read_levels`] reads.
+pub(crate) fn written_levels(faces: &[u64], ms: f64) -> Vec<u8> {
+    let list: Vec<String> = faces.iter().map(u64::to_string).collect();
+    format!("{{\"budget_ms\": {ms}, \"faces\": [{}]}}\n", list.join(", ")).into_bytes()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_have_units() {
+        assert_eq!(budget("33ms"), Ok(33.0));
+        assert_eq!(budget("0.1s"), Ok(100.0));
+        assert_eq!(budget("20"), Ok(20.0));
+        for wrong in ["", "ms", "-3ms", "0", "inf", "3 h"] {
+            assert!(budget(wrong).is_err(), "{wrong}");
+        }
+    }
+}

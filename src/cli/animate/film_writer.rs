@@ -1,0 +1,125 @@
+//! [`Film`]: the one file that frames are put into as they come.
+
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use super::destination::FilmFormat;
+use super::ffmpeg_video::Video;
+use crate::cli::library_calls;
+use crate::cli::output::output_files::Staging;
+use crate::cli::request::draw_request::SvgChoices;
+use crate::drawing::Drawing;
+use crate::error::Error;
+use crate::export::Pixels;
+use crate::export::film::{ApngFilm, GifFilm, SvgFilm, WebpFilm};
+
+/// The file, beside its place until the film is whole.
+pub(crate) struct Film {
+    writer: Writer,
+    /// What was written, for films that are written at the end.
+    staging: Staging,
+    file: Option<File>,
+}
+
+enum Writer {
+    Svg(Box<SvgFilm>),
+    Gif(Box<GifFilm<BufWriter<File>>>),
+    Apng(Box<ApngFilm<BufWriter<File>>>),
+    Webp(WebpFilm),
+    Video(Video),
+}
+
+/// A frame as the film needs it.
+pub(crate) enum Frame {
+    Vector(Box<Drawing>),
+    Pixels(Pixels),
+}
+
+impl FilmFormat {
+    /// Whether frames are drawings, and not pixels.
+    pub(crate) const fn is_vector(self) -> bool {
+        matches!(self, Self::Svg)
+    }
+}
+
+impl Film {
+    /// Begins a film of so many frames.
+    ///
+    /// # Errors
+    /// If nothing can be written there, or if what writes it is missing.
+    pub(crate) fn new(
+        path: &Path,
+        format: FilmFormat,
+        fps: f64,
+        frames: usize,
+        svg: &SvgChoices,
+    ) -> Result<Self, Error> {
+        let mut staging = Staging::default();
+        if let FilmFormat::Mp4 | FilmFormat::Webm = format {
+            // Asked for before anything is made.
+            Video::new(path, format, fps)?;
+        }
+        let file = staging.create(path)?;
+        let copy = || file.try_clone().map(BufWriter::new).map_err(|error| Error::io("cannot write", error));
+        let writer = match format {
+            FilmFormat::Svg => Writer::Svg(Box::new(SvgFilm::new(fps, &library_calls::svg_options(svg)))),
+            FilmFormat::Gif => Writer::Gif(Box::new(GifFilm::new(copy()?, fps))),
+            FilmFormat::Apng => Writer::Apng(Box::new(ApngFilm::new(copy()?, fps, frames as u32))),
+            FilmFormat::Webp => Writer::Webp(WebpFilm::new(fps)),
+            FilmFormat::Mp4 | FilmFormat::Webm => {
+                Writer::Video(Video::new(staging.last().unwrap_or(path), format, fps)?)
+            }
+        };
+        Ok(Self { writer, staging, file: Some(file) })
+    }
+
+    /// Adds a frame that is shown for so many ticks.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub(crate) fn push(&mut self, frame: &Frame, ticks: u32) -> Result<(), Error> {
+        match (&mut self.writer, frame) {
+            (Writer::Svg(film), Frame::Vector(drawing)) => film.push(drawing, ticks),
+            (Writer::Gif(film), Frame::Pixels(pixels)) => film.push(pixels, ticks)?,
+            (Writer::Apng(film), Frame::Pixels(pixels)) => film.push(pixels, ticks)?,
+            (Writer::Webp(film), Frame::Pixels(pixels)) => film.push(pixels, ticks)?,
+            (Writer::Video(film), Frame::Pixels(pixels)) => film.push(pixels, ticks)?,
+            (Writer::Svg(_), Frame::Pixels(_)) | (_, Frame::Vector(_)) => {
+                return Err(Error::new("a frame has another format than the film"));
+            }
+        }
+        Ok(())
+    }
+
+    /// How many frames the film has no time for.
+    pub(crate) fn left_out(&self) -> u64 {
+        if let Writer::Gif(film) = &self.writer { film.left_out() } else { 0 }
+    }
+
+    /// Ends the film and puts it in its place; gives its bytes' number.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub(crate) fn finish(self) -> Result<u64, Error> {
+        let Self { writer, staging, mut file } = self;
+        let mut write = |bytes: &[u8]| match &mut file {
+            Some(file) => file.write_all(bytes).map_err(|error| Error::io("cannot write", error)),
+            None => Ok(()),
+        };
+        match writer {
+            Writer::Svg(film) => write(film.finish().as_bytes())?,
+            Writer::Webp(film) => write(&film.finish()?)?,
+            Writer::Gif(film) => {
+                let mut out = film.finish()?;
+                out.flush().map_err(|error| Error::io("cannot write", error))?;
+            }
+            Writer::Apng(film) => film.finish()?,
+            Writer::Video(mut film) => film.end()?,
+        }
+        let length =
+            staging.last().and_then(|path| std::fs::metadata(path).ok()).map_or(0, |data| data.len());
+        staging.commit()?;
+        Ok(length)
+    }
+}

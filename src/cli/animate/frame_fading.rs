@@ -1,0 +1,67 @@
+//! [`Around`]: drawings that are kept until no frame looks at them any more, so that strokes fade by what the frames around have.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::parallel::prelude::*;
+
+use super::frame_plan::Course;
+use crate::animate::{Trace, fade};
+use crate::drawing::Drawing;
+use crate::error::Error;
+use crate::motion::FadeBy;
+use crate::pipeline::Report;
+
+/// A frame as it is drawn, what that took, and how long, ms.
+pub(crate) type Drawn = (Drawing, Report, f64);
+
+/// Drawings of the frames around those that are made.
+pub(crate) struct Around<'a> {
+    course: &'a Course,
+    /// So many drawings before and behind each are looked at.
+    frames: u32,
+    by: FadeBy,
+    kept: BTreeMap<usize, (Drawn, Trace)>,
+}
+
+impl<'a> Around<'a> {
+    pub(crate) fn new(course: &'a Course, frames: u32, by: FadeBy) -> Self {
+        Self { course, frames, by, kept: BTreeMap::new() }
+    }
+
+    /// Draws what is missing for some frames, and forgets what they do not look at.
+    pub(crate) fn look_at(
+        &mut self,
+        frames: &[usize],
+        draw: impl Fn(usize) -> Result<Drawn, Error> + Sync,
+    ) -> Result<(), Error> {
+        let beside = |frame: usize| self.pairs(frame).flatten().flatten().chain([frame]);
+        let wanted: BTreeSet<usize> = frames.iter().copied().flat_map(beside).collect();
+        let missing: Vec<usize> =
+            wanted.iter().copied().filter(|frame| !self.kept.contains_key(frame)).collect();
+        self.kept.retain(|frame, _| wanted.contains(frame));
+        let draw = |frame: &usize| draw(*frame).map(|drawn| (*frame, drawn));
+        let drawn: Vec<_> = missing.par_iter().with_max_len(1).map(draw).collect();
+        for drawn in drawn {
+            let (frame, drawn) = drawn?;
+            let trace = Trace::of(&drawn.0);
+            self.kept.insert(frame, (drawn, trace));
+        }
+        Ok(())
+    }
+
+    /// A frame that was looked at, with strokes that fade.
+    pub(crate) fn faded(&self, frame: usize) -> Option<Drawn> {
+        let ((drawing, report, ms), _) = self.kept.get(&frame)?;
+        let trace = |frame: Option<usize>| self.kept.get(&frame?).map(|(_, trace)| trace);
+        let around: Vec<_> = self.pairs(frame).map(|pair| pair.map(trace)).collect();
+        let mut drawing = drawing.clone();
+        fade(&mut drawing, &around, self.by);
+        Some((drawing, report.clone(), *ms))
+    }
+
+    /// The frames before and behind one, the nearest first.
+    fn pairs(&self, frame: usize) -> impl Iterator<Item = [Option<usize>; 2]> + use<'a> {
+        let course = self.course;
+        (1..=self.frames as isize).map(move |far| [-far, far].map(|by| course.beside(frame, by)))
+    }
+}

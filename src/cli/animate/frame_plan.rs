@@ -1,0 +1,210 @@
+//! [`Plan`]: what each frame shows.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+use glam::DAffine3;
+use serde_json::Value;
+
+use super::animate_args::AnimateArgs;
+use crate::animate::{Moment, Timeline, Turntable, reach};
+use crate::animation::{Playing, Rigged};
+use crate::cli::draw::contact_sheet::PICTURES;
+use crate::cli::models::clip_blend::Blend;
+use crate::cli::options::values::paper_size::Paper;
+use crate::cli::request::draw_request::DrawRequest;
+use crate::cli::request::viewpoint::{View, Viewpoint, on_sheet, viewpoint};
+use crate::colour::srgb::Colour;
+use crate::drawing::Page;
+use crate::error::Error;
+use crate::scene::Camera;
+
+/// What each frame shows.
+#[derive(Debug)]
+pub(crate) struct Plan {
+    pub(crate) course: Course,
+    eye: Eye,
+    paper: Paper,
+    pub(crate) warnings: Vec<String>,
+    /// Choices made for the user, in words.
+    pub(crate) notes: Vec<String>,
+}
+
+/// What moves, and when.
+#[derive(Debug)]
+pub(crate) struct Course {
+    pub(crate) timeline: Timeline,
+    /// The clips that play, if any do.
+    clips: Option<Blend>,
+    turntable: Option<Turntable>,
+}
+
+/// From where frames are seen.
+#[derive(Debug)]
+enum Eye {
+    /// All from one place, unless the model is turned.
+    Still(Camera),
+    /// By a camera of the model, which may move.
+    OfModel(String),
+    /// Each by its own.
+    Path(Vec<Camera>),
+}
+
+impl Plan {
+    /// Decides it.
+    ///
+    /// # Errors
+    /// If nothing moves, if a clip or a camera is not there, if a time is none.
+    pub(crate) fn new(args: &AnimateArgs, request: &DrawRequest, rigged: &Rigged) -> Result<Self, Error> {
+        let clips = &rigged.rig.clips;
+        let moves = args.turntable.is_some() || args.path.is_some();
+        let still = clips.is_empty() && request.animation.is_empty();
+        if still && !moves {
+            return Err(Error::new("the model has no animation")
+                .in_file(&request.model)
+                .remedy("give --turntable 36, or a camera path with --path FILE.json"));
+        }
+        let own = if moves && request.animation.is_empty() {
+            None
+        } else {
+            let blend = Blend::new(clips, &request.animation, request.repeat);
+            Some(blend.map_err(|error| without_time(error).in_file(&request.model))?)
+        };
+        let notes = own.as_ref().map_or_else(Vec::new, |own| own.notes().to_vec());
+        let [begins, ends] = own.as_ref().map_or([0.0, 0.0], Blend::span);
+        let cameras = args.path.as_deref().map(open_path).transpose()?;
+        let from = args.from.unwrap_or(begins);
+        let frames = args.turntable.map(|steps| steps as usize).or(cameras.as_ref().map(Vec::len));
+        let timeline = match frames {
+            Some(frames) => Timeline::of_frames(frames, from, args.fps),
+            None if args.contact.contact_sheet => moments(from, args.to.unwrap_or(ends)),
+            None => Timeline::between(from, args.to.unwrap_or(ends), args.fps),
+        };
+        let timeline = timeline?.holding(usize::from(args.hold));
+        let mut warnings = Vec::new();
+        let last = timeline.time(timeline.frames() - 1);
+        let stands_still = own.as_ref().is_some_and(|own| !own.repeats());
+        if stands_still && (from < begins - 1e-9 || last > ends + 1e-9) {
+            warnings.push(format!(
+                "the animation lasts from {begins} s to {ends} s; outside that time nothing moves"
+            ));
+        }
+        let rest = rigged.posed(&[])?;
+        let turntable = args.turntable.map(|steps| Turntable::round(&rest, steps as usize));
+        let over = [from, timeline.time(timeline.frames())];
+        let course = Course { timeline, clips: own.map(|own| own.over(over)), turntable };
+        let Viewpoint { camera, paper, warning } = match cameras.as_ref().and_then(|path| path.first()) {
+            Some(first) => on_sheet(&request.sheet, *first)?,
+            None => viewpoint(&request.view, &request.sheet, &rigged.scene, || {
+                course.reach(rigged).map(Cow::Owned)
+            })?,
+        };
+        warnings.extend(warning);
+        let named = |name: &str| rigged.scene.cameras.iter().any(|own| own.name == name);
+        let eye = match (cameras, &request.view) {
+            (Some(cameras), _) => Eye::Path(cameras),
+            (None, View::Recorded(name)) if named(name) => Eye::OfModel(name.clone()),
+            (None, _) => Eye::Still(camera),
+        };
+        Ok(Self { course, eye, paper, warnings, notes })
+    }
+
+    /// What a frame shows.
+    ///
+    /// # Errors
+    /// If a pose leads beyond all numbers.
+    pub(crate) fn moment(
+        &self,
+        rigged: &Rigged,
+        frame: usize,
+        background: Option<Colour>,
+    ) -> Result<Moment, Error> {
+        let playing = self.course.playing(frame);
+        let camera = match &self.eye {
+            Eye::Still(camera) => *camera,
+            Eye::Path(cameras) => cameras
+                .get(frame)
+                .copied()
+                .ok_or_else(|| Error::new(format!("frame {frame} has no camera on the path")))?,
+            Eye::OfModel(name) => {
+                let cameras = rigged.cameras(&playing)?;
+                let own = cameras.iter().find(|own| own.name == *name).map(|own| own.camera);
+                own.ok_or_else(|| Error::new(format!("there is no camera `{name}`")))?
+            }
+        };
+        let camera = self.course.turntable.map_or(camera, |table| table.camera(&camera, frame));
+        let (width, height) = self.paper.frame();
+        let page = Page { background, ..self.paper.page() };
+        Ok(Moment { playing, camera: camera.with_frame(width, height), page })
+    }
+}
+
+impl Course {
+    /// The drawing so many drawings behind one, or before it; none beyond the begin and the end, unless the last is followed
+    /// by the first: where the model is turned and does nothing else.
+    pub(crate) fn beside(&self, drawn: usize, by: isize) -> Option<usize> {
+        let (hold, drawings) = (self.timeline.hold(), self.timeline.drawn().count());
+        let number = (drawn / hold).checked_add_signed(by).filter(|number| *number < drawings);
+        let round = || {
+            let number = (drawn / hold) as isize + by;
+            usize::try_from(number.rem_euclid(drawings as isize)).ok()
+        };
+        let runs_round = self.turntable.is_some() && self.clips.is_none();
+        number.or_else(|| round().filter(|_| runs_round)).map(|number| number * hold)
+    }
+
+    fn playing(&self, frame: usize) -> Vec<Playing> {
+        let time = self.timeline.time(frame);
+        self.clips.as_ref().map_or_else(Vec::new, |clips| clips.playing(time))
+    }
+
+    /// All points that are to be in the frame, as the first camera sees them.
+    fn reach(&self, rigged: &Rigged) -> Result<Vec<glam::DVec3>, Error> {
+        let moved = |frame| match self.turntable {
+            Some(table) => table.turn(table.steps - frame % table.steps),
+            None => DAffine3::IDENTITY,
+        };
+        let poses: Vec<_> = self.timeline.drawn().map(|frame| (self.playing(frame), moved(frame))).collect();
+        reach(rigged, &poses)
+    }
+}
+
+/// The moments of a contact sheet: evenly spread, the first and the last at the ends.
+fn moments(from: f64, to: f64) -> Result<Timeline, Error> {
+    if from == to {
+        return Timeline::of_frames(1, from, 1.0);
+    }
+    // This refuses times that are none.
+    Timeline::between(from, to, 1.0)?;
+    Timeline::of_frames(PICTURES, from, (PICTURES - 1) as f64 / (to - from))
+}
+
+/// Frames have times of their own.
+fn without_time(error: Error) -> Error {
+    match error.remedy.as_deref() {
+        Some("leave out --animation and --time") => error.remedy("leave out --animation"),
+        _ => error,
+    }
+}
+
+/// The cameras of a path: a list of camera records.
+fn open_path(path: &Path) -> Result<Vec<Camera>, Error> {
+    let remedy = "write a list of camera records: [{\"type\": \"perspective\", …}, …]";
+    let text =
+        std::fs::read_to_string(path).map_err(|error| Error::io("cannot read", error).in_file(path))?;
+    let value: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
+        .map_err(|error| Error::json("this is not JSON", &error).in_file(path).remedy(remedy))?;
+    let Value::Array(records) = value else {
+        return Err(Error::new("this is not a list").in_file(path).remedy(remedy));
+    };
+    if records.is_empty() {
+        return Err(Error::new("the list of cameras is empty").in_file(path).remedy(remedy));
+    }
+    let camera = |(number, record): (usize, &Value)| {
+        Camera::from_json(&record.to_string()).map_err(|error| {
+            let place = error.place.as_ref().map_or(String::new(), |place| format!(", {place}"));
+            error.at(format!("camera {number}{place}")).in_file(path)
+        })
+    };
+    records.iter().enumerate().map(camera).collect()
+}

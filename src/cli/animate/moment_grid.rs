@@ -1,0 +1,33 @@
+//! `ligne animate --contact-sheet`: the moments of an animation side by side.
+
+use super::animation_totals::Total;
+use super::frame_renderer::Stage;
+use crate::animate::Animator;
+use crate::cli::draw::contact_sheet::{COLUMNS, Picture, write};
+use crate::cli::output::number_text;
+use crate::cli::output::output_files::Output;
+use crate::error::Error;
+
+impl Stage<'_> {
+    /// All frames on one sheet, with their times as captions.
+    pub(crate) fn sheet(&self, output: &Output, total: &mut Total) -> Result<(), Error> {
+        let timeline = self.plan.course.timeline;
+        let animator = Animator::new(self.rigged, self.style);
+        let mut pictures = Vec::new();
+        for frame in timeline.drawn() {
+            let (drawing, report, ms) = self.draw(&animator, frame)?;
+            total.add(&report, ms);
+            let time = number_text::plain(timeline.time(frame), 3);
+            pictures.push(Picture {
+                drawing,
+                caption: format!("--time {time}"),
+                key: format!("time-{time}"),
+            });
+        }
+        total.frames = pictures.len() as u64;
+        let outputs = std::slice::from_ref(output);
+        total.counts.bytes_out =
+            write(pictures, COLUMNS, self.request, outputs)?.iter().map(|(_, bytes)| bytes).sum();
+        Ok(())
+    }
+}

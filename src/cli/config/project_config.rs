@@ -1,0 +1,105 @@
+//! `ligne.toml`: what a project draws with unless told otherwise.
+//!
+//! It is looked for in the working folder and then in each folder above. The table `[draw]` holds how
+//! models are drawn, the table `[diff]` the tolerance within which drawings count as the same.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Command};
+use toml::Spanned;
+use toml::de::DeValue;
+
+use super::toml_options::{File, Given, Keys, word};
+use crate::cli::options::draw_args::HowArgs;
+use crate::diff::Tolerances;
+use crate::error::Error;
+
+/// The name of the file.
+const NAME: &str = "ligne.toml";
+
+/// The tables of the file.
+const TABLES: [&str; 2] = ["draw", "diff"];
+
+/// What a `ligne.toml` says.
+#[derive(Debug, Default)]
+pub(crate) struct Config {
+    /// How models are drawn.
+    pub(crate) draw: Vec<Given>,
+    /// Within which drawings count as the same, as one would type it.
+    pub(crate) tolerance: Option<String>,
+}
+
+impl Config {
+    /// Finds the file upward from a folder and reads it.
+    pub(crate) fn find(folder: &Path) -> Result<Option<Self>, Error> {
+        let mut above = PathBuf::new();
+        for candidate in folder.ancestors() {
+            if candidate.join(NAME).is_file() {
+                return Self::read(&above.join(NAME)).map(Some);
+            }
+            above.push("..");
+        }
+        Ok(None)
+    }
+
+    fn read(path: &Path) -> Result<Self, Error> {
+        let file = File::read(path, NAME)?;
+        let (table, values) = (file.table()?, file.values()?);
+        let mut config = Self::default();
+        for (key, value) in &table {
+            let name = key.get_ref().as_ref();
+            let DeValue::Table(table) = value.get_ref() else {
+                let known = TABLES.contains(&name);
+                return Err(if known { file.misfit(value, "a table") } else { file.unknown(key, &TABLES) });
+            };
+            match (name, values.get(name).and_then(toml::Value::as_table)) {
+                ("draw", Some(values)) => {
+                    let command = HowArgs::augment_args(Command::new("draw"));
+                    let keys = Keys { command: &command, without: &[], others: &[] };
+                    config.draw = keys.read(&file, table, values)?;
+                }
+                ("diff", _) => {
+                    for (key, value) in table {
+                        if key.get_ref() != "tolerance" {
+                            return Err(file.unknown(key, &["tolerance"]));
+                        }
+                        config.tolerance = Some(tolerance(&file, value)?);
+                    }
+                }
+                _ => return Err(file.unknown(key, &TABLES)),
+            }
+        }
+        Ok(config)
+    }
+
+    /// What it says to `ligne diff`, which draws models as well; but what differs is said aloud.
+    pub(crate) fn diff(self) -> Vec<Given> {
+        let words = |text: &String| vec![word("tolerance", Some(text))];
+        let given = |text| Given { option: "tolerance".to_owned(), words: words(text), span: 0..0 };
+        let drawn = self.draw.into_iter().filter(|given| given.option != "quiet");
+        self.tolerance.iter().map(given).chain(drawn).collect()
+    }
+}
+
+/// A tolerance as it is typed: of text, or of a table whose keys are layers, classes, `lines`, `fills`
+/// and `default`.
+pub(crate) fn tolerance(file: &File, value: &Spanned<DeValue<'_>>) -> Result<String, Error> {
+    let check = |text: String, value: &Spanned<DeValue<'_>>| match Tolerances::parse(&text) {
+        Ok(_) => Ok(text),
+        Err(error) => Err(file.adopt(&error, &value.span())),
+    };
+    let length = |value: &Spanned<DeValue<'_>>| match value.get_ref() {
+        DeValue::String(text) => Ok(text.clone().into_owned()),
+        DeValue::Integer(px) => Ok(px.to_string()),
+        DeValue::Float(px) => Ok(px.to_string()),
+        _ => Err(file.misfit(value, "a length such as \"0.1px\"")),
+    };
+    let DeValue::Table(table) = value.get_ref() else {
+        return length(value).and_then(|text| check(text, value));
+    };
+    let mut parts = Vec::new();
+    for (name, value) in table {
+        parts.push(check(format!("{}={}", name.get_ref(), length(value)?), value)?);
+    }
+    Ok(parts.join(","))
+}

@@ -1,0 +1,344 @@
+//! Options of a command as keys of a TOML table, turned into the words one would have typed.
+//!
+//! A key is the long name of an option. Its words are parsed like typed ones, so that a file and the
+//! command line mean the same and refuse the same.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Arg, ArgAction, Command};
+use toml::de::{DeTable, DeValue};
+use toml::{Spanned, Table};
+
+use crate::error::Error;
+use crate::error::spelling::british;
+use crate::style::{self, Style, sheet_errors};
+
+/// Options that mean something only beside another one.
+const NEEDS: [(&str, &str); 2] = [("landscape", "page"), ("scale", "page")];
+
+/// A TOML file whose keys are read.
+#[derive(Debug, Clone)]
+pub(crate) struct File {
+    /// How errors name it.
+    pub(crate) path: PathBuf,
+    /// The folder that paths in it are relative to.
+    pub(crate) folder: PathBuf,
+    pub(crate) text: String,
+}
+
+impl File {
+    /// Reads a file; `what` is its name in errors.
+    pub(crate) fn read(path: &Path, what: &str) -> Result<Self, Error> {
+        let bytes = std::fs::read(path).map_err(|error| {
+            Error::io(format!("cannot read {what}"), error).in_file(path).remedy("check the path")
+        })?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            Error::new("is not UTF-8 text")
+                .in_file(path)
+                .at(format!("byte {}", error.utf8_error().valid_up_to()))
+                .remedy(format!("save {what} as UTF-8"))
+        })?;
+        let folder = path.parent().unwrap_or(Path::new("")).to_path_buf();
+        Ok(Self { path: path.to_path_buf(), folder, text })
+    }
+
+    /// The keys with their places.
+    pub(crate) fn table(&self) -> Result<DeTable<'_>, Error> {
+        let parsed = DeTable::parse(&self.text).map(Spanned::into_inner);
+        parsed.map_err(|error| sheet_errors::in_sheet(&self.text, &error.into()).in_file(&self.path))
+    }
+
+    /// The keys as plain values.
+    pub(crate) fn values(&self) -> Result<Table, Error> {
+        toml::from_str(&self.text)
+            .map_err(|error| sheet_errors::in_sheet(&self.text, &error.into()).in_file(&self.path))
+    }
+
+    /// An error about a place in the file.
+    pub(crate) fn fault(&self, span: &Range<usize>, message: &str, advice: Option<&str>) -> Error {
+        sheet_errors::at_span(&self.text, span, message, advice).in_file(&self.path)
+    }
+
+    /// An error about a key that nothing knows.
+    pub(crate) fn unknown(&self, key: &Spanned<impl AsRef<str>>, known: &[&str]) -> Error {
+        let word = key.get_ref().as_ref();
+        let advice = match sheet_errors::nearest(word, known) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("known keys: {}", known.join(", ")),
+        };
+        self.fault(&key.span(), &format!("unknown key `{word}`"), Some(&advice))
+    }
+
+    /// An error about a value that is of the wrong sort.
+    pub(crate) fn misfit(&self, value: &Spanned<DeValue<'_>>, wanted: &str) -> Error {
+        let found = match value.get_ref() {
+            DeValue::String(_) => "text",
+            DeValue::Integer(_) | DeValue::Float(_) => "a number",
+            DeValue::Boolean(_) => "true or false",
+            DeValue::Datetime(_) => "a date",
+            DeValue::Array(_) => "a list",
+            DeValue::Table(_) => "a table",
+        };
+        self.fault(&value.span(), &format!("{found} does not fit here"), Some(&format!("write {wanted}")))
+    }
+
+    /// An error told of a place in this file.
+    pub(crate) fn adopt(&self, error: &Error, span: &Range<usize>) -> Error {
+        let message = match &error.file {
+            Some(file) => format!("{}: {}", file.display(), error.message),
+            None => error.message.clone(),
+        };
+        // A remedy may go on with a picture of another text.
+        let advice = error.remedy.as_deref().and_then(|remedy| remedy.lines().next());
+        self.fault(span, &message, advice)
+    }
+}
+
+/// An option that was given other than by typing it.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Given {
+    /// Its long name.
+    pub(crate) option: String,
+    /// What one would have typed.
+    pub(crate) words: Vec<String>,
+    /// Where its value stands in the file.
+    pub(crate) span: Range<usize>,
+}
+
+/// What keys a table may hold.
+pub(crate) struct Keys<'a> {
+    /// The command whose options they are.
+    pub(crate) command: &'a Command,
+    /// Options that are no keys.
+    pub(crate) without: &'a [&'a str],
+    /// Keys that are no options, read by others.
+    pub(crate) others: &'a [&'a str],
+}
+
+impl Keys<'_> {
+    /// Reads a table: `table` with places, `values` the same without.
+    pub(crate) fn read(&self, file: &File, table: &DeTable<'_>, values: &Table) -> Result<Vec<Given>, Error> {
+        let mut given = Vec::new();
+        for (key, value) in table {
+            let name = key.get_ref().as_ref();
+            if self.others.contains(&name) {
+                continue;
+            }
+            let is_called = |option: &&Arg, name: &str| {
+                let aliases = option.get_all_aliases().unwrap_or_default();
+                option.get_long() == Some(name) || aliases.contains(&name)
+            };
+            let spelt = british(name);
+            let option = self.options().find(|option| is_called(option, name) || is_called(option, &spelt));
+            let Some(option) = option else {
+                return Err(file.unknown(key, &self.names()));
+            };
+            let (written, name) = (name, option.get_long().unwrap_or(name));
+            let values = texts(file, option, name, value, values.get(written))?;
+            let mut words = Vec::new();
+            for (text, span) in values {
+                let text = placed(file, name, text, &span)?;
+                if let Some((message, advice)) = fault_of(self.command, name, text.as_deref()) {
+                    return Err(file.fault(&span, &message, advice.as_deref()));
+                }
+                words.push(word(name, text.as_deref()));
+            }
+            given.push(Given { option: name.to_owned(), words, span: value.span() });
+        }
+        // The keys came in the order of the alphabet.
+        given.sort_by_key(|given: &Given| given.span.start);
+        self.refuse_contradictions(file, &given)?;
+        Ok(given)
+    }
+
+    fn options(&self) -> impl Iterator<Item = &Arg> {
+        let is_key = |option: &&Arg| {
+            option.get_long().is_some_and(|name| !self.without.contains(&name))
+                && matches!(option.get_action(), ArgAction::Set | ArgAction::SetTrue | ArgAction::Append)
+        };
+        self.command.get_arguments().filter(is_key)
+    }
+
+    fn names(&self) -> Vec<&str> {
+        self.options().filter_map(Arg::get_long).chain(self.others.iter().copied()).collect()
+    }
+
+    fn refuse_contradictions(&self, file: &File, given: &[Given]) -> Result<(), Error> {
+        for (i, later) in given.iter().enumerate() {
+            let earlier = given.iter().take(i);
+            let mut both_say_something = earlier.filter(|g| !g.words.is_empty() && !later.words.is_empty());
+            if let Some(earlier) =
+                both_say_something.find(|g| conflict(self.command, &g.option, &later.option))
+            {
+                let message = format!("`{}` and `{}` exclude each other", earlier.option, later.option);
+                return Err(file.fault(&later.span, &message, Some("leave one out")));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Refuses options that mean something only beside another one, where that is not there.
+pub(crate) fn refuse_alone(file: &File, given: &[Given]) -> Result<(), Error> {
+    for Given { option, words, span } in given {
+        let mut needs = NEEDS.iter().filter(|(needing, _)| needing == option).map(|(_, needed)| *needed);
+        if let Some(missing) = needs.find(|needed| given.iter().all(|other| other.option != *needed))
+            && !words.is_empty()
+        {
+            let message = format!("`{option}` means nothing without `{missing}`");
+            return Err(file.fault(span, &message, Some("give both, or leave it out")));
+        }
+    }
+    Ok(())
+}
+
+/// Leaves out what typed options displace: the same option, unless it may be given again and adds
+/// up, and those that it conflicts with; and what needs an option that is then missing.
+pub(crate) fn displace(command: &Command, given: &mut Vec<Given>, typed: &[String]) {
+    given
+        .retain(|g| typed.iter().all(|t| (*t != g.option || t == "set") && !conflict(command, t, &g.option)));
+    let left: Vec<String> = given.iter().filter(|g| !g.words.is_empty()).map(|g| g.option.clone()).collect();
+    given.retain(|g| {
+        let mut needs = NEEDS.iter().filter(|(option, _)| *option == g.option).map(|(_, needed)| *needed);
+        needs.all(|needed| typed.iter().chain(&left).any(|other| other == needed))
+    });
+}
+
+/// Whether two options of a command exclude each other.
+fn conflict(command: &Command, a: &str, b: &str) -> bool {
+    let find = |name: &str| command.get_arguments().find(|option| option.get_long() == Some(name));
+    let (Some(a), Some(b)) = (find(a), find(b)) else { return false };
+    let excludes = |one: &Arg, other: &Arg| {
+        command.get_arg_conflicts_with(one).iter().any(|excluded| excluded.get_id() == other.get_id())
+    };
+    excludes(a, b) || excludes(b, a)
+}
+
+/// An option as one would type it.
+pub(crate) fn word(option: &str, value: Option<&str>) -> String {
+    value.map_or_else(|| format!("--{option}"), |value| format!("--{option}={value}"))
+}
+
+/// What is wrong with an option's value, and advice; `None` where it may be typed like that.
+pub(crate) fn fault_of(
+    command: &Command,
+    option: &str,
+    value: Option<&str>,
+) -> Option<(String, Option<String>)> {
+    let words = [command.get_name().to_owned(), word(option, value)];
+    let error = command.clone().try_get_matches_from(words).err()?;
+    let shown = value.unwrap_or_default();
+    match error.kind() {
+        ErrorKind::ValueValidation => {
+            let advice = std::error::Error::source(&error).map(|source| plain_advice(&source.to_string()));
+            Some((format!("`{shown}` does not fit here"), advice))
+        }
+        ErrorKind::InvalidValue => {
+            let known = match error.get(ContextKind::ValidValue) {
+                Some(ContextValue::Strings(known)) => known.iter().map(String::as_str).collect(),
+                _ => Vec::new(),
+            };
+            let advice = match sheet_errors::nearest(shown, &known) {
+                Some(near) => Some(format!("did you mean `{near}`?")),
+                None if known.is_empty() => None,
+                None => Some(format!("known values: {}", known.join(", "))),
+            };
+            Some((format!("unknown value `{shown}`"), advice))
+        }
+        // Whatever else is amiss is due to the words that are not there.
+        _ => None,
+    }
+}
+
+/// The message of a number parser in plain words; other messages stay.
+fn plain_advice(text: &str) -> String {
+    if let Some((_, range)) = text.split_once(" is not in ")
+        && let Some((low, high)) = range.split_once("..")
+    {
+        return match high.trim_start_matches('=') {
+            "" => format!("write a whole number of at least {low}"),
+            high => format!("write a whole number from {low} to {high}"),
+        };
+    }
+    match text {
+        "invalid digit found in string" | "cannot parse integer from empty string" => "write a whole number",
+        "number too large to fit in target type" => "write a smaller number",
+        "number too small to fit in target type" => "write a larger number",
+        "invalid float literal" | "cannot parse float from empty string" => "write a number",
+        _ => text,
+    }
+    .to_owned()
+}
+
+type Text = (Option<String>, Range<usize>);
+
+/// The values of an option as one would type them; none for a switch that is off.
+fn texts(
+    file: &File,
+    option: &Arg,
+    name: &str,
+    value: &Spanned<DeValue<'_>>,
+    plain: Option<&toml::Value>,
+) -> Result<Vec<Text>, Error> {
+    match (option.get_action(), value.get_ref(), plain) {
+        (ArgAction::SetTrue, DeValue::Boolean(on), _) => {
+            Ok(if *on { vec![(None, value.span())] } else { Vec::new() })
+        }
+        (ArgAction::SetTrue, _, _) => Err(file.misfit(value, "true or false")),
+        (ArgAction::Append, DeValue::Array(list), _) => list.iter().map(|v| text(file, v, TEXTS)).collect(),
+        (ArgAction::Append, DeValue::Table(table), Some(toml::Value::Table(plain))) if name == "set" => {
+            let changes = table.iter().filter_map(|(key, value)| {
+                let change = format!("{}={}", key.get_ref(), plain.get(key.get_ref().as_ref())?);
+                Some((Some(change), key.span().start..value.span().end))
+            });
+            Ok(changes.collect())
+        }
+        (ArgAction::Append, _, _) if name == "set" => {
+            text(file, value, "a table such as { lines.crease_deg = 30 }").map(|t| vec![t])
+        }
+        (ArgAction::Append, _, _) => text(file, value, TEXTS).map(|t| vec![t]),
+        (_, DeValue::Integer(number), _) => Ok(vec![(Some(number.to_string()), value.span())]),
+        (_, DeValue::Float(number), _) => Ok(vec![(Some(number.to_string()), value.span())]),
+        _ => text(file, value, "text or a number").map(|t| vec![t]),
+    }
+}
+
+/// What is wanted where an option may be given again.
+const TEXTS: &str = "text, or a list of texts";
+
+fn text(file: &File, value: &Spanned<DeValue<'_>>, wanted: &str) -> Result<Text, Error> {
+    match value.get_ref() {
+        DeValue::String(text) => Ok((Some(text.clone().into_owned()), value.span())),
+        _ => Err(file.misfit(value, wanted)),
+    }
+}
+
+/// The value with its paths relative to what the path of the file is relative to.
+fn placed(
+    file: &File,
+    name: &str,
+    value: Option<String>,
+    span: &Range<usize>,
+) -> Result<Option<String>, Error> {
+    let Some(value) = value else { return Ok(None) };
+    let beside = file.folder.join(&value);
+    let beside_text = || beside.to_string_lossy().into_owned();
+    Ok(Some(match name {
+        "set" => style::placed_change(&value, &file.folder).map_err(|error| file.adopt(&error, span))?,
+        "style" => {
+            let is_path = value.ends_with(".toml") || value.contains(['/', '\\']) || beside.is_file();
+            let style = if Style::sheet_text(&value).is_none() && is_path { beside_text() } else { value };
+            // What is wrong inside a sheet is told of the sheet.
+            Style::load(&style, &[]).map_err(|error| match error.place {
+                Some(_) => error,
+                None => file.adopt(&error, span),
+            })?;
+            style
+        }
+        "camera" if value.ends_with(".json") || beside.is_file() => beside_text(),
+        "step-converter" if value.contains(['/', '\\']) => beside_text(),
+        _ => value,
+    }))
+}

@@ -1,0 +1,117 @@
+//! What is compared with what: two files, or the files of two folders by their names.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::folder_files::{self, MODELS};
+use crate::cli::draw::model_drawing;
+use crate::cli::options::draw_args::HowArgs;
+use crate::cli::request::draw_request::DrawRequest;
+use crate::diff::Picture;
+use crate::error::Error;
+use crate::export::encoding::gzip;
+
+/// Files larger than this are no drawings that a person keeps.
+const MOST_BYTES: u64 = 1 << 30;
+
+/// The files to compare, by name.
+#[derive(Debug)]
+pub(crate) struct Pairing {
+    pub(crate) names: BTreeMap<String, [Option<PathBuf>; 2]>,
+    /// Whether they are of two folders.
+    pub(crate) folders: bool,
+}
+
+impl Pairing {
+    /// Pairs two files, or the files of two folders.
+    ///
+    /// # Errors
+    /// Where the one is a folder and the other is not, or there is nothing to compare.
+    pub(crate) fn new(before: &Path, after: &Path) -> Result<Self, Error> {
+        match (before.is_dir(), after.is_dir()) {
+            (false, false) => {
+                let name = after.display().to_string();
+                let files = [Some(before.to_path_buf()), Some(after.to_path_buf())];
+                Ok(Self { names: BTreeMap::from([(name, files)]), folders: false })
+            }
+            (true, true) => {
+                let mut names: BTreeMap<String, [Option<PathBuf>; 2]> = BTreeMap::new();
+                for (side, folder) in [before, after].into_iter().enumerate() {
+                    for (name, path) in folder_files::drawings(folder)? {
+                        names.entry(name).or_default()[side] = Some(path);
+                    }
+                }
+                if names.is_empty() {
+                    return Err(Error::new("neither folder contains a drawing or a model")
+                        .in_file(before)
+                        .remedy("name folders with .svg files"));
+                }
+                Ok(Self { names, folders: true })
+            }
+            (first, _) => {
+                let (folder, file) = if first { (before, after) } else { (after, before) };
+                let remedy = format!("name the drawing in it to compare with {}", file.display());
+                Err(Error::new("this is a folder, and the other argument is a file")
+                    .in_file(folder)
+                    .remedy(remedy))
+            }
+        }
+    }
+}
+
+/// Both drawings. Models are drawn, the second one as the first one is seen.
+pub(crate) fn pictures(before: &Path, after: &Path, how: &HowArgs) -> Result<[Picture; 2], Error> {
+    let request = |path: &Path| -> Result<DrawRequest, Error> {
+        let mut request = DrawRequest::of_model(path.to_path_buf(), how.clone())?;
+        request.quiet = true;
+        Ok(request)
+    };
+    if is_model(before) {
+        let (svg, seen) = model_drawing::encoded_and_seen(&request(before)?)?;
+        let first = picture(before, &String::from_utf8_lossy(&svg))?;
+        if !is_model(after) {
+            return Ok([first, picture(after, &text(after)?)?]);
+        }
+        let request = DrawRequest { view: seen, ..request(after)? };
+        let second = picture(after, &String::from_utf8_lossy(&model_drawing::encoded(&request)?))?;
+        // A model that names no part has the name of its file.
+        let stems = [before, after].map(|path| path.file_stem().unwrap_or_default().to_string_lossy());
+        return Ok([first, second.with_part_renamed(&stems[1], &stems[0])]);
+    }
+    let second = || match is_model(after) {
+        true => picture(after, &String::from_utf8_lossy(&model_drawing::encoded(&request(after)?)?)),
+        false => picture(after, &text(after)?),
+    };
+    let (first, second) =
+        crate::parallel::join(|| text(before).and_then(|svg| picture(before, &svg)), second);
+    Ok([first?, second?])
+}
+
+fn picture(path: &Path, svg: &str) -> Result<Picture, Error> {
+    Picture::from_svg(svg).map_err(|error| error.in_file(path))
+}
+
+fn is_model(path: &Path) -> bool {
+    path.extension().is_some_and(|e| MODELS.iter().any(|model| e.eq_ignore_ascii_case(model)))
+}
+
+/// The text of a drawing.
+fn text(path: &Path) -> Result<String, Error> {
+    let unread = |error: std::io::Error| {
+        Error::io("cannot read the drawing", error).in_file(path).remedy("check the path")
+    };
+    let size = std::fs::metadata(path).map_err(unread)?.len();
+    if size > MOST_BYTES {
+        return Err(Error::new("the file is larger than 1 GB")
+            .in_file(path)
+            .remedy("give a smaller drawing"));
+    }
+    let bytes = std::fs::read(path).map_err(unread)?;
+    let bytes = gzip::plain(bytes, MOST_BYTES as usize).map_err(|error| error.in_file(path))?;
+    String::from_utf8(bytes).map_err(|error| {
+        Error::new("the file is not SVG: it is not UTF-8 text")
+            .in_file(path)
+            .at(format!("byte {}", error.utf8_error().valid_up_to()))
+            .remedy("give an SVG file")
+    })
+}

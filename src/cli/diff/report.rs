@@ -1,0 +1,99 @@
+//! What differs, for people, programs and pull requests.
+
+use std::io::IsTerminal;
+
+use serde_json::{Value, json};
+
+use super::DiffArgs;
+use super::comparison::Told;
+use super::input_pairs::Pairing;
+use crate::diff::Verdict;
+
+/// Lines for people. One drawing is told by its findings; of many, each that differs has a heading.
+pub(crate) fn text(told: &[(String, Told)], pairing: &Pairing, all: bool) -> String {
+    let coloured = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    let mut out = String::new();
+    let mut put = |line: &str| {
+        out.push_str(&if coloured { paint(line) } else { line.to_owned() });
+        out.push('\n');
+    };
+    for (name, told) in told {
+        match told {
+            Told::Only(side) => {
+                put(&format!("{:<10} {name}", if *side == 0 { "removed" } else { "added" }));
+            }
+            Told::Both(diff) => {
+                if pairing.folders {
+                    put(&format!("{name}: {}", diff.summary()));
+                }
+                let lines = if all { diff.all_lines() } else { diff.lines() };
+                lines.iter().for_each(|line| put(line));
+                if !pairing.folders {
+                    put(&diff.summary());
+                }
+            }
+        }
+    }
+    if pairing.folders {
+        let differ = told.iter().filter(|(_, told)| !told.is_same()).count();
+        put(&format!("{differ} of {} drawings differ", told.len()));
+    }
+    out
+}
+
+/// A line whose verdict has its colour.
+fn paint(line: &str) -> String {
+    let verdict = Verdict::ALL.into_iter().find(|verdict| line.starts_with(verdict.name()));
+    let code = match verdict {
+        Some(Verdict::Removed) => "31",
+        Some(Verdict::Added) => "32",
+        Some(Verdict::Moved | Verdict::Reshaped) => "34",
+        Some(Verdict::Restyled | Verdict::Restacked | Verdict::Page | Verdict::Picture) => "33",
+        Some(Verdict::Relabelled) => "35",
+        None => return line.to_owned(),
+    };
+    let (word, rest) = line.split_at(line.find(' ').unwrap_or(line.len()));
+    format!("\x1b[{code}m{word}\x1b[0m{rest}")
+}
+
+/// One object for one drawing, a list for folders.
+pub(crate) fn json(told: &[(String, Told)], pairing: &Pairing) -> String {
+    let value = |told: &Told| match told {
+        Told::Only(side) => json!({ "same": false, "only": if *side == 0 { "before" } else { "after" } }),
+        // It is JSON that this crate wrote.
+        Told::Both(diff) => serde_json::from_str(&diff.to_json()).unwrap_or(Value::Null),
+    };
+    let document = if pairing.folders {
+        let named = |(name, told): &(String, Told)| json!({ "name": name, "diff": value(told) });
+        let same = told.iter().all(|(_, told)| told.is_same());
+        json!({ "same": same, "drawings": told.iter().map(named).collect::<Vec<_>>() })
+    } else {
+        told.first().map_or(Value::Null, |(_, told)| value(told))
+    };
+    // Values can always be written.
+    serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
+}
+
+/// A section a drawing that differs.
+pub(crate) fn markdown(told: &[(String, Told)], args: &DiffArgs) -> String {
+    let differ = told.iter().filter(|(_, told)| !told.is_same()).count();
+    let (before, after) = (args.before.display(), args.after.display());
+    let mut out = format!("## {before} → {after}\n\n");
+    out += &match (told.len(), differ) {
+        (_, 0) => "Nothing differs.\n".to_owned(),
+        (1, _) => String::new(),
+        (all, differ) => format!("{differ} of {all} drawings differ.\n\n"),
+    };
+    for (name, told) in told.iter().filter(|(_, told)| !told.is_same()) {
+        match told {
+            Told::Only(side) => {
+                out += &format!(
+                    "### {name}\n\nThe drawing is {}.\n\n",
+                    if *side == 0 { "removed" } else { "new" }
+                );
+            }
+            Told::Both(diff) => out += &(diff.to_markdown(name) + "\n"),
+        }
+    }
+    out
+}

@@ -1,0 +1,238 @@
+//! [`Crew`]: threads that draw models one after another, and what they tell of it.
+
+use std::cell::Cell;
+use std::fs;
+use std::path::Path;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use rayon_core::ThreadPool;
+
+use super::batch_jobs::Job;
+use crate::cli::draw::model_drawing;
+use crate::cli::output::output_files::Staging;
+use crate::cli::output::progress::Progress;
+use crate::cli::output::{exit_status, number_text};
+use crate::cli::request::draw_request::DrawRequest;
+use crate::cli::{LATER, WRONG};
+use crate::error::{Error, ErrorKind};
+use crate::pipeline::Stopwatch;
+
+/// Those drawings of a model that are to be made.
+pub(crate) struct Task<'a> {
+    pub(crate) job: &'a Job,
+    pub(crate) requests: Vec<&'a DrawRequest>,
+}
+
+/// Who draws.
+pub(crate) struct Crew<'a> {
+    pub(crate) pool: &'a ThreadPool,
+    /// Where drawings go, for people.
+    pub(crate) into: &'a Path,
+    pub(crate) quiet: bool,
+    /// Whether each file is told.
+    pub(crate) in_detail: bool,
+}
+
+/// What became of models.
+#[derive(Debug, Default)]
+pub(crate) struct Tally {
+    /// Models that were drawn.
+    pub(crate) drawn: u64,
+    pub(crate) files: u64,
+    pub(crate) bytes: u64,
+    /// Models that are wrong.
+    pub(crate) refused: u64,
+    /// Models that may well be drawn at another time.
+    pub(crate) failed: u64,
+}
+
+/// The files that were written for a model.
+#[derive(Default)]
+struct Made {
+    lines: Vec<String>,
+    /// Hints and choices made for the user, each once.
+    notes: Vec<String>,
+    files: u64,
+    bytes: u64,
+}
+
+impl Crew<'_> {
+    /// Draws all, as many models at once as there are threads. A model that fails is told; the others go on.
+    pub(crate) fn draw(&self, tasks: &[Task]) -> Tally {
+        let progress = Progress::start(self.quiet, self.into);
+        let started = Instant::now();
+        let next = Mutex::new(tasks.iter());
+        let tally = Mutex::new(Tally::default());
+        let work = || {
+            loop {
+                let task = next.lock().ok().and_then(|mut next| next.next());
+                let Some(task) = task else { return };
+                let made = self.pool.install(|| make(task));
+                let Ok(mut tally) = tally.lock() else { return };
+                self.take(task, made, &mut tally, &progress);
+                progress.step(course(&tally, tasks.len(), started.elapsed()));
+            }
+        };
+        progress.step(course(&Tally::default(), tasks.len(), Duration::ZERO));
+        // Threads of their own hand models to the pool: a thread of the pool that waits inside a drawing would begin
+        // another one, and another one inside that.
+        let at_once = self.pool.current_num_threads().min(tasks.len());
+        std::thread::scope(|scope| {
+            for _ in 0..at_once {
+                scope.spawn(work);
+            }
+        });
+        tally.into_inner().unwrap_or_default()
+    }
+
+    fn take(
+        &self,
+        task: &Task,
+        made: Result<(Made, Vec<String>), Box<Failure>>,
+        tally: &mut Tally,
+        progress: &Progress,
+    ) {
+        match made {
+            Ok((made, warnings)) => {
+                tally.drawn += 1;
+                tally.files += made.files;
+                tally.bytes += made.bytes;
+                if !self.quiet {
+                    for warning in warnings {
+                        progress.tell(&format!("warning: {}: {warning}", task.job.model().display()));
+                    }
+                    for note in made.notes.iter().filter(|_| self.in_detail) {
+                        progress.tell(&format!("note: {}: {note}", task.job.model().display()));
+                    }
+                    made.lines.iter().filter(|_| self.in_detail).for_each(|line| progress.tell(line));
+                }
+            }
+            Err(failure) => {
+                let Failure { error, passes } = *failure;
+                *(if passes { &mut tally.failed } else { &mut tally.refused }) += 1;
+                let error = if error.file.is_none() { error.in_file(task.job.model()) } else { error };
+                progress.tell(&format!("error: {error}"));
+            }
+        }
+    }
+}
+
+impl Tally {
+    /// The exit status: what may pass goes before what is wrong, for a second call does that part of the work.
+    pub(crate) const fn status(&self) -> u8 {
+        match (self.failed, self.refused) {
+            (0, 0) => 0,
+            (0, _) => WRONG,
+            _ => LATER,
+        }
+    }
+}
+
+struct Failure {
+    error: Error,
+    /// Whether the same may well succeed later.
+    passes: bool,
+}
+
+/// Draws a model from all sides and writes that, all or nothing. Gives the warnings as well, each once.
+fn make(task: &Task) -> Result<(Made, Vec<String>), Box<Failure>> {
+    let (since, mut watch) = (Stopwatch::start(), Stopwatch::start());
+    let mut staging = Staging::default();
+    let (mut made, mut warnings) = (Made::default(), Vec::new());
+    let writes = Cell::new(false);
+    let drawn = model_drawing::draw_views(
+        &task.requests,
+        &mut watch,
+        &Progress::start(true, Path::new("")),
+        |request, drawn| {
+            model_drawing::refuse_warnings(request, &drawn.report)?;
+            for warning in &drawn.report.warnings {
+                if !warnings.contains(warning) {
+                    warnings.push(warning.clone());
+                }
+            }
+            for note in &drawn.notes {
+                if !made.notes.contains(note) {
+                    made.notes.push(note.clone());
+                }
+            }
+            writes.set(true);
+            for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
+                if let Some(folder) = output.path.parent() {
+                    fs::create_dir_all(folder)
+                        .map_err(|error| Error::io("cannot create the folder", error).in_file(folder))?;
+                }
+                staging.add(&output.path, bytes)?;
+                made.files += 1;
+                made.bytes += bytes.len() as u64;
+            }
+            writes.set(false);
+            for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
+                made.lines.push(format!(
+                    "{}: {}",
+                    output.name(),
+                    model_drawing::summary(&drawn, bytes, since.seconds())
+                ));
+            }
+            Ok(())
+        },
+    );
+    // The place that drawings are written to is no input: whatever is wrong with it, other models are as good as before.
+    let failure = |error: Error, writes: bool| {
+        let passes = exit_status::passes(&error) || (writes && error.kind == ErrorKind::Io);
+        Box::new(Failure { error, passes })
+    };
+    drawn.map_err(|error| failure(error, writes.get()))?;
+    staging.commit().map_err(|error| failure(error, true))?;
+    Ok((made, warnings))
+}
+
+/// `312 drawn, 3 failed, 688 left, 12 s to go, into`
+fn course(tally: &Tally, all: usize, elapsed: Duration) -> String {
+    let failed = tally.refused + tally.failed;
+    let done = tally.drawn + failed;
+    let left = (all as u64).saturating_sub(done);
+    let mut text = format!("{} drawn, ", number_text::grouped(tally.drawn));
+    if failed > 0 {
+        text += &format!("{} failed, ", number_text::grouped(failed));
+    }
+    text += &format!("{} left, ", number_text::grouped(left));
+    if done > 0 {
+        text += &format!("{} to go, ", time(elapsed.as_secs_f64() * left as f64 / done as f64));
+    }
+    text + "into"
+}
+
+/// A time as people say it: `45 s`, `12 min`, `3 h 20 min`.
+fn time(seconds: f64) -> String {
+    let (seconds, minutes) = (seconds.ceil() as u64, (seconds / 60.0).ceil() as u64);
+    match seconds {
+        0..120 => format!("{seconds} s"),
+        120..7200 => format!("{minutes} min"),
+        _ => format!("{} h {} min", minutes / 60, minutes % 60),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_course_tells_what_is_left() {
+        let none = Tally::default();
+        assert_eq!(course(&none, 1000, Duration::ZERO), "0 drawn, 1,000 left, into");
+        let some = Tally { drawn: 98, refused: 2, ..Tally::default() };
+        assert_eq!(
+            course(&some, 1000, Duration::from_secs(1)),
+            "98 drawn, 2 failed, 900 left, 9 s to go, into"
+        );
+        assert_eq!([100.0, 600.0, 12_000.0].map(time), ["100 s", "10 min", "3 h 20 min"]);
+    }
+
+    #[test]
+    fn what_may_pass_goes_before_what_is_wrong() {
+        let status = |refused, failed| Tally { refused, failed, ..Tally::default() }.status();
+        assert_eq!([status(0, 0), status(2, 0), status(0, 1), status(2, 1)], [0, WRONG, LATER, LATER]);
+    }
+}

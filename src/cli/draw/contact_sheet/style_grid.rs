@@ -1,0 +1,118 @@
+//! `ligne styles --sheet`: one model in many styles, to choose from.
+
+use std::path::{Path, PathBuf};
+
+use super::style_grid_args::StyleSheetArgs;
+use super::{Sheet, check_outputs, picture_request};
+use crate::cli::draw::model_drawing;
+use crate::cli::library_calls;
+use crate::cli::models::opened_model;
+use crate::cli::output::output_files::Output;
+use crate::cli::output::progress::Progress;
+use crate::cli::request::draw_request::{DrawRequest, check_apart};
+use crate::error::Error;
+use crate::geometry::names::glob::Glob;
+use crate::pipeline::Stopwatch;
+use crate::style::Style;
+
+/// Pictures in a row.
+const COLUMNS: usize = 6;
+
+/// Draws the model in the styles that are named, or in all built-in ones.
+pub(crate) fn run(args: &StyleSheetArgs, out: &Path, model: &str) -> Result<(), Error> {
+    let model = PathBuf::from(model);
+    if args.how.page.is_some() {
+        return Err(Error::new("sheets of styles are in px")
+            .at("--page")
+            .remedy("leave it out; --size is the size of each picture"));
+    }
+    let outputs = [Output::new(out.to_path_buf())?];
+    check_apart(&model, &outputs, &[], None)?;
+    check_outputs(&outputs)?;
+    let styles = styles(&args.styles)?;
+    let request = |style: &String| {
+        let mut how = args.how.clone();
+        how.style.clone_from(style);
+        DrawRequest::of_model(model.clone(), how).map(picture_request)
+    };
+    let requests: Vec<DrawRequest> = styles.iter().map(request).collect::<Result<_, _>>()?;
+    let Some(first) = requests.first() else { return Err(Error::new("there is no style")) };
+    let mut sheet = Sheet::default();
+    library_calls::in_threads(first.threads, || {
+        let progress = Progress::start(first.quiet, &model);
+        progress.step("reading");
+        let read = opened_model::read(first)?;
+        for (style, request) in styles.iter().zip(&requests) {
+            let add = |_: &DrawRequest, drawn| {
+                sheet.add(drawn, style.clone(), key(style));
+                Ok(())
+            };
+            model_drawing::draw_model(
+                Some(read.clone()),
+                &[request],
+                &mut Stopwatch::start(),
+                &progress,
+                add,
+            )?;
+        }
+        Ok(())
+    })??;
+    sheet.finish(first, &outputs, COLUMNS, "style")
+}
+
+/// The name of a style's layers.
+fn key(style: &str) -> String {
+    match Style::sheet_text(style) {
+        Some(_) => style.to_owned(),
+        None => Path::new(style).file_stem().unwrap_or_default().to_string_lossy().into_owned(),
+    }
+}
+
+/// The styles that are named: names, globs of names, and files, each alone or in a list.
+///
+/// # Errors
+/// If a glob matches no style.
+fn styles(typed: &[String]) -> Result<Vec<String>, Error> {
+    if typed.is_empty() {
+        return Ok(Style::names().map(str::to_owned).collect());
+    }
+    let mut styles: Vec<String> = Vec::new();
+    let words = typed.iter().flat_map(|typed| {
+        // The name of a file may have commas in it.
+        if Path::new(typed).is_file() { vec![typed.as_str()] } else { typed.split(',').collect() }
+    });
+    for word in words.map(str::trim).filter(|word| !word.is_empty()) {
+        if Path::new(word).is_file() || !word.contains(['*', '?', '[']) {
+            styles.push(word.to_owned());
+            continue;
+        }
+        let glob = Glob::new(word);
+        let before = styles.len();
+        styles.extend(Style::names().filter(|name| glob.matches(name)).map(str::to_owned));
+        if styles.len() == before {
+            return Err(Error::new(format!("no built-in style matches `{word}`"))
+                .at("--style")
+                .remedy("`ligne styles` lists them"));
+        }
+    }
+    let mut kept: Vec<String> = Vec::new();
+    for style in styles {
+        if !kept.contains(&style) {
+            kept.push(style);
+        }
+    }
+    Ok(kept)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn styles_are_named_one_by_one_in_lists_and_by_globs() {
+        let of = |typed: &[&str]| styles(&typed.iter().map(|&word| word.to_owned()).collect::<Vec<_>>());
+        assert_eq!(of(&[]).unwrap().len(), Style::names().count());
+        assert_eq!(of(&["ink, mine.toml", "ink", "to?n"]).unwrap(), ["ink", "mine.toml", "toon"]);
+        assert!(of(&["nonesuch*"]).is_err());
+    }
+}

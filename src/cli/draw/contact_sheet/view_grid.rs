@@ -1,0 +1,109 @@
+//! `ligne draw --contact-sheet`: a model from nine sides.
+
+use super::{COLUMNS, PICTURES, Sheet, check_outputs, picture_request};
+use crate::cli::draw::model_drawing;
+use crate::cli::library_calls;
+use crate::cli::options::draw_args::DrawArgs;
+use crate::cli::output::number_text;
+use crate::cli::output::progress::Progress;
+use crate::cli::request::draw_request::DrawRequest;
+use crate::error::Error;
+use crate::pipeline::Stopwatch;
+use crate::scene::cameras::named_views::{THREE_QUARTER_AZIMUTH_DEG, THREE_QUARTER_ELEVATION_DEG};
+
+/// Angles between the views all around, and the elevation of the one from above, degrees.
+const AROUND_DEG: f64 = 45.0;
+const ABOVE_DEG: f64 = 70.0;
+
+/// Angles between neighbours of a view, degrees.
+const AZIMUTH_STEP_DEG: f64 = 20.0;
+const ELEVATION_STEP_DEG: f64 = 15.0;
+
+/// Draws the model from all sides, or from around the view that is given.
+pub(crate) fn run(args: DrawArgs) -> Result<(), Error> {
+    let how = args.how.clone();
+    let whole = DrawRequest::new(args)?;
+    check_outputs(&whole.outputs)?;
+    let angles = angles(how.azimuth, how.elevation);
+    let request = |[azimuth, elevation]: [f64; 2]| {
+        let mut how = how.clone();
+        (how.azimuth, how.elevation) = (Some(azimuth), Some(elevation));
+        let request = DrawRequest::of_model(whole.model.clone(), how)?;
+        Ok(DrawRequest { piped: whole.piped, stage: whole.stage, ..picture_request(request) })
+    };
+    let requests: Vec<DrawRequest> = angles.into_iter().map(request).collect::<Result<_, Error>>()?;
+    let all: Vec<&DrawRequest> = requests.iter().collect();
+    let mut sheet = Sheet::default();
+    let mut captions = angles.into_iter().map(caption);
+    library_calls::in_threads(whole.threads, || {
+        let progress = Progress::start(whole.quiet, &whole.model);
+        model_drawing::draw_views(&all, &mut Stopwatch::start(), &progress, |_, drawn| {
+            let caption = captions.next().unwrap_or_default();
+            let key = caption.replace("--", "").replace(' ', "-");
+            sheet.add(drawn, caption, key);
+            Ok(())
+        })
+    })??;
+    sheet.finish(&whole, &whole.outputs, COLUMNS, "view")
+}
+
+/// The options that repeat a view.
+fn caption([azimuth, elevation]: [f64; 2]) -> String {
+    format!("--azimuth {} --elevation {}", number_text::plain(azimuth, 2), number_text::plain(elevation, 2))
+}
+
+/// Azimuth and elevation of each view. Without angles they go all around, the default view in the middle, and the last one is from
+/// above. Otherwise they are the neighbours of the given view.
+fn angles(azimuth: Option<f64>, elevation: Option<f64>) -> [[f64; 2]; PICTURES] {
+    let centre =
+        [azimuth.unwrap_or(THREE_QUARTER_AZIMUTH_DEG), elevation.unwrap_or(THREE_QUARTER_ELEVATION_DEG)];
+    let middle = PICTURES / 2;
+    if azimuth.is_none() && elevation.is_none() {
+        return std::array::from_fn(|place| match place {
+            8 => [centre[0], ABOVE_DEG],
+            _ => [turned(centre[0] + (place as f64 - middle as f64) * AROUND_DEG), centre[1]],
+        });
+    }
+    // At the poles the neighbours are on one side.
+    let up = if centre[1] + ELEVATION_STEP_DEG > 90.0 {
+        0.0
+    } else if centre[1] - ELEVATION_STEP_DEG < -90.0 {
+        2.0
+    } else {
+        1.0
+    };
+    std::array::from_fn(|place| {
+        let (column, row) = ((place % COLUMNS) as f64, (place / COLUMNS) as f64);
+        [turned(centre[0] + (column - 1.0) * AZIMUTH_STEP_DEG), centre[1] + (up - row) * ELEVATION_STEP_DEG]
+    })
+}
+
+/// The same direction between -180 and 180 degrees.
+fn turned(azimuth: f64) -> f64 {
+    let turned = azimuth.rem_euclid(360.0);
+    if turned > 180.0 { turned - 360.0 } else { turned }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn views_go_all_around_or_are_neighbours() {
+        let all = angles(None, None);
+        assert_eq!(all[4], [35.0, 22.0]);
+        assert_eq!(all[8], [35.0, 70.0]);
+        assert_eq!(
+            all[..8].iter().map(|own| own[0]).collect::<Vec<_>>(),
+            [-145.0, -100.0, -55.0, -10.0, 35.0, 80.0, 125.0, 170.0]
+        );
+        assert_eq!(caption(all[0]), "--azimuth -145 --elevation 22");
+        let near = angles(Some(170.0), Some(10.5));
+        assert_eq!((near[0], near[4], near[8]), ([150.0, 25.5], [170.0, 10.5], [-170.0, -4.5]));
+        for elevation in [-90.0, -80.0, 0.0, 80.0, 90.0] {
+            let near = angles(None, Some(elevation));
+            assert!(near.iter().all(|own| own[1].abs() <= 90.0), "{near:?}");
+            assert!(near.contains(&[35.0, elevation]), "{near:?}");
+        }
+    }
+}

@@ -1,0 +1,383 @@
+//! `ligne draw`: one drawing of one model, in one or several formats.
+
+use std::borrow::Cow;
+
+use glam::DVec3;
+
+use super::web_output;
+use crate::animation::Rigged;
+use crate::cli::models::opened_model::{Opened, open};
+use crate::cli::options::dxf_args;
+use crate::cli::options::framing_args::Frame;
+#[cfg(feature = "pdf")]
+use crate::cli::options::print_args;
+use crate::cli::output::number_text;
+use crate::cli::output::output_files::{Format, Staging, check_place, is_stdout};
+use crate::cli::output::progress::Progress;
+use crate::cli::request::draw_request::DrawRequest;
+use crate::cli::request::viewpoint::{View, Viewpoint, viewpoint};
+use crate::cli::request::{model_hints, usage_warnings};
+use crate::cli::{library_calls, print, say};
+use crate::drawing::{Drawing, Page, Unit};
+use crate::error::Error;
+use crate::export::encoding::gzip;
+use crate::pipeline::{MapFiles, Prepared, Report, Stopwatch, hatched_for, trailed};
+use crate::scene::cameras::framing::world_points;
+use crate::scene::{Camera, Scene};
+use crate::style::Style;
+
+/// Pixels to the inch in PNG: a px is a pixel, and a page is as fine as print.
+const SCREEN_DPI: f64 = 96.0;
+const PRINT_DPI: f64 = 300.0;
+
+/// A drawing in all its formats, not yet written.
+pub(crate) struct Drawn {
+    drawing: Drawing,
+    /// From where it was seen.
+    seen: View,
+    pub(crate) report: Report,
+    /// Hints and choices made for the user. Not warnings: `--strict` accepts them.
+    pub(crate) notes: Vec<String>,
+    /// One an output, in their order.
+    pub(crate) encoded: Vec<Vec<u8>>,
+    maps: Option<MapFiles>,
+}
+
+impl Drawn {
+    /// The drawing alone.
+    pub(crate) fn into_drawing(self) -> Drawing {
+        self.drawing
+    }
+}
+
+/// Draws, and says so in one line an output.
+pub(crate) fn run(request: &DrawRequest) -> Result<(), Error> {
+    let mut watch = Stopwatch::start();
+    for output in request.outputs.iter().filter(|output| output.format != Format::SvgToStdout) {
+        check_place(&output.path)?;
+    }
+    if let Some(report) = request.report.as_ref().filter(|path| !is_stdout(path)) {
+        check_place(report)?;
+    }
+    if let Some(record) = &request.save_camera {
+        check_place(record)?;
+    }
+    if let Some(folder) = request.maps.as_ref().filter(|folder| !folder.is_dir()) {
+        check_place(folder)?;
+        if folder.exists() {
+            return Err(Error::new("this is not a folder")
+                .in_file(folder)
+                .remedy("name a folder for the maps"));
+        }
+    }
+    let mut drawn = library_calls::in_threads(request.threads, || draw(request, &mut watch))??;
+    drawn.report.warnings.extend(usage_warnings::bare_lengths(request));
+    refuse_warnings(request, &drawn.report)?;
+    if !request.quiet {
+        for warning in &drawn.report.warnings {
+            say(&format!("warning: {}: {warning}", request.model.display()));
+        }
+        for note in &drawn.notes {
+            say(&format!("note: {}: {note}", request.model.display()));
+        }
+    }
+    write(request, &mut drawn, &mut watch)?;
+    if !request.quiet {
+        for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
+            say(&format!("{}: {}", output.name(), summary(&drawn, bytes, watch.seconds())));
+        }
+    }
+    // The process ends here, and its memory with it: a drawing of many lines is not taken apart first.
+    std::mem::forget(drawn);
+    Ok(())
+}
+
+/// Everything up to the bytes of each output.
+fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
+    let progress = Progress::start(request.quiet, &request.model);
+    let mut drawn = None;
+    draw_views(&[request], watch, &progress, |_, view| {
+        drawn = Some(view);
+        Ok(())
+    })?;
+    drawn.ok_or_else(|| Error::new("no view was given"))
+}
+
+/// The same for several views of one model, which is read once: those of the first request, which the others share
+/// but for views and outputs. Each is handed over as soon as it is there.
+pub(crate) fn draw_views(
+    requests: &[&DrawRequest],
+    watch: &mut Stopwatch,
+    progress: &Progress,
+    take: impl FnMut(&DrawRequest, Drawn) -> Result<(), Error>,
+) -> Result<(), Error> {
+    draw_model(None, requests, watch, progress, take)
+}
+
+/// The same for a model that may have been read before.
+pub(crate) fn draw_model(
+    model: Option<Rigged>,
+    requests: &[&DrawRequest],
+    watch: &mut Stopwatch,
+    progress: &Progress,
+    mut take: impl FnMut(&DrawRequest, Drawn) -> Result<(), Error>,
+) -> Result<(), Error> {
+    let Some(request) = requests.first() else { return Ok(()) };
+    let mut style = library_calls::load_style(&request.style, &request.sets, request.background)?;
+    if request.is_to_scale() {
+        style = style.to_scale();
+    }
+    progress.step("reading");
+    let Opened { mut scene, mut framed, mut warnings, mut notes } = open(request, model, &style)?;
+    notes.extend(model_hints::of_drawing(request, &scene));
+    if let Some(up) = request.up {
+        scene.up = up;
+    }
+    let load_ms = watch.lap_ms();
+    progress.step("drawing");
+    if !request.outputs.is_empty() {
+        warnings.extend(usage_warnings::idle(request, std::env::args_os()));
+    }
+    if request.section.section.is_some() {
+        // The plane and the hatching follow the view of the whole model; the frame holds what is left of it, or all.
+        let whole = framed.take().unwrap_or_else(|| world_points(&scene));
+        let seen = |request: &&DrawRequest| {
+            viewpoint(&request.view, &request.sheet, &scene, || Ok(Cow::Borrowed(&*whole)))
+        };
+        let cameras = requests.iter().map(seen).map(|eye| Ok(eye?.camera));
+        let cameras: Vec<Camera> = cameras.collect::<Result<_, Error>>()?;
+        let forward = cameras.first().map_or(DVec3::NEG_Z, |camera| camera.axes()[2]);
+        if let Some(mut section) = request.section.cut(&mut scene, request.sheet.unit, forward)? {
+            style = hatched_for(&style, &mut scene, &mut section.faces, &cameras);
+        }
+        framed = (request.frame == Frame::All).then_some(whole);
+    }
+    if request.section.take_apart(&mut scene)? {
+        framed = None;
+        style = trailed(&style);
+    }
+    let points = || Ok(framed.as_deref().map_or_else(|| Cow::Owned(world_points(&scene)), Cow::Borrowed));
+    let eyes = requests.iter().map(|request| viewpoint(&request.view, &request.sheet, &scene, points));
+    let eyes = eyes.collect::<Result<Vec<_>, _>>()?;
+    let told = scene.warnings.lines().into_iter().chain(warnings).collect();
+    let hidden = usage_warnings::hidden(request, &scene);
+    let mut of_scene = OfScene { triangles: triangles(&scene), told, hidden, notes, whole: None };
+    let mut kept = None;
+    let enclosed: Vec<_> = eyes.iter().map(|eye| usage_warnings::enclosed(&scene, &eye.camera)).collect();
+    watch.lap_ms();
+    // Hot-spots are found in the scene once more.
+    let prepared = match eyes.as_slice() {
+        [eye] if !request.web.hotspots => Prepared::of_scene(scene, &style, &eye.camera),
+        eyes => {
+            let scene = &*of_scene.whole.insert(kept.insert(scene));
+            match eyes {
+                [eye] => Prepared::for_camera(scene, &style, &eye.camera),
+                _ => Prepared::new(scene, &style),
+            }
+        }
+    };
+    let preparing_ms = watch.lap_ms();
+    for ((request, eye), enclosed) in requests.iter().zip(eyes).zip(enclosed) {
+        let page = Page { background: style.background, ..eye.paper.page() };
+        let of_view = (eye, page, enclosed);
+        let mut drawn = draw_view(request, of_view, &of_scene, (&style, &prepared), watch, progress)?;
+        drawn.report.stages_ms.load = load_ms;
+        drawn.report.stages_ms.topology += preparing_ms;
+        take(request, drawn)?;
+    }
+    Ok(())
+}
+
+/// What is told of a model, however it is seen.
+struct OfScene<'a> {
+    triangles: u64,
+    /// Its warnings, and what is strange about the call.
+    told: Vec<String>,
+    /// Which parts are shown, if others are left out: for drawings that are empty.
+    hidden: Option<String>,
+    /// Hints and choices made for the user.
+    notes: Vec<String>,
+    /// The model itself, where it is still needed.
+    whole: Option<&'a Scene>,
+}
+
+fn draw_view(
+    request: &DrawRequest,
+    (Viewpoint { camera, paper, warning }, page, enclosed): (Viewpoint, Page, Option<String>),
+    of_scene: &OfScene,
+    (style, prepared): (&Style, &Prepared),
+    watch: &mut Stopwatch,
+    progress: &Progress,
+) -> Result<Drawn, Error> {
+    watch.lap_ms();
+    let (mut drawing, mut report) = prepared.draw(&camera, page, request.stage)?;
+    let bare = web_output::complete(request, &mut drawing, of_scene.whole, &camera, style)?;
+    let maps = request.maps.is_some().then(|| prepared.maps(&camera, page.unit)).transpose()?;
+    report.counts.triangles = of_scene.triangles;
+    report.counts.paths = paths(&drawing);
+    let told = of_scene.told.iter().cloned();
+    let hidden = of_scene.hidden.clone().filter(|_| report.counts.paths == 0);
+    for warning in told.chain(hidden).chain(warning).chain(bare.map(str::to_owned)).chain(enclosed) {
+        if !report.warnings.contains(&warning) {
+            report.warnings.push(warning);
+        }
+    }
+    if report.warnings.is_empty() {
+        report.warnings.extend(usage_warnings::next_to_nothing(&drawing));
+    }
+
+    progress.step("writing");
+    watch.lap_ms();
+    let svg = web_output::svg_options(request, style)?;
+    let mut left_out = None;
+    let mut encode = |format| match format {
+        Format::Svg | Format::SvgToStdout => Ok(drawing.to_svg(&svg).into_bytes()),
+        Format::Svgz => Ok(gzip::packed(drawing.to_svg(&svg).as_bytes())),
+        Format::Png => library_calls::png(&drawing, request.dpi.unwrap_or(default_dpi(page.unit))),
+        #[cfg(feature = "pdf")]
+        Format::Pdf => print_args::encode(&drawing, request.print.as_ref()),
+        Format::Dxf => {
+            let (bytes, told) = dxf_args::encode(&drawing, &camera, &request.dxf)?;
+            left_out = told;
+            Ok(bytes)
+        }
+    };
+    let encoded = request.outputs.iter().map(|output| {
+        encode(output.format).map_err(|error| match error.file {
+            None => error.in_file(&output.path),
+            Some(_) => error,
+        })
+    });
+    let encoded = encoded.collect::<Result<Vec<_>, _>>()?;
+    report.warnings.extend(left_out);
+    let notes = of_scene.notes.clone();
+    Ok(Drawn { drawing, seen: View::Fixed(camera, paper), report, notes, encoded, maps })
+}
+
+pub(crate) fn default_dpi(unit: Unit) -> f64 {
+    match unit {
+        Unit::Px => SCREEN_DPI,
+        Unit::Mm => PRINT_DPI,
+    }
+}
+
+/// Under `--strict` warnings are errors.
+pub(crate) fn refuse_warnings(request: &DrawRequest, report: &Report) -> Result<(), Error> {
+    if !request.strict || report.warnings.is_empty() {
+        return Ok(());
+    }
+    Err(Error::new(report.warnings.join("; "))
+        .in_file(&request.model)
+        .remedy("repair the model, or draw without --strict"))
+}
+
+/// The bytes of a request's first output, which is not written.
+pub(crate) fn encoded(request: &DrawRequest) -> Result<Vec<u8>, Error> {
+    Ok(encoded_and_seen(request)?.0)
+}
+
+/// The bytes of a request's first output, and from where it was seen, so that another model can be seen likewise.
+pub(crate) fn encoded_and_seen(request: &DrawRequest) -> Result<(Vec<u8>, View), Error> {
+    let drawn = draw(request, &mut Stopwatch::start())?;
+    refuse_warnings(request, &drawn.report)?;
+    Ok((drawn.encoded.into_iter().next().unwrap_or_default(), drawn.seen))
+}
+
+/// Writes all outputs and the report, all or none.
+fn write(request: &DrawRequest, drawn: &mut Drawn, watch: &mut Stopwatch) -> Result<(), Error> {
+    let mut staging = Staging::default();
+    for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
+        if output.format == Format::SvgToStdout {
+            continue;
+        }
+        staging.add(&output.path, bytes)?;
+    }
+    drawn.report.counts.bytes_out = drawn.encoded.iter().map(|bytes| bytes.len() as u64).sum();
+    drawn.report.stages_ms.write = watch.lap_ms();
+    if let (Some(folder), Some(maps)) = (&request.maps, &drawn.maps) {
+        staging.make_folder(folder)?;
+        for (name, bytes) in maps.named() {
+            staging.add(&folder.join(name), bytes)?;
+        }
+    }
+    let mut printed = None;
+    if let Some(path) = &request.report {
+        let json = drawn.report.to_json();
+        if is_stdout(path) { printed = Some(json) } else { staging.add(path, json.as_bytes())? }
+    }
+    if let (Some(path), View::Fixed(camera, _)) = (&request.save_camera, &drawn.seen) {
+        staging.add(path, camera.to_json().as_bytes())?;
+    }
+    for (output, bytes) in request.outputs.iter().zip(&drawn.encoded) {
+        if output.format == Format::SvgToStdout {
+            print(bytes)?;
+        }
+    }
+    if let Some(json) = printed {
+        print(json.as_bytes())?;
+    }
+    staging.commit()
+}
+
+/// Triangles that are shown, instances counted each.
+pub(crate) fn triangles(scene: &Scene) -> u64 {
+    let geometries = scene.parts.iter().filter_map(|part| scene.geometries.get(part.geometry));
+    geometries.map(|geometry| geometry.triangles.len() as u64).sum()
+}
+
+pub(crate) fn paths(drawing: &Drawing) -> u64 {
+    drawing.layers.iter().map(|layer| layer.marks.len() as u64).sum()
+}
+
+/// Width and height of a PNG file, as its header has them.
+fn pixels(png: &[u8]) -> Option<[u32; 2]> {
+    let png = png.strip_prefix(b"\x89PNG")?;
+    let side = |from: usize| Some(u32::from_be_bytes(png.get(from..from + 4)?.try_into().ok()?));
+    Some([side(12)?, side(16)?])
+}
+
+/// `1000 x 1000 px, 74 paths, 18.2 kB, 0.03 s, 69,451 triangles`; a PNG of other pixels than the drawing has px says how many.
+pub(crate) fn summary(drawn: &Drawn, bytes: &[u8], seconds: f64) -> String {
+    let Page { width, height, unit, .. } = drawn.drawing.page;
+    let counts = &drawn.report.counts;
+    let of_page = |side: u32, length: f64| unit == Unit::Px && f64::from(side) == length;
+    let pixels = match pixels(bytes) {
+        Some([w, h]) if !(of_page(w, width) && of_page(h, height)) => format!(" as {w} x {h} pixels"),
+        _ => String::new(),
+    };
+    format!(
+        "{} x {} {}{pixels}, {}, {}, {seconds:.2} s, {}",
+        number_text::plain(width, 2),
+        number_text::plain(height, 2),
+        unit.name(),
+        number_text::counted(counts.paths, "path"),
+        number_text::bytes(bytes.len() as u64),
+        number_text::counted(counts.triangles, "triangle"),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pipeline::report::drawing_report::Counts;
+
+    #[test]
+    fn the_summary_is_one_line() {
+        let page = Page { width: 210.0, height: 297.0, unit: Unit::Mm, background: None };
+        let counts = Counts { paths: 74, triangles: 69_451, ..Counts::default() };
+        let drawn = Drawn {
+            drawing: Drawing::new("", page, Vec::new()),
+            seen: View::Angles { azimuth_deg: None, elevation_deg: None, lens: None },
+            report: Report { counts, ..Report::default() },
+            notes: Vec::new(),
+            encoded: Vec::new(),
+            maps: None,
+        };
+        assert_eq!(
+            summary(&drawn, &[0; 18_249], 0.031),
+            "210 x 297 mm, 74 paths, 18.2 kB, 0.03 s, 69,451 triangles"
+        );
+        let png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x09\xb0\0\0\x0d\xb4";
+        assert!(summary(&drawn, png, 0.0).starts_with("210 x 297 mm as 2480 x 3508 pixels, "));
+    }
+}

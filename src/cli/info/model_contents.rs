@@ -1,0 +1,120 @@
+//! [`Info`]: contents and defects of a model file.
+
+use serde::Serialize;
+
+use super::degenerate_elements::{self, LeftOutInfo};
+use super::info_args::InfoArgs;
+use super::joints::{self, JointInfo};
+use super::lights_cameras_clips::{CameraInfo, ClipInfo, LightInfo};
+use super::materials::MaterialInfo;
+use super::parts::{PartInfo, TurnedInfo};
+use super::precision;
+use crate::animation::Rig;
+use crate::cli::library_calls;
+use crate::cli::options::values::model_unit::{self, ModelUnit};
+use crate::cli::request::model_hints;
+use crate::scene::cameras::framing::bounds;
+use crate::scene::extent::drawn_points::{DrawnPoints, used_points};
+use crate::scene::{Geometry, Scene, UpAxis};
+
+/// Contents and defects of a model file.
+#[derive(Debug, Serialize)]
+pub(crate) struct Info {
+    pub file: String,
+    pub format: &'static str,
+    pub up: &'static str,
+    pub triangles: u64,
+    /// As stored, those that are drawn; instances counted each.
+    pub vertices: u64,
+    /// Triangles that the file winds inward or against their neighbours; they are drawn turned.
+    pub turned: TurnedInfo,
+    pub parts: Vec<PartInfo>,
+    pub materials: Vec<MaterialInfo>,
+    pub lights: Vec<LightInfo>,
+    pub cameras: Vec<CameraInfo>,
+    pub joints: Vec<JointInfo>,
+    pub animations: Vec<ClipInfo>,
+    pub bounds: Option<BoundsInfo>,
+    /// Faces without area and lines without length, part by part; they count in nothing else.
+    pub left_out: Vec<LeftOutInfo>,
+    /// Vertices that no face and no line uses.
+    pub unused_vertices: u64,
+    /// Unit of the model, if the format or the call gives it.
+    pub unit: Option<&'static str>,
+    pub warnings: Vec<String>,
+    /// Hints, each with the option that helps.
+    pub notes: Vec<String>,
+}
+
+/// The box around all that is drawn.
+#[derive(Debug, Serialize)]
+pub(crate) struct BoundsInfo {
+    pub min: [f64; 3],
+    pub max: [f64; 3],
+    /// Along x, y and z, where it is known what a unit is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size_mm: Option<[f64; 3]>,
+}
+
+impl Info {
+    /// Collects the contents and defects of a scene.
+    pub fn of(scene: &Scene, rig: &Rig, args: &InfoArgs) -> Self {
+        let DrawnPoints { points, parts: drawn } = DrawnPoints::of(scene);
+        let unused = |own: &Geometry| (own.positions.len() - used_points(own).len()) as u64;
+        let unused_vertices = scene.unused_vertices + scene.geometries.iter().map(unused).sum::<u64>();
+        let left_out = degenerate_elements::by_part(scene, &drawn);
+        let mut boxes = vec![None; scene.parts.len()];
+        for own in &drawn {
+            if let (Some(slot), Some(own)) = (boxes.get_mut(own.part), points.get(own.points.clone())) {
+                *slot = bounds(own);
+            }
+        }
+        let (of_mesh, mesh) = library_calls::mesh_findings(scene);
+        let parts: Vec<PartInfo> = left_out
+            .iter()
+            .zip(precision::by_part(scene, &mesh))
+            .zip(boxes)
+            .enumerate()
+            .filter_map(|(part, ((left_out, precision), bounds))| {
+                PartInfo::of(scene, part, left_out, &mesh.turned, precision, bounds)
+            })
+            .collect();
+        let left_out = LeftOutInfo::of(scene, &left_out);
+        let mut warnings = scene.warnings.clone();
+        warnings.extend(&of_mesh);
+        let mut warnings = warnings.lines();
+        let bounds = bounds(&points);
+        let unit =
+            (args.unit.is_some() || model_unit::is_stated(scene)).then(|| ModelUnit::of(scene, args.unit));
+        if let Some((min, max)) = bounds.filter(|_| args.unit.is_none()) {
+            warnings.extend(model_unit::doubt(scene, (max - min).max_element()));
+        }
+        Self {
+            file: args.model.display().to_string(),
+            format: scene.format,
+            up: match scene.up {
+                UpAxis::Y => "y",
+                UpAxis::Z => "z",
+            },
+            triangles: parts.iter().map(|part| part.triangles).sum(),
+            vertices: points.len() as u64,
+            turned: TurnedInfo::of(&mesh.turned),
+            parts,
+            materials: scene.materials.iter().map(|material| MaterialInfo::of(scene, material)).collect(),
+            lights: scene.lights.iter().map(LightInfo::of).collect(),
+            cameras: scene.cameras.iter().map(CameraInfo::of).collect(),
+            animations: rig.clips.iter().map(ClipInfo::of).collect(),
+            joints: joints::of_rig(rig),
+            bounds: bounds.map(|(min, max)| BoundsInfo {
+                min: min.to_array(),
+                max: max.to_array(),
+                size_mm: unit.map(|unit| ((max - min) * unit.mm()).to_array()),
+            }),
+            left_out,
+            unused_vertices,
+            unit: unit.map(ModelUnit::name),
+            warnings,
+            notes: model_hints::of_scene(scene).into_iter().map(|hint| hint.text).collect(),
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! The text of `ligne info` for people.
+
+use std::fmt::Write;
+
+use super::degenerate_elements;
+use super::joints::JointInfo;
+use super::lights_cameras_clips::{CameraInfo, ClipInfo, LightInfo};
+use super::materials::MaterialInfo;
+use super::model_contents::{BoundsInfo, Info};
+use super::text_lists::{SHOWN, list};
+use crate::cli::output::number_text::{counted, short};
+
+impl Info {
+    /// The text. A full one lists everything, with bounds and precision of each part; a short one stops after [`SHOWN`] entries.
+    pub(crate) fn text(&self, is_full: bool) -> String {
+        let most = if is_full { usize::MAX } else { SHOWN };
+        let mut text = String::new();
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{}: {}, {} up", self.file, self.format, self.up);
+        let _ = writeln!(text, "  {}, {}", counted(self.triangles, "triangle"), vertices(self.vertices));
+        if let Some(BoundsInfo { min, max, .. }) = &self.bounds {
+            let size: Vec<String> = min.iter().zip(max).map(|(low, high)| short(high - low)).collect();
+            let corner = |corner: &[f64; 3]| corner.map(short).join(", ");
+            let unit = self.unit.map_or_else(String::new, |unit| format!(" {unit}"));
+            let _ =
+                writeln!(text, "  {}{unit}, from ({}) to ({})", size.join(" x "), corner(min), corner(max));
+        }
+        if self.unused_vertices > 0 {
+            let _ = writeln!(text, "  {} that no face or line uses", vertices(self.unused_vertices));
+        }
+        degenerate_elements::add(&mut text, &self.left_out, most);
+        if let Some(turned) = self.turned.words() {
+            let _ = writeln!(
+                text,
+                "  {turned}: their winding in the file points inward or contradicts their neighbours"
+            );
+        }
+        list(&mut text, "part", most, self.parts.iter().map(|part| part.line(is_full)));
+        list(&mut text, "material", most, self.materials.iter().map(MaterialInfo::line));
+        list(&mut text, "light", most, self.lights.iter().map(LightInfo::line));
+        list(&mut text, "camera", most, self.cameras.iter().map(CameraInfo::line));
+        if is_full {
+            list(&mut text, "joint", most, self.joints.iter().map(JointInfo::line));
+        } else if !self.joints.is_empty() {
+            let _ = writeln!(text, "  {} (--all lists them)", counted(self.joints.len() as u64, "joint"));
+        }
+        list(&mut text, "animation", most, self.animations.iter().map(ClipInfo::line));
+        list(&mut text, "warning", most, self.warnings.iter().cloned());
+        list(&mut text, "note", most, self.notes.iter().cloned());
+        text
+    }
+}
+
+fn vertices(n: u64) -> String {
+    counted(n, "vertex").replace("vertexs", "vertices")
+}

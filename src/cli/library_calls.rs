@@ -1,0 +1,105 @@
+//! The calls of the command line into the rest of the crate.
+
+use rayon_core::ThreadPool;
+
+use crate::animation::Rigged;
+use crate::cli::options::draw_args::GroupBy;
+use crate::cli::request::draw_request::SvgChoices;
+use crate::colour::srgb::Colour;
+use crate::drawing::Drawing;
+use crate::error::Error;
+use crate::export::{Grouping, PngOptions, Resolution, SvgOptions};
+use crate::mesh::Mesh;
+use crate::pipeline::report::mesh_defects;
+use crate::scene::{Scene, Warnings};
+use crate::style::Style;
+
+/// The style by that name or in that file, changed by `sets` (`KEY=VALUE` each) and with the
+/// background that was asked for.
+pub(crate) fn load_style(
+    name_or_path: &str,
+    sets: &[String],
+    background: Option<Option<Colour>>,
+) -> Result<Style, Error> {
+    let mut style = Style::load(name_or_path, sets)?;
+    if let Some(background) = background {
+        style.background = background;
+    }
+    Ok(style)
+}
+
+/// Leaves only the parts whose names match `only` (all, where it is empty) and none of `hide`.
+pub(crate) fn keep_parts(scene: &mut Scene, only: &[String], hide: &[String]) -> Result<(), Error> {
+    if only.is_empty() && hide.is_empty() {
+        return Ok(());
+    }
+    let names = part_names(scene);
+    scene.keep_parts(only, hide);
+    check_left(scene, &names)
+}
+
+/// Leaves the same parts, and what moves them.
+pub(crate) fn keep_moving_parts(rigged: &mut Rigged, only: &[String], hide: &[String]) -> Result<(), Error> {
+    if only.is_empty() && hide.is_empty() {
+        return Ok(());
+    }
+    let names = part_names(&rigged.scene);
+    rigged.keep_parts(only, hide);
+    check_left(&rigged.scene, &names)
+}
+
+fn part_names(scene: &Scene) -> Vec<String> {
+    scene.parts.iter().map(|part| part.name.clone()).collect()
+}
+
+/// Refuses a scene of which nothing is left.
+fn check_left(scene: &Scene, names: &[String]) -> Result<(), Error> {
+    if scene.parts.is_empty() {
+        let mut shown: Vec<&str> = names.iter().map(String::as_str).take(8).collect();
+        shown.dedup();
+        return Err(Error::new("--only and --hide leave no part")
+            .remedy(format!("the parts are {}", shown.join(", "))));
+    }
+    Ok(())
+}
+
+/// The mesh of a scene, with the defects that cleaning found.
+pub(crate) fn mesh_findings(scene: &Scene) -> (Warnings, Mesh) {
+    let mesh = Mesh::build(scene.to_soup());
+    (mesh_defects::of_mesh(&mesh, scene), mesh)
+}
+
+/// The drawing as SVG.
+pub(crate) fn svg(drawing: &Drawing, choices: &SvgChoices) -> Vec<u8> {
+    drawing.to_svg(&svg_options(choices)).into_bytes()
+}
+
+/// How SVG is written, for the exporter.
+pub(crate) fn svg_options(choices: &SvgChoices) -> SvgOptions {
+    let group = match choices.group {
+        GroupBy::Layer => Grouping::Layer,
+        GroupBy::Part => Grouping::Part,
+    };
+    let id_prefix = choices.id_prefix.clone().unwrap_or_default();
+    SvgOptions { precision: choices.precision, id_prefix, group, ..SvgOptions::default() }
+}
+
+/// The drawing as PNG, at so many pixels to the inch.
+pub(crate) fn png(drawing: &Drawing, dpi: f64) -> Result<Vec<u8>, Error> {
+    drawing.to_png(&PngOptions { resolution: Resolution::Dpi(dpi) })
+}
+
+/// Works with so many threads, or with as many as there are cores.
+pub(crate) fn in_threads<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, Error> {
+    match threads {
+        // On one of the threads themselves, so that none has to be waited for at each part of the work.
+        None => Ok(rayon_core::scope(|_| work())),
+        Some(_) => Ok(pool(threads)?.install(work)),
+    }
+}
+
+/// So many threads, or as many as there are cores.
+pub(crate) fn pool(threads: Option<u16>) -> Result<ThreadPool, Error> {
+    let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).build();
+    pool.map_err(|error| Error::new(format!("cannot start threads: {error}")).at("--threads"))
+}

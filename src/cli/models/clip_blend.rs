@@ -1,0 +1,319 @@
+//! [`Blend`]: the clips that `--animation` names, and their weights over time.
+
+use crate::animation::{Clip, Playing};
+use crate::error::Error;
+use crate::geometry::names::glob::Glob;
+use crate::style::sheet_errors::nearest;
+
+/// Names of clips in a message, at most.
+const MAX_NAMES: usize = 12;
+
+/// The clips that play together, and their weights over time.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Blend {
+    asked: Vec<Asked>,
+    /// When the first of the clips begins and the last one ends, in seconds.
+    span: [f64; 2],
+    /// The time over which weights without times of their own change.
+    over: [f64; 2],
+    repeats: bool,
+    /// Choices made for the user, in words.
+    notes: Vec<String>,
+}
+
+/// A clip to play.
+#[derive(Debug, Clone, PartialEq)]
+struct Asked {
+    clip: usize,
+    span: [f64; 2],
+    /// Its weight; none for an equal share of the rest.
+    weight: Option<Weight>,
+}
+
+/// A weight that may change in time: straight from one to the next, and the same before the first and behind the last.
+#[derive(Debug, Clone, PartialEq)]
+enum Weight {
+    /// At these times, in seconds.
+    Timed(Vec<(f64, f64)>),
+    /// Evenly over the time that is drawn.
+    Spread(Vec<f64>),
+}
+
+impl Blend {
+    /// The clips that these texts name, each `NAME`, `NAME:WEIGHT`, or a list of these separated by commas. A name may be a pattern such
+    /// as `Walk*`. Without a text the first clip plays. With `repeats` each clip loops.
+    ///
+    /// # Errors
+    /// If there are no clips, if no clip matches a name, or if a weight is not a number.
+    pub(crate) fn new(clips: &[Clip], texts: &[String], repeats: bool) -> Result<Self, Error> {
+        if clips.is_empty() {
+            return Err(Error::new("the model has no animations").remedy("leave out --animation and --time"));
+        }
+        let mut notes = Vec::new();
+        if let ([], [first, others @ ..]) = (texts, clips)
+            && !others.is_empty()
+        {
+            let (count, name, others) = (clips.len(), &first.name, names(others));
+            notes.push(format!(
+                "uses the first of {count} animations, `{name}`; --animation selects others: {others}"
+            ));
+        }
+        let find = |name: &str| clips.iter().position(|clip| clip.name == name);
+        let mut asked = Vec::new();
+        let mut add = |name: &str, weight: Option<Weight>| {
+            let clip = match find(name) {
+                Some(clip) => clip,
+                None => matching(clips, name, &mut notes)?,
+            };
+            let span = clips.get(clip).map_or([0.0; 2], Clip::span);
+            asked.push(Asked { clip, span, weight });
+            Ok(())
+        };
+        for text in texts {
+            // A name may hold commas and colons itself.
+            if find(text).is_some() {
+                add(text, None)?;
+                continue;
+            }
+            for item in text.split(',').map(str::trim) {
+                match item.rsplit_once(':').filter(|_| find(item).is_none()) {
+                    Some((name, weight)) => add(name, Some(Weight::parse(weight)?))?,
+                    None => add(item, None)?,
+                }
+            }
+        }
+        if texts.is_empty() {
+            asked.push(Asked { clip: 0, span: clips.first().map_or([0.0; 2], Clip::span), weight: None });
+        }
+        let none = [f64::INFINITY, f64::NEG_INFINITY];
+        let span = asked.iter().fold(none, |[from, to], own| [from.min(own.span[0]), to.max(own.span[1])]);
+        Ok(Self { asked, span, over: span, repeats, notes })
+    }
+
+    /// Choices made for the user, in words: the first clip of several.
+    pub(crate) fn notes(&self) -> &[String] {
+        &self.notes
+    }
+
+    /// The same over another span of time than that of its clips.
+    pub(crate) fn over(self, over: [f64; 2]) -> Self {
+        Self { over, ..self }
+    }
+
+    /// When the first of the clips begins and the last one ends, in seconds.
+    pub(crate) fn span(&self) -> [f64; 2] {
+        self.span
+    }
+
+    /// Whether clips begin again when they are over.
+    pub(crate) fn repeats(&self) -> bool {
+        self.repeats
+    }
+
+    /// What plays at a time.
+    pub(crate) fn playing(&self, time: f64) -> Vec<Playing> {
+        let weights: Vec<Option<f64>> = (self.asked.iter())
+            .map(|own| own.weight.as_ref().map(|weight| weight.at(time, self.over)))
+            .collect();
+        let told: f64 = weights.iter().flatten().sum();
+        let equal = weights.iter().filter(|weight| weight.is_none()).count();
+        let left = (1.0 - told).max(0.0) / equal.max(1) as f64;
+        let own = |(own, weight): (&Asked, Option<f64>)| {
+            let [from, to] = own.span;
+            let time =
+                if self.repeats && to > from { from + (time - from).rem_euclid(to - from) } else { time };
+            Playing { clip: own.clip, time, weight: weight.unwrap_or(left) }
+        };
+        self.asked.iter().zip(weights).map(own).collect()
+    }
+}
+
+/// The first clip whose name matches a pattern, with a note if others match as well.
+///
+/// # Errors
+/// If no name matches.
+fn matching(clips: &[Clip], pattern: &str, notes: &mut Vec<String>) -> Result<usize, Error> {
+    let glob = Glob::new(pattern);
+    let mut matches = clips.iter().enumerate().filter(|(_, clip)| glob.matches(&clip.name));
+    if let Some((first, clip)) = matches.next() {
+        let others = matches.count();
+        if others > 0 {
+            let name = &clip.name;
+            notes.push(format!("`{pattern}` matches {} animations; uses the first, `{name}`", others + 1));
+        }
+        return Ok(first);
+    }
+    let known: Vec<&str> = clips.iter().map(|clip| clip.name.as_str()).collect();
+    let other_case = known.iter().find(|name| name.eq_ignore_ascii_case(pattern)).copied();
+    let remedy = match other_case.or_else(|| nearest(pattern, &known)) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("its animations are {}", names(clips)),
+    };
+    Err(Error::new(format!("the model has no animation `{pattern}`")).remedy(remedy))
+}
+
+/// The names of clips, the first of many.
+fn names(clips: &[Clip]) -> String {
+    let shown: Vec<&str> = clips.iter().take(MAX_NAMES).map(|clip| clip.name.as_str()).collect();
+    let more = clips.len().saturating_sub(MAX_NAMES);
+    if more > 0 { format!("{} and {more} more", shown.join(", ")) } else { shown.join(", ") }
+}
+
+impl Weight {
+    /// `0.7`; `1..0` over the time that is drawn; `1@0.5..0@2`, each with its time in seconds.
+    fn parse(text: &str) -> Result<Self, Error> {
+        let wrong = |message: String| {
+            Error::new(message).at("--animation").remedy(
+                "write a weight, such as Walk:0.7, or weights in time, such as Walk:1..0 or Walk:1@0.5..0@2",
+            )
+        };
+        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+        let mut keys = Vec::new();
+        for key in text.split("..") {
+            let (weight, time) =
+                key.split_once('@').map_or((key, None), |(weight, time)| (weight, Some(time)));
+            let weight = number(weight).filter(|weight| *weight >= 0.0);
+            let weight = weight.ok_or_else(|| wrong(format!("`{text}` is not a weight of 0 or more")))?;
+            let time = match time {
+                Some(time) => {
+                    Some(number(time).ok_or_else(|| wrong(format!("`{key}` has no time in seconds")))?)
+                }
+                None => None,
+            };
+            keys.push((time, weight));
+        }
+        let timed: Vec<(f64, f64)> =
+            keys.iter().filter_map(|(time, weight)| Some(((*time)?, *weight))).collect();
+        if timed.is_empty() {
+            return Ok(Self::Spread(keys.into_iter().map(|(_, weight)| weight).collect()));
+        }
+        if timed.len() < keys.len() {
+            return Err(wrong(format!("some weights of `{text}` have a time, and some have none")));
+        }
+        if timed.array_windows().any(|[(a, _), (b, _)]| a >= b) {
+            return Err(wrong(format!("the times of `{text}` do not rise")));
+        }
+        Ok(Self::Timed(timed))
+    }
+
+    fn at(&self, time: f64, [from, to]: [f64; 2]) -> f64 {
+        match self {
+            Self::Timed(keys) => between(keys, time),
+            Self::Spread(weights) => {
+                let steps = weights.len().saturating_sub(1).max(1) as f64;
+                let key = |(k, weight): (usize, &f64)| (from + (to - from) * k as f64 / steps, *weight);
+                between(&weights.iter().enumerate().map(key).collect::<Vec<_>>(), time)
+            }
+        }
+    }
+}
+
+/// The value at a time of keys in their order.
+fn between(keys: &[(f64, f64)], time: f64) -> f64 {
+    let after = keys.partition_point(|(key, _)| *key <= time);
+    let before = after.checked_sub(1).and_then(|before| keys.get(before));
+    match (before, keys.get(after)) {
+        (Some((a, from)), Some((b, to))) => from + (to - from) * (time - a) / (b - a),
+        (Some((_, only)), None) | (None, Some((_, only))) => *only,
+        (None, None) => 0.0,
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::animation::{Channel, Interpolation, Property, Target, Track};
+
+    fn clips() -> Vec<Clip> {
+        let clip = |(name, to): (&str, f64)| {
+            let track = Track::new(vec![0.0, to], vec![0.0; 6], Interpolation::Linear).unwrap();
+            let target = Target::Node(0, Property::Translation);
+            Clip { name: name.to_owned(), channels: vec![Channel { target, track }] }
+        };
+        [("Walk", 1.0), ("Run", 4.0), ("rig:Idle,slow", 2.0)].map(clip).to_vec()
+    }
+
+    fn blend(texts: &[&str]) -> Result<Blend, Error> {
+        Blend::new(&clips(), &texts.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>(), false)
+    }
+
+    fn weights(texts: &[&str], time: f64) -> Vec<(usize, f64)> {
+        blend(texts).unwrap().playing(time).iter().map(|own| (own.clip, own.weight)).collect()
+    }
+
+    #[test]
+    fn names_are_patterns_and_the_first_clip_is_the_default() {
+        let named = |text: &str| blend(&[text]).map(|blend| (blend.playing(0.0)[0].clip, blend.notes));
+        assert_eq!(named("R*").unwrap(), (1, Vec::new()));
+        assert_eq!(weights(&["W??k:0.3,R*"], 0.0), [(0, 0.3), (1, 0.7)]);
+        let (clip, notes) = named("*").unwrap();
+        assert!(clip == 0 && notes[0].contains("matches 3 animations; uses the first, `Walk`"), "{notes:?}");
+        let first = blend(&[]).unwrap();
+        assert_eq!(first.playing(0.0)[0].clip, 0);
+        assert!(first.notes[0].contains("the first of 3 animations, `Walk`"), "{:?}", first.notes);
+        for (wrong, expected) in
+            [("walk", "did you mean `Walk`?"), ("Rnu", "did you mean `Run`?"), ("Jump", "are Walk, Run, ")]
+        {
+            let error = named(wrong).unwrap_err().to_string();
+            assert!(error.contains(expected), "{error}");
+        }
+    }
+
+    #[test]
+    fn weights_are_told_or_shared() {
+        assert_eq!(weights(&["Walk", "Run"], 0.0), [(0, 0.5), (1, 0.5)]);
+        assert_eq!(weights(&["Walk,Run"], 0.0), [(0, 0.5), (1, 0.5)]);
+        assert_eq!(weights(&["Walk:0.75, Run"], 0.0), [(0, 0.75), (1, 0.25)]);
+        assert_eq!(weights(&["Walk:0.2"], 0.0), [(0, 0.2)]);
+        assert_eq!(weights(&["rig:Idle,slow", "Run:0.5"], 0.0), [(2, 0.5), (1, 0.5)]);
+        assert_eq!(weights(&["rig:Idle,slow"], 0.0), [(2, 1.0)]);
+    }
+
+    #[test]
+    fn weights_change_in_time() {
+        let fade = |time| weights(&["Walk:1@1..0@3,Run:0@1..1@3"], time).map_weights();
+        assert_eq!(
+            [0.0, 1.0, 1.5, 3.0, 9.0].map(fade),
+            [[1.0, 0.0], [1.0, 0.0], [0.75, 0.25], [0.0, 1.0], [0.0, 1.0]]
+        );
+        // Over all of the clips, or of what is drawn.
+        assert_eq!(weights(&["Walk:1..0", "Run"], 1.0).map_weights(), [0.75, 0.25]);
+        let film = blend(&["Walk:0..1..0", "Run"]).unwrap().over([0.0, 8.0]);
+        assert_eq!([0.0, 4.0, 6.0].map(|time| film.playing(time)[0].weight), [0.0, 1.0, 0.5]);
+    }
+
+    #[test]
+    fn clips_begin_again() {
+        let blend = Blend { repeats: true, ..blend(&["Walk", "Run"]).unwrap() };
+        let times: Vec<f64> = blend.playing(5.25).iter().map(|own| own.time).collect();
+        assert_eq!(times, [0.25, 1.25]);
+    }
+
+    #[test]
+    fn what_is_no_weight_is_refused() {
+        for (text, expected) in [
+            ("Jump", "no animation `Jump`"),
+            ("Jump:1", "no animation `Jump`"),
+            ("Walk,", "no animation ``"),
+            ("Walk:much", "`much` is not a weight"),
+            ("Walk:-1", "`-1` is not a weight"),
+            ("Walk:1@a", "`1@a` has no time"),
+            ("Walk:1@0..1", "some have none"),
+            ("Walk:1@1..0@1", "do not rise"),
+        ] {
+            let error = blend(&[text]).unwrap_err().to_string();
+            assert!(error.contains(expected), "{text}: {error}");
+        }
+    }
+
+    trait Weights {
+        fn map_weights(&self) -> [f64; 2];
+    }
+
+    impl Weights for Vec<(usize, f64)> {
+        fn map_weights(&self) -> [f64; 2] {
+            [self[0].1, self[1].1]
+        }
+    }
+}

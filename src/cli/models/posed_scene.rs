@@ -1,0 +1,49 @@
+//! The scene at one moment of its animation.
+
+use super::clip_blend::Blend;
+use crate::animation::{Clip, Rigged};
+use crate::cli::request::draw_request::DrawRequest;
+use crate::error::Error;
+use crate::motion;
+use crate::scene::Scene;
+use crate::style::Style;
+
+/// The scene at the time of a request, with the trails of motion lines, and notes on the choice of clips. Without a clip and a time it
+/// is the scene as stored.
+///
+/// # Errors
+/// If no clip has such a name, or if a pose is not finite.
+pub(crate) fn scene_at(
+    rigged: Rigged,
+    request: &DrawRequest,
+    style: &Style,
+) -> Result<(Scene, Vec<String>), Error> {
+    if request.stands() {
+        return Ok((rigged.scene, Vec::new()));
+    }
+    let in_file = |error: Error| match &rigged.scene.file {
+        Some(file) if error.file.is_none() => error.in_file(file),
+        _ => error,
+    };
+    let (clips, time) = (&rigged.rig.clips, request.time.unwrap_or(0.0));
+    let blend = Blend::new(clips, &request.animation, request.repeat).map_err(in_file)?;
+    let playing = blend.playing(time);
+    let mut scene = motion::posed(&rigged, &playing, &style.motion, style.seed).map_err(in_file)?;
+    if let Some(reason) = motion::why_none(&rigged, &playing, &style.motion, &scene) {
+        scene.warnings.note(reason);
+    }
+    for Clip { name, .. } in playing
+        .iter()
+        .filter_map(|own| clips.get(own.clip))
+        .filter(|clip| !(blend.repeats() || has(clip, time)))
+    {
+        scene.warnings.note(format!("the animation `{name}` ends before {time} s; its last pose is drawn"));
+    }
+    Ok((scene, blend.notes().to_vec()))
+}
+
+/// Whether a time lies within a clip, or the clip is all at one time.
+fn has(clip: &Clip, time: f64) -> bool {
+    let [from, to] = clip.span();
+    (from..=to).contains(&time) || from == to || time == 0.0
+}

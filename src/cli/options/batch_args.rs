@@ -1,0 +1,157 @@
+//! Options of `ligne draw` for several models, several views, and drawing again.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::cli::options::values::shard::Share;
+use crate::cli::output::output_files::is_stdout;
+use crate::error::Error;
+use crate::load::ModelFormat;
+
+/// Options for several models, several views, and drawing again.
+#[derive(Debug, Args)]
+pub(crate) struct ManyArgs {
+    /// Draw all models into this folder: DIR/NAME.svg, or DIR/NAME-VIEW.svg with several views
+    #[arg(long, value_name = "DIR", help_heading = "Batch", conflicts_with = "outputs")]
+    pub(crate) out_dir: Option<PathBuf>,
+
+    /// Formats of the drawings: svg, png, pdf, dxf [default: svg]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',', help_heading = "Batch", value_parser = Named::parse)]
+    format: Vec<Named>,
+
+    /// Format of a model on standard input: obj, gltf, glb, stl, ply
+    #[arg(long, value_name = "NAME", help_heading = "Batch", value_parser = model_format)]
+    input_format: Option<ModelFormat>,
+
+    /// Keep the models' folders: DIR/a/m.svg for a/m.obj
+    #[arg(long, help_heading = "Batch", requires = "out_dir")]
+    pub(crate) folders: bool,
+
+    /// Draw share K of N of the models, or share K of a job array with /N [env: SLURM_ARRAY_TASK_ID, JOB_COMPLETION_INDEX]
+    #[arg(long, value_name = "K/N", help_heading = "Batch", requires = "out_dir", value_parser = Share::parse)]
+    pub(crate) shard: Option<Share>,
+
+    /// Skip drawings that are newer than their model, style sheet and camera record
+    #[arg(long, help_heading = "Batch")]
+    pub(crate) resume: bool,
+
+    /// Draw again after each change of the model, style sheet or camera record
+    #[arg(long, help_heading = "Batch")]
+    pub(crate) watch: bool,
+}
+
+/// A name after `--format`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Named {
+    /// Of a format that drawings are written in: its ending.
+    Drawing(&'static str),
+    /// Of a format of models: the older spelling of `--input-format`.
+    Model(ModelFormat),
+}
+
+impl Named {
+    fn parse(text: &str) -> Result<Self, String> {
+        let drawing = ["svg", "png", "pdf", "dxf"].into_iter().find(|name| text.eq_ignore_ascii_case(name));
+        let named = drawing.map(Self::Drawing).or_else(|| ModelFormat::of_ending(text).map(Self::Model));
+        named.ok_or_else(|| "write svg, png, pdf or dxf".to_owned())
+    }
+}
+
+/// Reads the name of a model format.
+fn model_format(text: &str) -> Result<ModelFormat, String> {
+    ModelFormat::of_ending(text).ok_or_else(|| "write obj, gltf, glb, stl or ply".to_owned())
+}
+
+impl ManyArgs {
+    /// Whether it takes more than one drawing, made once.
+    pub(crate) const fn is_asked(&self) -> bool {
+        self.out_dir.is_some() || self.resume || self.watch
+    }
+
+    /// The endings of the drawings of each model, each once.
+    pub(crate) fn endings(&self) -> Vec<&'static str> {
+        let mut endings = Vec::new();
+        for named in &self.format {
+            if let Named::Drawing(ending) = named
+                && !endings.contains(ending)
+            {
+                endings.push(*ending);
+            }
+        }
+        endings
+    }
+
+    /// What standard input holds, where one of the models is read from there.
+    ///
+    /// # Errors
+    /// If it is not told, if it is told twice, and if it is told of no model.
+    pub(crate) fn piped<'a>(
+        &self,
+        models: impl IntoIterator<Item = &'a PathBuf>,
+    ) -> Result<Option<ModelFormat>, Error> {
+        let piped = models.into_iter().filter(|model| is_stdout(model)).count();
+        let older = self.format.iter().filter_map(|named| match named {
+            Named::Model(format) => Some(*format),
+            Named::Drawing(_) => None,
+        });
+        let mut formats = self.input_format.into_iter().chain(older);
+        let wrong =
+            |message: &str, remedy: &str| Err(Error::new(message).at("--input-format").remedy(remedy));
+        match (piped, formats.next(), formats.next()) {
+            (0, None, _) => Ok(None),
+            (0, Some(_), _) => wrong(
+                "no model is read from standard input",
+                "leave the option out, or write - for the model; for drawings use --format svg,png",
+            ),
+            (_, Some(_), Some(_)) => wrong("standard input has two formats", "leave one out"),
+            (1, format @ Some(_), None) => Ok(format),
+            (1, None, _) => wrong(
+                "the format of standard input is missing",
+                "give --input-format with obj, gltf, glb, stl or ply",
+            ),
+            _ => Err(Error::new("two models are read from standard input").remedy("leave one `-` out")),
+        }
+    }
+
+    /// Where drawings of one model go: as typed, or by the model's name in the current folder.
+    ///
+    /// # Errors
+    /// If formats are told twice, and if nothing tells the name.
+    pub(crate) fn paths(&self, model: &Path, typed: Vec<PathBuf>) -> Result<Vec<PathBuf>, Error> {
+        let endings = self.endings();
+        if !typed.is_empty() {
+            return if endings.is_empty() {
+                Ok(typed)
+            } else {
+                Err(Error::new("the names of the drawings already give their formats")
+                    .at("--format")
+                    .remedy("leave out --format or the names"))
+            };
+        }
+        match (is_stdout(model), endings.as_slice()) {
+            (true, [] | ["svg"]) => Ok(vec![PathBuf::from("-")]),
+            (true, _) => Err(Error::new("standard output can hold a single SVG only")
+                .at("--format")
+                .remedy("name the drawing, such as model.png")),
+            (false, []) => Ok(vec![named(model, "svg")]),
+            (false, endings) => Ok(endings.iter().map(|ending| named(model, ending)).collect()),
+        }
+    }
+}
+
+/// The model's name with another ending, without its folder.
+fn named(model: &Path, ending: &str) -> PathBuf {
+    let mut name = stem(model);
+    name.push(".");
+    name.push(ending);
+    PathBuf::from(name)
+}
+
+/// The model's name without folder and ending; that of standard input is `model`.
+pub(crate) fn stem(model: &Path) -> std::ffi::OsString {
+    if is_stdout(model) {
+        return "model".into();
+    }
+    model.file_stem().unwrap_or(model.as_os_str()).to_owned()
+}

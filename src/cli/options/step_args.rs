@@ -1,0 +1,86 @@
+//! [`StepArgs`]: the options of STEP files.
+
+use clap::Args;
+
+use crate::drawing::{Length, Unit};
+
+/// Linear tolerance where none is given, mm: a third of a 0.35 mm pen at 1:1.
+const DEFAULT_TOLERANCE_MM: f64 = 0.1;
+
+/// The radius below which circles get no fewer facets, mm. Source: measured on parts of 50 to 150 mm; `docs/how-to/import.md` has the table.
+const MIN_SMOOTH_RADIUS_MM: f64 = 20.0;
+
+/// Bounds of the angle between neighbouring facets, radians.
+const MIN_ANGLE: f64 = 0.05;
+const MAX_ANGLE: f64 = 0.5;
+
+/// How models in STEP files (.step, .stp) become triangles.
+#[derive(Debug, Clone, Default, Args)]
+pub(crate) struct StepArgs {
+    /// Converter of STEP models: a name, or PROGRAM IN.step OUT.glb MM [default: first found] [env: LIGNE_STEP_CONVERTER]
+    #[arg(long, value_name = "PROGRAM", help_heading = "STEP", value_parser = program)]
+    step_converter: Option<String>,
+
+    /// Largest distance between a STEP model and its triangles [default: 0.1mm]
+    #[arg(long, value_name = "LENGTH", help_heading = "STEP", value_parser = tolerance)]
+    step_tolerance: Option<f64>,
+}
+
+/// The variable that names a converter.
+const VARIABLE: &str = "LIGNE_STEP_CONVERTER";
+
+impl StepArgs {
+    /// The converter that the option names, or the variable. Cases under test have no words for the variable to be added to.
+    pub(crate) fn converter(&self) -> Option<String> {
+        self.step_converter.clone().or_else(|| std::env::var(VARIABLE).ok().filter(|name| !name.is_empty()))
+    }
+
+    /// The largest distance between surface and triangles, mm.
+    pub(crate) fn tolerance_mm(&self) -> f64 {
+        self.step_tolerance.unwrap_or(DEFAULT_TOLERANCE_MM)
+    }
+
+    /// The largest angle between neighbouring facets, radians: that of a circle of [`MIN_SMOOTH_RADIUS_MM`] at this tolerance. It keeps
+    /// small holes and fillets round, for which the tolerance alone would allow a few facets only.
+    pub(crate) fn angle(&self) -> f64 {
+        // The sagitta of a chord is R a² / 8.
+        (8.0 * self.tolerance_mm() / MIN_SMOOTH_RADIUS_MM).sqrt().clamp(MIN_ANGLE, MAX_ANGLE)
+    }
+}
+
+fn program(text: &str) -> Result<String, String> {
+    if text.trim().is_empty() { Err("name a program".to_owned()) } else { Ok(text.to_owned()) }
+}
+
+/// Reads `0.1mm` or `0.004in`; a bare number is in mm.
+fn tolerance(text: &str) -> Result<f64, String> {
+    let bare = text.trim().parse().ok();
+    let with_unit =
+        || Length::parse(text).filter(|length| length.unit == Unit::Mm).map(|length| length.value);
+    bare.or_else(with_unit)
+        .filter(|mm: &f64| (1e-4..=1e3).contains(mm))
+        .ok_or_else(|| "write a length from 0.0001mm to 1000mm, such as 0.1mm".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn tolerances_have_units() {
+        for (text, mm) in [("0.1mm", 0.1), ("0.05", 0.05), ("0.1in", 2.54), ("1cm", 10.0)] {
+            assert!((tolerance(text).unwrap() - mm).abs() < 1e-12, "{text}");
+        }
+        for text in ["0", "-1mm", "nan", "fine", "1e9mm", "1px", ""] {
+            assert!(tolerance(text).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_finer_tolerance_has_smaller_angles() {
+        let angle = |mm| StepArgs { step_tolerance: Some(mm), ..StepArgs::default() }.angle();
+        assert!((StepArgs::default().angle() - 0.2).abs() < 1e-12);
+        assert!(angle(0.01) < angle(0.1) && angle(0.1) < angle(1.0));
+        assert_eq!((angle(1e-4), angle(1e3)), (MIN_ANGLE, MAX_ANGLE));
+    }
+}

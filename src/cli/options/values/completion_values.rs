@@ -1,0 +1,53 @@
+//! [`Offered`]: values that a shell offers for an option that takes others as well.
+
+use std::ffi::OsStr;
+
+use clap::builder::{PossibleValue, TypedValueParser};
+use clap::error::ErrorKind;
+use clap::{Arg, Command, Error};
+
+/// Parses by a function, and offers some values to the completions of shells.
+#[derive(Clone)]
+pub(crate) struct Offered<T> {
+    values: Vec<&'static str>,
+    /// Values that are made only when they are needed.
+    late: Option<fn() -> &'static [&'static str]>,
+    parse: fn(&str) -> Result<T, String>,
+}
+
+impl<T> Offered<T> {
+    pub(crate) fn new(
+        values: impl IntoIterator<Item = &'static str>,
+        parse: fn(&str) -> Result<T, String>,
+    ) -> Self {
+        Self { values: values.into_iter().collect(), late: None, parse }
+    }
+
+    /// The same with values that take time to make.
+    pub(crate) fn late(
+        values: fn() -> &'static [&'static str],
+        parse: fn(&str) -> Result<T, String>,
+    ) -> Self {
+        Self { values: Vec::new(), late: Some(values), parse }
+    }
+}
+
+impl<T: Clone + Send + Sync + 'static> TypedValueParser for Offered<T> {
+    type Value = T;
+
+    fn parse_ref(&self, command: &Command, option: Option<&Arg>, value: &OsStr) -> Result<T, Error> {
+        let Some(text) = value.to_str() else {
+            return Err(Error::new(ErrorKind::InvalidUtf8).with_cmd(command));
+        };
+        (self.parse)(text).map_err(|message| {
+            let option = option.map(ToString::to_string).unwrap_or_default();
+            let message = format!("invalid value '{text}' for '{option}': {message}\n");
+            Error::raw(ErrorKind::ValueValidation, message).with_cmd(command)
+        })
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let late = self.late.map_or(&[][..], |values| values());
+        Some(Box::new(self.values.iter().chain(late).map(PossibleValue::new)))
+    }
+}

@@ -1,0 +1,232 @@
+//! Paper as it is written on the command line: `1000x1000`, `A4`, `210x297mm`, `10mm`, `1:2`.
+
+use crate::drawing::length::MM_PER_PX;
+use crate::drawing::{Length, Page, Unit};
+use crate::error::Error;
+
+/// Larger sizes, in user units, are slips of the finger.
+const LARGEST: f64 = 1e6;
+
+/// Named sheets: width and height in mm, upright.
+const SHEETS: [(&str, f64, f64); 10] = [
+    ("A0", 841.0, 1189.0),
+    ("A1", 594.0, 841.0),
+    ("A2", 420.0, 594.0),
+    ("A3", 297.0, 420.0),
+    ("A4", 210.0, 297.0),
+    ("A5", 148.0, 210.0),
+    ("A6", 105.0, 148.0),
+    ("Letter", 215.9, 279.4),
+    ("Legal", 215.9, 355.6),
+    ("Tabloid", 279.4, 431.8),
+];
+
+/// A width and a height, in user units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Extent {
+    pub(crate) width: f64,
+    pub(crate) height: f64,
+}
+
+impl Extent {
+    fn new(width: f64, height: f64) -> Result<Self, String> {
+        if [width, height].into_iter().all(|side| side > 0.0 && side <= LARGEST) {
+            Ok(Self { width, height })
+        } else {
+            Err(format!("sides must be above 0 and at most {LARGEST}"))
+        }
+    }
+
+    /// The sheet lying on its longer side.
+    pub(crate) fn lying(self) -> Self {
+        Self { width: self.width.max(self.height), height: self.width.min(self.height) }
+    }
+}
+
+/// Reads `1000x800` or `1000`, in px.
+pub(crate) fn size_px(text: &str) -> Result<Extent, String> {
+    let side = |text: &str| {
+        let text = text.trim().trim_end_matches("px");
+        text.parse::<f64>().map_err(|_| "write WIDTHxHEIGHT in px, such as 1000x800".to_owned())
+    };
+    match text.split_once(['x', 'X', '×']) {
+        // `800px` has an x that parts nothing.
+        Some((width, height)) if !width.trim_end().ends_with(['p', 'P']) => {
+            Extent::new(side(width)?, side(height.trim_start())?)
+        }
+        _ => side(text).and_then(|side| Extent::new(side, side)),
+    }
+}
+
+/// The names of sheets.
+pub(crate) fn sheet_names() -> impl Iterator<Item = &'static str> {
+    SHEETS.iter().map(|(name, _, _)| *name)
+}
+
+/// Reads `A4`, `Letter` or `210x297mm`, in mm.
+pub(crate) fn page_mm(text: &str) -> Result<Extent, String> {
+    if let Some((_, width, height)) =
+        SHEETS.iter().find(|(name, _, _)| name.eq_ignore_ascii_case(text.trim()))
+    {
+        return Extent::new(*width, *height);
+    }
+    let wrong = || {
+        let names: Vec<&str> = SHEETS.iter().map(|(name, _, _)| *name).collect();
+        format!("write one of {}, or WIDTHxHEIGHT such as 210x297mm", names.join(", "))
+    };
+    let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
+    let height = Measure::parse(height).ok_or_else(wrong)?;
+    let mut width = Measure::parse(width).ok_or_else(wrong)?;
+    // The unit behind the height counts for both.
+    if width.unit_left_out && !height.unit_left_out {
+        width = Measure::parse(&format!("{}{}", width.length.value, unit_of(text))).ok_or_else(wrong)?;
+    }
+    Extent::new(width.in_unit(Unit::Mm), height.in_unit(Unit::Mm))
+}
+
+fn unit_of(text: &str) -> &str {
+    text.rfind(|c: char| !c.is_ascii_alphabetic()).map_or("", |i| text.get(i + 1..).unwrap_or(""))
+}
+
+/// A length that takes the unit of the page where it is written without.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Measure {
+    length: Length,
+    unit_left_out: bool,
+}
+
+impl Measure {
+    fn parse(text: &str) -> Option<Self> {
+        let length = Length::parse(text)?;
+        Some(Self { length, unit_left_out: !text.trim().ends_with(|c: char| c.is_ascii_alphabetic()) })
+    }
+
+    /// The length in user units.
+    fn in_unit(self, unit: Unit) -> f64 {
+        if self.unit_left_out { self.length.value } else { self.length.in_unit(unit) }
+    }
+}
+
+/// Reads `10mm`, `0.5in`, or `10` in the unit of the page.
+pub(crate) fn margin(text: &str) -> Result<Measure, String> {
+    Measure::parse(text)
+        .filter(|margin| margin.length.value >= 0.0)
+        .ok_or_else(|| "write a length such as 10mm".to_owned())
+}
+
+/// Reads `1:2` or `0.5`: the length on paper of one unit of length.
+pub(crate) fn scale(text: &str) -> Result<f64, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite() && *n > 0.0);
+    let ratio = match text.split_once(':') {
+        Some((paper, model)) => number(paper).zip(number(model)).map(|(paper, model)| paper / model),
+        None => number(text),
+    };
+    ratio.filter(|r| r.is_finite() && *r > 0.0).ok_or_else(|| "write a scale such as 1:2 or 5:1".to_owned())
+}
+
+/// The sheet that is drawn on: its size, and the margin round the frame of the picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Paper {
+    /// Width and height in user units.
+    pub(crate) extent: Extent,
+    /// What a user unit is.
+    pub(crate) unit: Unit,
+    /// Width of the margin in user units.
+    pub(crate) margin: f64,
+}
+
+impl Paper {
+    /// A sheet with its margin; without one a page of mm has 10 mm, a picture of px none.
+    pub(crate) fn new(extent: Extent, unit: Unit, margin: Option<Measure>) -> Result<Self, Error> {
+        let margin = match (margin, unit) {
+            (Some(margin), unit) => margin.in_unit(unit),
+            (None, Unit::Mm) => 10.0,
+            (None, Unit::Px) => 0.0,
+        };
+        let shorter = extent.width.min(extent.height);
+        if margin * 2.0 >= shorter {
+            let unit = unit.name();
+            return Err(Error::new(format!(
+                "a margin of {margin} {unit} leaves no room on a page of {shorter} {unit}"
+            ))
+            .at("--margin")
+            .remedy("make it less than half of the page's shorter side"));
+        }
+        Ok(Self { extent, unit, margin })
+    }
+
+    /// Width and height of the frame inside the margin.
+    pub(crate) fn frame(&self) -> (f64, f64) {
+        (self.extent.width - 2.0 * self.margin, self.extent.height - 2.0 * self.margin)
+    }
+
+    /// The page without its colour.
+    pub(crate) fn page(&self) -> Page {
+        Page { width: self.extent.width, height: self.extent.height, unit: self.unit, background: None }
+    }
+
+    /// Millimetres in a user unit.
+    pub(crate) fn mm_per_unit(&self) -> f64 {
+        match self.unit {
+            Unit::Mm => 1.0,
+            Unit::Px => MM_PER_PX,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn extent(width: f64, height: f64) -> Result<Extent, String> {
+        Ok(Extent { width, height })
+    }
+
+    #[test]
+    fn reads_sizes() {
+        assert_eq!(size_px("1000x800"), extent(1000.0, 800.0));
+        assert_eq!(size_px("640"), extent(640.0, 640.0));
+        assert_eq!(size_px("640px"), extent(640.0, 640.0));
+        assert_eq!(size_px("640 x 480px"), extent(640.0, 480.0));
+        for wrong in ["", "x", "0x10", "10x", "-5", "nan", "inf", "1e9", "10x10x10"] {
+            assert!(size_px(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn reads_pages() {
+        assert_eq!(page_mm("a4"), extent(210.0, 297.0));
+        assert_eq!(page_mm("Letter"), extent(215.9, 279.4));
+        assert_eq!(page_mm("210x297mm"), extent(210.0, 297.0));
+        assert_eq!(page_mm("100x50"), extent(100.0, 50.0));
+        assert_eq!(page_mm("21x29.7cm"), extent(210.0, 297.0));
+        assert_eq!(page_mm("20mmx3cm"), extent(20.0, 30.0));
+        assert_eq!(page_mm("A3").map(Extent::lying), extent(420.0, 297.0));
+        for wrong in ["", "A9", "210", "0x5mm", "5x5furlong"] {
+            assert!(page_mm(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn reads_scales() {
+        assert_eq!(scale("1:2"), Ok(0.5));
+        assert_eq!(scale("5 : 1"), Ok(5.0));
+        assert_eq!(scale("0.25"), Ok(0.25));
+        for wrong in ["", "0:1", "1:0", "-1:2", "a:b", "1:2:3"] {
+            assert!(scale(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn the_margin_leaves_a_frame() -> Result<(), Error> {
+        let sheet = Extent { width: 210.0, height: 297.0 };
+        assert_eq!(Paper::new(sheet, Unit::Mm, None)?.frame(), (190.0, 277.0));
+        assert_eq!(Paper::new(sheet, Unit::Px, None)?.frame(), (210.0, 297.0));
+        assert_eq!(Paper::new(sheet, Unit::Mm, margin("1cm").ok())?.margin, 10.0);
+        assert_eq!(Paper::new(sheet, Unit::Mm, margin("5").ok())?.margin, 5.0);
+        assert!((Paper::new(sheet, Unit::Px, margin("0.1in").ok())?.margin - 9.6).abs() < 1e-12);
+        assert!(Paper::new(sheet, Unit::Mm, margin("105mm").ok()).is_err());
+        assert!(margin("-1mm").is_err() && margin("wide").is_err());
+        Ok(())
+    }
+}

@@ -1,0 +1,189 @@
+//! [`Shard`]: the share of the work that is one computer's, told by the call or by the job array that it runs in.
+
+use std::fmt;
+
+use crate::error::Error;
+
+/// Some of all there is to do: every `of`th, from the `first` on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Shard {
+    first: usize,
+    of: usize,
+}
+
+/// What was typed: which shard, or of how many.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Share {
+    /// `2/4`.
+    Given(Shard),
+    /// `/4`: the job array knows which.
+    Of(usize),
+}
+
+impl Shard {
+    /// Whether what has this number, from 0 on, is in it.
+    pub(crate) const fn has(self, number: usize) -> bool {
+        number % self.of == self.first
+    }
+}
+
+impl fmt::Display for Shard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.first + 1, self.of)
+    }
+}
+
+impl Share {
+    /// Reads `K/N` or `/N`.
+    pub(crate) fn parse(text: &str) -> Result<Self, String> {
+        let share = text.split_once('/').and_then(|(k, n)| {
+            let of: usize = n.parse().ok().filter(|of| *of > 0)?;
+            if k.is_empty() {
+                return Some(Self::Of(of));
+            }
+            let k: usize = k.parse().ok().filter(|k| (1..=of).contains(k))?;
+            Some(Self::Given(Shard { first: k - 1, of }))
+        });
+        share.ok_or_else(|| "write K/N, such as 1/4 for the first of four, or /4 in a job array".to_owned())
+    }
+
+    /// The shard, asking the environment if need be.
+    ///
+    /// # Errors
+    /// If this is no task of a job array, or none of so many.
+    pub(crate) fn shard(self) -> Result<Shard, Error> {
+        match self {
+            Self::Given(shard) => Ok(shard),
+            Self::Of(of) => numbered(of, &variable)?.ok_or_else(|| {
+                Error::new("this is not a task of a job array: neither SLURM_ARRAY_TASK_ID nor JOB_COMPLETION_INDEX is set")
+                    .at("--shard")
+                    .remedy(format!("write the number of the shard, such as 1/{of}"))
+            }),
+        }
+    }
+}
+
+/// The shard of the job array that this process is a task of, if it is one.
+///
+/// # Errors
+/// If the environment does not tell of how many.
+pub(crate) fn of_array() -> Result<Option<Shard>, Error> {
+    counted(&variable)
+}
+
+fn variable(name: &str) -> Option<String> {
+    std::env::var(name).ok().filter(|value| !value.is_empty())
+}
+
+/// A number in a variable, if it is set.
+fn number(name: &str, variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<usize>, Error> {
+    let Some(value) = variable(name) else { return Ok(None) };
+    let number = value.trim().parse();
+    let wrong = |_| Error::new(format!("`{value}` is not a number")).at(name).remedy("give --shard K/N");
+    number.map(Some).map_err(wrong)
+}
+
+/// The shard of a task of `of`: Slurm's tasks are numbered from 1, those of Kubernetes from 0.
+fn numbered(of: usize, variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<Shard>, Error> {
+    let slurm = number("SLURM_ARRAY_TASK_ID", variable)?.map(|id| ("SLURM_ARRAY_TASK_ID", id, 1));
+    let kubernetes = || number("JOB_COMPLETION_INDEX", variable);
+    let found = match slurm {
+        None => kubernetes()?.map(|index| ("JOB_COMPLETION_INDEX", index, 0)),
+        found => found,
+    };
+    let Some((name, id, least)) = found else { return Ok(None) };
+    let first = id.checked_sub(least).filter(|first| *first < of);
+    let first = first.ok_or_else(|| {
+        Error::new(format!("task {id} is outside {least} to {}", of - 1 + least))
+            .at(name)
+            .remedy(format!("number the tasks from {least} to {}, or give --shard K/N", of - 1 + least))
+    })?;
+    Ok(Some(Shard { first, of }))
+}
+
+/// The shard of a task of an array that says itself how many tasks it has.
+fn counted(variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<Shard>, Error> {
+    let number = |name| number(name, variable);
+    let unsaid = |name: &str, missing: &str| {
+        Err(Error::new(format!("this is a task of a job array, but {missing}"))
+            .at(name)
+            .remedy("give --shard /N with the number of tasks, or --shard 1/1 to draw all here"))
+    };
+    if let Some(id) = number("SLURM_ARRAY_TASK_ID")? {
+        let name = "SLURM_ARRAY_TASK_ID";
+        let Some(of) = number("SLURM_ARRAY_TASK_COUNT")?.filter(|of| *of > 0) else {
+            return unsaid(name, "SLURM_ARRAY_TASK_COUNT is missing");
+        };
+        let least = number("SLURM_ARRAY_TASK_MIN")?.unwrap_or(1);
+        let step = number("SLURM_ARRAY_TASK_STEP")?.unwrap_or(1).max(1);
+        let most =
+            number("SLURM_ARRAY_TASK_MAX")?.unwrap_or(least.saturating_add((of - 1).saturating_mul(step)));
+        let place = |id: usize| id.checked_sub(least).filter(|off| off % step == 0).map(|off| off / step);
+        // A list such as 3,7 has gaps: which of its tasks this is, nobody says.
+        return match place(id).filter(|first| *first < of && place(most) == Some(of - 1)) {
+            Some(first) => Ok(Some(Shard { first, of })),
+            None => unsaid(name, "its task numbers have gaps"),
+        };
+    }
+    if let Some(first) = number("JOB_COMPLETION_INDEX")? {
+        let name = "JOB_COMPLETION_INDEX";
+        return match number("JOB_COMPLETIONS")? {
+            Some(of) if first < of => Ok(Some(Shard { first, of })),
+            Some(of) => unsaid(name, &format!("JOB_COMPLETIONS is {of}, and the index is not below it")),
+            None => unsaid(name, "JOB_COMPLETIONS is missing"),
+        };
+    }
+    Ok(None)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn set(line: &str) -> impl Fn(&str) -> Option<String> + '_ {
+        |name| {
+            line.split_whitespace().find_map(|pair| pair.strip_prefix(&format!("{name}=")).map(str::to_owned))
+        }
+    }
+
+    #[test]
+    fn shards_count_from_one() {
+        assert_eq!(Share::parse("1/4"), Ok(Share::Given(Shard { first: 0, of: 4 })));
+        assert_eq!(Share::parse("4/4"), Ok(Share::Given(Shard { first: 3, of: 4 })));
+        assert_eq!(Share::parse("/4"), Ok(Share::Of(4)));
+        for wrong in ["0/4", "5/4", "1", "a/b", "1/0", "-1/2", "/0", "/"] {
+            assert!(Share::parse(wrong).is_err(), "{wrong}");
+        }
+        let all: Vec<usize> = (0..10).filter(|n| Shard { first: 1, of: 4 }.has(*n)).collect();
+        assert_eq!(all, [1, 5, 9]);
+    }
+
+    #[test]
+    fn arrays_tell_their_tasks() -> Result<(), Error> {
+        let shard = |first, of| Some(Shard { first, of });
+        assert_eq!(counted(&set(""))?, None);
+        let slurm = "SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=4";
+        assert_eq!(counted(&set(slurm))?, shard(2, 4));
+        assert_eq!(counted(&set(&format!("{slurm} SLURM_ARRAY_TASK_MIN=0")))?, shard(3, 4));
+        let odd = "SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_MAX=7 SLURM_ARRAY_TASK_STEP=2";
+        assert_eq!(counted(&set(&format!("{slurm} {odd}")))?, shard(1, 4));
+        assert_eq!(counted(&set("JOB_COMPLETION_INDEX=0 JOB_COMPLETIONS=4"))?, shard(0, 4));
+        for wrong in [
+            "SLURM_ARRAY_TASK_ID=3",
+            "SLURM_ARRAY_TASK_ID=0 SLURM_ARRAY_TASK_COUNT=4",
+            "SLURM_ARRAY_TASK_ID=7 SLURM_ARRAY_TASK_COUNT=2 SLURM_ARRAY_TASK_MIN=3 SLURM_ARRAY_TASK_MAX=7",
+            "SLURM_ARRAY_TASK_ID=x SLURM_ARRAY_TASK_COUNT=2",
+            "JOB_COMPLETION_INDEX=0",
+            "JOB_COMPLETION_INDEX=4 JOB_COMPLETIONS=4",
+        ] {
+            assert!(counted(&set(wrong)).is_err(), "{wrong}");
+        }
+        // A task that runs again alone is still the one of its number.
+        let again = "SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=1 SLURM_ARRAY_TASK_MIN=3";
+        assert_eq!(numbered(4, &set(again))?, shard(2, 4));
+        assert_eq!(numbered(4, &set("JOB_COMPLETION_INDEX=3"))?, shard(3, 4));
+        assert!(numbered(2, &set(again)).is_err());
+        assert_eq!(numbered(2, &set(""))?, None);
+        Ok(())
+    }
+}

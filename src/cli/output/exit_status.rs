@@ -1,0 +1,46 @@
+//! Which exit status an error ends with: whether to mend what was given, or to call again.
+
+use std::error::Error as _;
+use std::io::{self, ErrorKind};
+
+use crate::cli::{LATER, WRONG};
+use crate::error::{self, Error};
+
+/// Faults of reading and writing that stay as they are until a person does something.
+const LASTING: [ErrorKind; 11] = [
+    ErrorKind::NotFound,
+    ErrorKind::PermissionDenied,
+    ErrorKind::AlreadyExists,
+    ErrorKind::IsADirectory,
+    ErrorKind::NotADirectory,
+    ErrorKind::DirectoryNotEmpty,
+    ErrorKind::InvalidInput,
+    ErrorKind::InvalidData,
+    ErrorKind::InvalidFilename,
+    ErrorKind::UnexpectedEof,
+    ErrorKind::Unsupported,
+];
+
+/// The status that tells what kind of error it was.
+pub(crate) fn of_error(error: &Error) -> u8 {
+    if passes(error) { LATER } else { WRONG }
+}
+
+/// Whether the same may well succeed later.
+pub(crate) fn passes(error: &Error) -> bool {
+    let source = error.source().and_then(|source| source.downcast_ref::<io::Error>());
+    error.kind == error::ErrorKind::Io && source.is_some_and(|source| !LASTING.contains(&source.kind()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_full_disc_passes_and_a_missing_file_does_not() {
+        let of = |kind: ErrorKind| of_error(&Error::io("cannot write", kind.into()));
+        assert_eq!([ErrorKind::StorageFull, ErrorKind::TimedOut, ErrorKind::Other].map(of), [LATER; 3]);
+        assert_eq!([ErrorKind::NotFound, ErrorKind::IsADirectory].map(of), [WRONG; 2]);
+        assert_eq!(of_error(&Error::new("the file is empty")), WRONG);
+    }
+}

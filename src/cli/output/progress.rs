@@ -1,0 +1,111 @@
+//! Progress on standard error: only on a terminal, only when work takes over half a second.
+
+use std::io::{IsTerminal, Write};
+use std::path::Path;
+use std::sync::mpsc::{self, RecvTimeoutError, Sender};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// Work shorter than this shows nothing.
+const PATIENCE: Duration = Duration::from_millis(500);
+
+/// Time between two pictures of the bar.
+const TICK: Duration = Duration::from_millis(100);
+
+/// Width of the bar in characters.
+const WIDTH: u128 = 20;
+
+/// Clears the line of a terminal.
+const CLEAR: &str = "\r\x1b[K";
+
+/// A bar that moves while work goes on; dropping it clears the line.
+pub(crate) struct Progress {
+    shown: Option<(Sender<String>, JoinHandle<()>)>,
+}
+
+impl Progress {
+    /// Begins, unless nobody would see it.
+    pub(crate) fn start(quiet: bool, model: &Path) -> Self {
+        if quiet || !std::io::stderr().is_terminal() {
+            return Self { shown: None };
+        }
+        let name = model.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let (sender, steps) = mpsc::channel();
+        let thread = std::thread::spawn(move || {
+            let started = Instant::now();
+            let mut step = String::new();
+            let mut visible = false;
+            loop {
+                match steps.recv_timeout(if visible { TICK } else { PATIENCE }) {
+                    Ok(next) => step = next,
+                    Err(RecvTimeoutError::Disconnected) => break,
+                    Err(RecvTimeoutError::Timeout) => {}
+                }
+                if started.elapsed() >= PATIENCE {
+                    visible = true;
+                    show(&picture(started.elapsed(), &step, &name));
+                }
+            }
+            if visible {
+                show(CLEAR);
+            }
+        });
+        Self { shown: Some((sender, thread)) }
+    }
+
+    /// Says what is being done now.
+    pub(crate) fn step(&self, name: impl Into<String>) {
+        if let Some((sender, _)) = &self.shown {
+            // A bar that has ended is no reason to stop working.
+            let _ = sender.send(name.into());
+        }
+    }
+}
+
+impl Progress {
+    /// A line on standard error that the bar makes way for; one that nobody reads is no error.
+    pub(crate) fn tell(&self, line: &str) {
+        show(&if self.shown.is_some() { format!("{CLEAR}{line}\n") } else { format!("{line}\n") });
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        if let Some((sender, thread)) = self.shown.take() {
+            drop(sender);
+            let _ = thread.join();
+        }
+    }
+}
+
+fn show(text: &str) {
+    let mut stderr = std::io::stderr().lock();
+    let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
+}
+
+/// A block that wanders to and fro, what is being done, and for how long.
+fn picture(elapsed: Duration, step: &str, name: &str) -> String {
+    let turn = (elapsed.as_millis() / TICK.as_millis()) % (2 * WIDTH);
+    let place = if turn < WIDTH { turn } else { 2 * WIDTH - 1 - turn };
+    let bar: String = (0..WIDTH).map(|i| if i.abs_diff(place) <= 1 { '=' } else { ' ' }).collect();
+    format!("{CLEAR}[{bar}] {step} {name}, {:.1} s", elapsed.as_secs_f64())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_block_wanders_within_the_bar() {
+        for tick in 0..100 {
+            let text = picture(TICK * tick, "drawing", "bunny.obj");
+            let bar = text.split_once('[').and_then(|_| text.rsplit_once('[')).map(|(_, rest)| rest);
+            let inside = bar.and_then(|bar| bar.split_once(']')).map(|(inside, _)| inside.to_owned());
+            let inside = inside.unwrap_or_default();
+            assert_eq!(inside.len() as u128, WIDTH);
+            assert!((2..=3).contains(&inside.matches('=').count()), "{inside}");
+        }
+        let text = picture(Duration::from_millis(700), "drawing", "bunny.obj");
+        assert!(text.ends_with("] drawing bunny.obj, 0.7 s"), "{text}");
+    }
+}

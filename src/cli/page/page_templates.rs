@@ -1,0 +1,50 @@
+//! `ligne page --new`: a page file to start from, with a word on each key, and the models that it shows.
+
+use std::path::Path;
+
+use crate::cli::output::output_files::{Staging, check_place};
+use crate::cli::say;
+use crate::error::Error;
+
+/// A file beside the page file: its name and its bytes.
+type Beside = (&'static str, &'static [u8]);
+
+/// The page file of a comic page, and its models.
+const COMIC: (&str, &[Beside]) = (
+    include_str!("new-comic.toml"),
+    &[
+        ("example-crane.glb", include_bytes!("../../../examples/models/crane.glb")),
+        ("example-goose.obj", include_bytes!("../../../examples/models/goose.obj")),
+    ],
+);
+
+/// The same of a technical sheet.
+const SHEET: (&str, &[Beside]) = (
+    include_str!("new-sheet.toml"),
+    &[("example-pump.glb", include_bytes!("../../../examples/models/pump.glb"))],
+);
+
+/// Writes a page file of that kind, and its models beside it; files that are there stay.
+pub(crate) fn write(kind: &str, out: &Path, quiet: bool) -> Result<(), Error> {
+    check_place(out)?;
+    if out.exists() {
+        return Err(Error::new("the file exists already")
+            .in_file(out)
+            .remedy("choose another name, or remove the file"));
+    }
+    let (text, models) = if kind == "sheet" { SHEET } else { COMIC };
+    let mut staging = Staging::default();
+    staging.add(out, text.as_bytes())?;
+    let missing = models.iter().map(|(name, bytes)| (out.with_file_name(name), bytes));
+    let missing: Vec<_> = missing.filter(|(path, _)| !path.exists()).collect();
+    for (path, bytes) in &missing {
+        staging.add(path, bytes)?;
+    }
+    staging.commit()?;
+    if !quiet {
+        let beside: Vec<String> = missing.iter().map(|(path, _)| path.display().to_string()).collect();
+        let beside = if beside.is_empty() { String::new() } else { format!(", with {}", beside.join(", ")) };
+        say(&format!("{}{beside}: `ligne page {}` draws it", out.display(), out.display()));
+    }
+    Ok(())
+}

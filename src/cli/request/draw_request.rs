@@ -1,0 +1,330 @@
+//! [`DrawRequest`]: what is meant by what was typed, checked before any work is done.
+
+use std::path::{Path, PathBuf};
+
+use super::viewpoint::{Lens, Sheet, View};
+use crate::cli::options::draw_args::{DrawArgs, GroupBy, HowArgs};
+use crate::cli::options::dxf_args::DxfArgs;
+use crate::cli::options::framing_args::Frame;
+use crate::cli::options::section_args::SectionArgs;
+use crate::cli::options::web_args::WebArgs;
+use crate::cli::output::output_files::{Format, Output, is_stdout};
+use crate::cli::step::StepArgs;
+use crate::colour::srgb::Colour;
+use crate::drawing::Unit;
+use crate::error::Error;
+#[cfg(feature = "pdf")]
+use crate::export::PdfOptions;
+use crate::load::ModelFormat;
+use crate::pipeline::{MapFiles, Stage};
+use crate::scene::UpAxis;
+
+/// One drawing to be made, in one or several formats.
+#[derive(Debug)]
+pub(crate) struct DrawRequest {
+    pub(crate) model: PathBuf,
+    /// What standard input holds, where the model is read from there.
+    pub(crate) piped: Option<ModelFormat>,
+    /// How a STEP model becomes triangles.
+    pub(crate) step: StepArgs,
+    /// At least one; no two to the same place.
+    pub(crate) outputs: Vec<Output>,
+    pub(crate) report: Option<PathBuf>,
+    /// A folder for the maps of the view.
+    pub(crate) maps: Option<PathBuf>,
+    pub(crate) style: String,
+    pub(crate) sets: Vec<String>,
+    /// In place of the style's, which `None` leaves.
+    pub(crate) background: Option<Option<Colour>>,
+    pub(crate) view: View,
+    pub(crate) up: Option<UpAxis>,
+    pub(crate) only: Vec<String>,
+    pub(crate) hide: Vec<String>,
+    /// The names of the animations that play, and when.
+    pub(crate) animation: Vec<String>,
+    /// Whether each begins again when it is over.
+    pub(crate) repeat: bool,
+    pub(crate) time: Option<f64>,
+    /// How many faces there may be.
+    pub(crate) faces: Option<u64>,
+    pub(crate) sheet: Sheet,
+    /// What the frame is to hold.
+    pub(crate) frame: Frame,
+    /// Where the model is cut open.
+    pub(crate) section: SectionArgs,
+    /// Where the camera of the drawing is written.
+    pub(crate) save_camera: Option<PathBuf>,
+    pub(crate) svg: SvgChoices,
+    pub(crate) web: WebArgs,
+    pub(crate) dxf: DxfArgs,
+    /// How PDF is written, where that was said.
+    #[cfg(feature = "pdf")]
+    pub(crate) print: Option<PdfOptions>,
+    pub(crate) dpi: Option<f64>,
+    pub(crate) stage: Option<Stage>,
+    pub(crate) threads: Option<u16>,
+    pub(crate) quiet: bool,
+    pub(crate) strict: bool,
+}
+
+/// How SVG is written.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct SvgChoices {
+    /// Decimals of coordinates; `None` for the exporter's own choice.
+    pub(crate) precision: Option<u8>,
+    pub(crate) id_prefix: Option<String>,
+    pub(crate) group: GroupBy,
+}
+
+impl DrawRequest {
+    /// Whether lengths in the drawing are those of the model: on a page with a scale, and in DXF.
+    pub(crate) fn is_to_scale(&self) -> bool {
+        self.sheet.scale.is_some() || self.outputs.iter().any(|output| output.format == Format::Dxf)
+    }
+
+    /// Whether the model is drawn as its file stores it.
+    pub(crate) fn stands(&self) -> bool {
+        self.animation.is_empty() && self.time.is_none()
+    }
+
+    /// What is meant by the arguments.
+    ///
+    /// # Errors
+    /// Where an output has no known format, where two outputs are the same file, and where an
+    /// output would overwrite the model.
+    pub(crate) fn new(args: DrawArgs) -> Result<Self, Error> {
+        let typed = args.out.into_iter().chain(args.more).chain(args.outputs).collect();
+        let paths = args.many.paths(&args.model, typed)?;
+        let outputs = paths.into_iter().map(Output::new).collect::<Result<Vec<_>, _>>()?;
+        let save_camera = args.save.save_camera;
+        let besides: Vec<&Path> = args.report.iter().chain(&save_camera).map(PathBuf::as_path).collect();
+        check_apart(&args.model, &outputs, &besides, args.maps.as_deref())?;
+        let piped = args.many.piped([&args.model])?;
+        let request = Self::of_model(args.model, args.how)?.reading(piped);
+        #[cfg(feature = "pdf")]
+        let print = args.print.of_outputs(args.web.pdf_inks(), &outputs)?;
+        Ok(Self {
+            #[cfg(feature = "pdf")]
+            print,
+            outputs,
+            report: args.report,
+            maps: args.maps,
+            stage: args.stage,
+            save_camera,
+            web: args.web,
+            dxf: args.dxf,
+            ..request
+        })
+    }
+
+    /// The same with the model from standard input, where that is what its name says.
+    pub(crate) fn reading(mut self, piped: Option<ModelFormat>) -> Self {
+        self.piped = piped.filter(|_| is_stdout(&self.model));
+        if self.piped.is_some() {
+            self.model = PathBuf::from("standard input");
+        }
+        self
+    }
+
+    /// What is meant by a model and how it is drawn: SVG on standard output.
+    ///
+    /// # Errors
+    /// Where options do not go together.
+    pub(crate) fn of_model(model: PathBuf, args: HowArgs) -> Result<Self, Error> {
+        // clap drops what an option requires where that conflicts with another option given.
+        let alone = [("--scale", args.scale.is_some()), ("--landscape", args.landscape)];
+        if let Some((option, _)) = alone.into_iter().find(|(_, given)| *given && args.page.is_none()) {
+            return Err(Error::new("this option needs a page in mm")
+                .at(option)
+                .remedy("give --page, such as --page A4"));
+        }
+        let lens = match (args.fov, args.ortho || args.scale.is_some()) {
+            (Some(fov_y_deg), _) => Some(Lens::Perspective { fov_y_deg }),
+            (None, true) => Some(Lens::Parallel),
+            (None, false) => None,
+        };
+        if args.view.len() > 1 {
+            return Err(Error::new("one drawing cannot show several views")
+                .at("--view")
+                .remedy("give one view"));
+        }
+        let view = match (args.camera, args.view.first().copied()) {
+            (Some(camera), _) => View::Recorded(camera),
+            (None, Some(view)) => View::Named(view, lens),
+            (None, None) => View::Angles { azimuth_deg: args.azimuth, elevation_deg: args.elevation, lens },
+        };
+        let page = args.page.map(|page| if args.landscape { page.lying() } else { page });
+        Ok(Self {
+            model,
+            piped: None,
+            step: args.step,
+            outputs: vec![Output { path: PathBuf::from("-"), format: Format::SvgToStdout }],
+            report: None,
+            maps: None,
+            style: args.style,
+            sets: args.sets.into_iter().chain(args.seed.map(|seed| format!("seed={seed}"))).collect(),
+            background: args.background.map(|background| background.0),
+            view,
+            up: args.up,
+            only: args.only,
+            hide: args.hide,
+            animation: args.animation,
+            repeat: args.repeat,
+            time: args.time,
+            faces: args.faces,
+            sheet: Sheet {
+                extent: page.map(|mm| (mm, Unit::Mm)).or(args.size.map(|px| (px, Unit::Px))),
+                margin: args.margin,
+                scale: args.scale,
+                centre: args.framing.centre,
+                unit: args.framing.unit,
+            },
+            frame: args.framing.frame,
+            section: args.section,
+            save_camera: None,
+            svg: SvgChoices { precision: args.precision, id_prefix: args.id_prefix, group: args.group },
+            web: WebArgs::default(),
+            dxf: DxfArgs::default(),
+            #[cfg(feature = "pdf")]
+            print: None,
+            dpi: args.dpi,
+            stage: None,
+            threads: args.threads,
+            quiet: args.quiet,
+            strict: args.strict,
+        })
+    }
+}
+
+/// Refuses files that would be written twice, or over the model.
+pub(crate) fn check_apart(
+    model: &Path,
+    outputs: &[Output],
+    besides: &[&Path],
+    maps: Option<&Path>,
+) -> Result<(), Error> {
+    let mut taken: Vec<PathBuf> = Vec::new();
+    let files = outputs.iter().filter(|output| output.format != Format::SvgToStdout);
+    let besides_files = besides.iter().copied().filter(|path| !is_stdout(path));
+    let in_folder: Vec<PathBuf> =
+        maps.into_iter().flat_map(|folder| MapFiles::NAMES.map(|name| folder.join(name))).collect();
+    let paths = files.map(|output| output.path.as_path()).chain(besides_files);
+    for path in paths.chain(in_folder.iter().map(PathBuf::as_path)) {
+        if same_file(path, model) {
+            return Err(Error::new("the drawing would overwrite the model")
+                .in_file(path)
+                .remedy("give the drawing another name"));
+        }
+        if taken.iter().any(|other| same_file(path, other)) {
+            return Err(Error::new("this output is named twice").in_file(path).remedy("leave one out"));
+        }
+        taken.push(path.to_path_buf());
+    }
+    let printed = outputs.iter().filter(|output| output.format == Format::SvgToStdout).count();
+    if printed + besides.iter().filter(|path| is_stdout(path)).count() > 1 {
+        return Err(Error::new("standard output is named twice").remedy("leave one `-` out"));
+    }
+    Ok(())
+}
+
+/// Whether two paths lead to one file, as far as that can be told before writing.
+pub(crate) fn same_file(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b && a.is_file(),
+        _ => a == b,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+    use crate::cli::options::values::paper_size::Extent;
+
+    #[derive(Parser)]
+    struct Typed {
+        #[command(flatten)]
+        args: DrawArgs,
+    }
+
+    fn request(line: &str) -> Result<DrawRequest, String> {
+        let words = std::iter::once("draw").chain(line.split_whitespace());
+        let typed = Typed::try_parse_from(words).map_err(|error| error.to_string())?;
+        DrawRequest::new(typed.args).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn the_drawing_is_named_after_the_model() -> Result<(), String> {
+        let request = request("some/folder/bunny.v2.obj")?;
+        let paths: Vec<_> = request.outputs.iter().map(|output| output.path.clone()).collect();
+        assert_eq!(paths, [PathBuf::from("bunny.v2.svg")]);
+        assert_eq!(request.view, View::Angles { azimuth_deg: None, elevation_deg: None, lens: None });
+        assert!(request.sheet.extent.is_none() && request.background.is_none());
+        Ok(())
+    }
+
+    #[test]
+    fn options_become_what_is_meant() -> Result<(), String> {
+        let printed =
+            request("m.stl a.svg -o b.PNG -o - --page a4 --landscape --scale 1:2 --background none")?;
+        let formats: Vec<_> = printed.outputs.iter().map(|output| output.format).collect();
+        assert_eq!(formats, [Format::Svg, Format::Png, Format::SvgToStdout]);
+        assert_eq!(printed.sheet.extent, Some((Extent { width: 297.0, height: 210.0 }, Unit::Mm)));
+        assert_eq!(printed.background, Some(None));
+        assert_eq!(printed.sheet.scale, Some(0.5));
+        let lens = Some(Lens::Parallel);
+        assert_eq!(printed.view, View::Angles { azimuth_deg: None, elevation_deg: None, lens });
+        let turned = request("m.stl --azimuth -35 --elevation -10.5 --fov 20")?;
+        let lens = Some(Lens::Perspective { fov_y_deg: 20.0 });
+        assert_eq!(turned.view, View::Angles { azimuth_deg: Some(-35.0), elevation_deg: Some(-10.5), lens });
+        Ok(())
+    }
+
+    #[test]
+    fn contradictions_are_refused() {
+        let wrong = [
+            "",
+            "m.stl a.gif",
+            "m.stl a.eps",
+            "m.stl a",
+            "m.stl a.svg -o a.svg",
+            "m.stl - -o -",
+            "m.stl a.svg --report a.svg",
+            "m.stl - --report -",
+            "m.stl maps/depth.png --maps maps",
+            "m.svg m.svg",
+            "m.stl --view iso --azimuth 3",
+            "m.stl --view sideways",
+            "m.stl --fov 30 --ortho",
+            "m.stl --fov 180",
+            "m.stl --elevation 91",
+            "m.stl --azimuth nan",
+            "m.stl --camera c.json --view top",
+            "m.stl --scale 1:2",
+            "m.stl --scale 1:2 --page A4 --fov 30",
+            "m.stl --scale 1:2 --size 9",
+            "m.stl --landscape",
+            "m.stl --landscape --size 9",
+            "m.stl --size 10x10 --page A4",
+            "m.stl --threads 0",
+            "m.stl --precision 10",
+            "m.stl --set seed",
+            "m.stl --background bluish",
+            "m.stl --id-prefix 9",
+            "m.stl --stage cells",
+            "m.stl --dpi 0",
+            "m.stl --up x",
+            "m.stl --centre 1,2",
+            "m.stl --unit furlong",
+            "m.stl a.svg --save-camera a.svg",
+            "m.stl --save-camera m.stl",
+            "m.stl - --save-camera -",
+            "m.stl --faces 0",
+            "m.stl --faces many",
+        ];
+        for line in wrong {
+            assert!(request(line).is_err(), "{line}");
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! Warnings where a person would wonder: options that do nothing, patterns that fit nothing, drawings that show next to nothing.
+
+use std::ffi::OsString;
+
+use kurbo::{Rect, Shape};
+
+use super::draw_request::DrawRequest;
+use crate::cli::output::number_text::plain;
+use crate::cli::output::output_files::Format;
+use crate::drawing::{Drawing, Unit};
+use crate::scene::part_selection::glob_matches;
+use crate::scene::{Camera, Projection, Scene};
+use crate::style::bare_lengths as bare_lengths_of;
+
+/// A drawing smaller than this share of the page's shorter side is next to nothing.
+const SPECK: f64 = 0.02;
+
+/// Names of parts in a warning, at most.
+const SHOWN_NAMES: usize = 8;
+
+/// The patterns among `--only` and `--hide` that no part fits.
+pub(crate) fn unmatched(scene: &Scene, only: &[String], hide: &[String]) -> Vec<String> {
+    let fits = |glob: &str| scene.parts.iter().any(|part| glob_matches(glob, &part.name));
+    let given = only.iter().map(|glob| ("--only", glob)).chain(hide.iter().map(|glob| ("--hide", glob)));
+    given
+        .filter(|(_, glob)| !fits(glob))
+        .map(|(option, glob)| match scene.parts.iter().find(|part| part.name.eq_ignore_ascii_case(glob)) {
+            Some(part) => {
+                format!("{option} '{glob}' fits no part: case counts, and there is `{}`", part.name)
+            }
+            None => format!("{option} '{glob}' fits no part; `ligne info` lists them"),
+        })
+        .collect()
+}
+
+/// The options among the words of a call that change nothing in its drawings.
+pub(crate) fn idle(request: &DrawRequest, words: impl Iterator<Item = OsString>) -> Vec<String> {
+    let words: Vec<String> = words.map(|word| word.to_string_lossy().into_owned()).collect();
+    let typed = |option: &str| {
+        let with_value = format!("{option}=");
+        words
+            .iter()
+            .take_while(|word| *word != "--")
+            .any(|word| word == option || word.starts_with(&with_value))
+    };
+    let has = |wanted: &[Format]| request.outputs.iter().any(|output| wanted.contains(&output.format));
+    let svg = has(&[Format::Svg, Format::SvgToStdout]);
+    let draws_all = request.only.is_empty() && request.hide.is_empty() && request.section.section.is_none();
+    let rules = [
+        ("--dpi", !has(&[Format::Png]), "no PNG is written"),
+        ("--precision", !svg, "no SVG is written"),
+        ("--id-prefix", !svg, "no SVG is written"),
+        ("--group", !svg, "no SVG is written"),
+        ("--repeat", request.stands(), "no animation plays"),
+        ("--frame", draws_all, "all of the model is drawn"),
+    ];
+    let idle = rules.into_iter().filter(|(option, does_nothing, _)| *does_nothing && typed(option));
+    idle.map(|(option, _, why)| format!("{option} changes nothing: {why}")).collect()
+}
+
+/// The warning about lengths of the style without a unit, on a page in mm.
+pub(crate) fn bare_lengths(request: &DrawRequest) -> Option<String> {
+    match request.sheet.extent {
+        Some((_, Unit::Mm)) => bare_lengths_of(&request.style, &request.sets),
+        _ => None,
+    }
+}
+
+/// Says so where the eye is inside a part.
+pub(crate) fn enclosed(scene: &Scene, camera: &Camera) -> Option<String> {
+    // A parallel camera stands as far away as it needs to.
+    let Projection::Perspective { .. } = camera.projection else { return None };
+    let part = scene.part_round(camera.eye)?;
+    Some(format!("the eye is inside `{}`: what is drawn is seen from within", part.name))
+}
+
+/// Which parts were left out, where nothing is drawn of the others.
+pub(crate) fn hidden(request: &DrawRequest, scene: &Scene) -> Option<String> {
+    if request.only.is_empty() && request.hide.is_empty() {
+        return None;
+    }
+    let mut names: Vec<&str> = scene.parts.iter().map(|part| part.name.as_str()).take(SHOWN_NAMES).collect();
+    names.dedup();
+    let more = if scene.parts.len() > SHOWN_NAMES { " and others" } else { "" };
+    Some(format!("--only and --hide leave nothing else to draw than {}{more}", names.join(", ")))
+}
+
+/// Says so where a drawing has next to nothing in it.
+pub(crate) fn next_to_nothing(drawing: &Drawing) -> Option<String> {
+    let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
+    let boxes = marks.map(|mark| mark.path.bounding_box()).filter(|own| own.is_finite());
+    let page = &drawing.page;
+    let most = SPECK * page.width.min(page.height);
+    let mut all: Option<Rect> = None;
+    for own in boxes {
+        let union = all.map_or(own, |all| all.union(own));
+        // Most drawings say so with their first path.
+        if union.width().max(union.height()) >= most {
+            return None;
+        }
+        all = Some(union);
+    }
+    let all = all?;
+    let (width, height) = (plain(all.width(), 1), plain(all.height(), 1));
+    Some(format!("all that is drawn is {width} x {height} {} large", page.unit.name()))
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+
+    use super::*;
+    use crate::cli::options::draw_args::DrawArgs;
+
+    #[derive(Parser)]
+    struct Typed {
+        #[command(flatten)]
+        args: DrawArgs,
+    }
+
+    fn told(line: &str) -> Vec<String> {
+        let words = || std::iter::once("draw").chain(line.split_whitespace());
+        let request = DrawRequest::new(Typed::try_parse_from(words()).unwrap().args).unwrap();
+        idle(&request, words().map(OsString::from))
+    }
+
+    #[test]
+    fn options_that_do_nothing_are_told() {
+        for (line, options) in [
+            ("m.obj", 0),
+            ("m.obj --dpi 300", 1),
+            ("m.obj m.png --dpi=300", 0),
+            ("m.obj m.png --precision 3 --group part --id-prefix a-", 3),
+            ("m.obj m.png -o m.svg --dpi 300 --precision 3", 0),
+            ("m.obj --repeat --frame all", 2),
+            ("m.glb --repeat --time 3 --frame all --hide bolt", 0),
+        ] {
+            assert_eq!(told(line).len(), options, "{line}: {:?}", told(line));
+        }
+    }
+}

@@ -1,0 +1,240 @@
+//! The camera and the sheet that are meant for a scene.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+use glam::DVec3;
+
+use crate::cli::options::values::model_unit::ModelUnit;
+use crate::cli::options::values::paper_size::{Extent, Measure, Paper};
+use crate::cli::output::number_text::plain;
+use crate::drawing::Unit;
+use crate::error::Error;
+use crate::geometry::numbers::portable_math::tan;
+use crate::scene::cameras::camera::{DEFAULT_FOV_Y_DEG, DEFAULT_FRAME_PX};
+use crate::scene::cameras::framing::MARGIN;
+use crate::scene::cameras::named_views::{THREE_QUARTER_AZIMUTH_DEG, THREE_QUARTER_ELEVATION_DEG};
+use crate::scene::{Camera, NamedView, Projection, Scene};
+
+/// Share of the frame left free where the page has a margin of its own: keeps lines on the rim of
+/// the model whole.
+const MARGIN_WITHIN_MARGIN: f64 = 0.01;
+
+/// Share of the shorter side of the frame below which a model is a dot.
+const DOT: f64 = 0.02;
+
+/// From where the model is seen.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum View {
+    /// A camera record, or a camera of the model, by name.
+    Recorded(String),
+    /// A named view; orthographic unless told otherwise.
+    Named(NamedView, Option<Lens>),
+    /// Angles, each as in the three-quarter view unless told otherwise; perspective likewise.
+    Angles { azimuth_deg: Option<f64>, elevation_deg: Option<f64>, lens: Option<Lens> },
+    /// As another drawing was seen, whatever is in the frame.
+    Fixed(Camera, Paper),
+}
+
+/// How lines of sight run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Lens {
+    Perspective { fov_y_deg: f64 },
+    Parallel,
+}
+
+/// The sheet that is asked for.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Sheet {
+    /// Its size and unit.
+    pub(crate) extent: Option<(Extent, Unit)>,
+    pub(crate) margin: Option<Measure>,
+    /// The length on paper of one unit of length; as large as fits, or as recorded, where none is asked for.
+    pub(crate) scale: Option<f64>,
+    /// What comes to the middle of the frame, world.
+    pub(crate) centre: Option<DVec3>,
+    /// What a unit of the model is, if it was told.
+    pub(crate) unit: Option<ModelUnit>,
+}
+
+/// The camera, the sheet, and a warning where the one does not fit the other.
+#[derive(Debug)]
+pub(crate) struct Viewpoint {
+    pub(crate) camera: Camera,
+    pub(crate) paper: Paper,
+    pub(crate) warning: Option<String>,
+}
+
+/// Chooses the camera and the sheet; the frame is to hold `points` (world).
+///
+/// # Errors
+/// Where the camera record is wrong, where the model has no such camera, where the margin leaves nothing of the page, and what the points
+/// say.
+pub(crate) fn viewpoint<'p>(
+    view: &View,
+    sheet: &Sheet,
+    scene: &Scene,
+    points: impl FnOnce() -> Result<Cow<'p, [DVec3]>, Error>,
+) -> Result<Viewpoint, Error> {
+    let square = Extent { width: DEFAULT_FRAME_PX, height: DEFAULT_FRAME_PX };
+    let (extent, unit) = sheet.extent.unwrap_or((square, Unit::Px));
+    let (direction, lens) = match view {
+        View::Recorded(name) => return recorded(sheet, scene, name, points),
+        View::Fixed(camera, paper) => return Ok(Viewpoint { camera: *camera, paper: *paper, warning: None }),
+        View::Named(view, lens) => (Camera::named(*view, scene.up), lens.unwrap_or(Lens::Parallel)),
+        View::Angles { azimuth_deg, elevation_deg, lens } => (
+            Camera::azimuth_elevation(
+                azimuth_deg.unwrap_or(THREE_QUARTER_AZIMUTH_DEG),
+                elevation_deg.unwrap_or(THREE_QUARTER_ELEVATION_DEG),
+                scene.up,
+            ),
+            lens.unwrap_or(Lens::Perspective { fov_y_deg: DEFAULT_FOV_Y_DEG }),
+        ),
+    };
+    let paper = Paper::new(extent, unit, sheet.margin)?;
+    let (width, height) = paper.frame();
+    let projection = match lens {
+        Lens::Perspective { fov_y_deg } => Projection::Perspective { fov_y_deg },
+        Lens::Parallel => Projection::Orthographic { height: 1.0 },
+    };
+    let margin = if paper.margin > 0.0 { MARGIN_WITHIN_MARGIN } else { MARGIN };
+    let points = points()?;
+    let aimed = direction.with_frame(width, height).with_projection(projection);
+    let camera = aimed.fit_points(&points, margin);
+    let mut found = Viewpoint { camera, paper, warning: None };
+    if sheet.scale.is_some() || sheet.centre.is_some() {
+        place(&mut found, sheet, scene, &points)?;
+    }
+    Ok(found)
+}
+
+/// A camera of a file: it keeps its own frame unless a sheet is asked for.
+fn recorded<'p>(
+    sheet: &Sheet,
+    scene: &Scene,
+    name: &str,
+    points: impl FnOnce() -> Result<Cow<'p, [DVec3]>, Error>,
+) -> Result<Viewpoint, Error> {
+    let mut found = on_sheet(sheet, open_camera(scene, name)?)?;
+    let points = points()?;
+    if sheet.scale.is_some() || sheet.centre.is_some() {
+        place(&mut found, sheet, scene, &points)?;
+    } else {
+        found.warning = outside(&found, &points);
+    }
+    Ok(found)
+}
+
+/// Gives a parallel camera the scale and the middle that are asked for.
+///
+/// # Errors
+/// Where lines of sight are not parallel.
+fn place(found: &mut Viewpoint, sheet: &Sheet, scene: &Scene, points: &[DVec3]) -> Result<(), Error> {
+    if !matches!(found.camera.projection, Projection::Orthographic { .. }) {
+        let option = if sheet.scale.is_some() { "--scale" } else { "--centre" };
+        return Err(Error::new("this option needs an orthographic view")
+            .at(option)
+            .remedy("give --ortho, or another camera"));
+    }
+    if let Some(centre) = sheet.centre {
+        let [right, up, _] = found.camera.axes();
+        let aside = centre - found.camera.target;
+        let moved = right * aside.dot(right) + up * aside.dot(up);
+        found.camera.eye += moved;
+        found.camera.target += moved;
+    }
+    if let Some(scale) = sheet.scale {
+        let unit = ModelUnit::of(scene, sheet.unit).mm();
+        let height = found.camera.height * found.paper.mm_per_unit() / (scale * unit);
+        found.camera.projection = Projection::Orthographic { height };
+    }
+    found.warning = outside(found, points).or_else(|| too_large(found, sheet, points));
+    Ok(())
+}
+
+/// Says what scale would do, where the model is larger than the page.
+fn too_large(found: &Viewpoint, sheet: &Sheet, points: &[DVec3]) -> Option<String> {
+    let scale = sheet.scale?;
+    let (Projection::Orthographic { height }, Projection::Orthographic { height: needed }) =
+        (found.camera.projection, found.camera.fit_points(points, 0.0).projection)
+    else {
+        return None;
+    };
+    if sheet.centre.is_some() || needed <= height * (1.0 + 1e-9) {
+        return None;
+    }
+    let fits = scale * height / needed;
+    let fits = if fits < 1.0 { format!("1:{:.2}", 1.0 / fits) } else { format!("{fits:.2}:1") };
+    Some(format!("the model is larger than the page at this scale; {fits} would fit"))
+}
+
+/// Says so where the model is beside the frame, behind the eye, or a dot in it.
+fn outside(found: &Viewpoint, points: &[DVec3]) -> Option<String> {
+    let Viewpoint { camera, paper, .. } = found;
+    let [right, up, forward] = camera.axes();
+    let half = match camera.projection {
+        Projection::Perspective { fov_y_deg } => tan(fov_y_deg.to_radians() / 2.0),
+        Projection::Orthographic { height } => height / 2.0,
+    };
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for p in points.iter().filter(|p| p.is_finite()) {
+        let p = *p - camera.eye;
+        let (depth, perspective) = match camera.projection {
+            Projection::Perspective { .. } => (p.dot(forward), true),
+            Projection::Orthographic { .. } => (1.0, false),
+        };
+        if perspective && depth <= 0.0 {
+            // What is behind the eye may go on before it.
+            continue;
+        }
+        let unit = camera.height / 2.0 / (half * depth);
+        let place = DVec3::new(p.dot(right) * unit, p.dot(up) * unit, 0.0);
+        (low, high) = (low.min(place), high.max(place));
+    }
+    if points.is_empty() {
+        return None;
+    }
+    if low.x > high.x {
+        return Some("the model is behind the camera, so the drawing is empty".to_owned());
+    }
+    let (width, height) = (camera.width / 2.0, camera.height / 2.0);
+    if low.x > width || high.x < -width || low.y > height || high.y < -height {
+        return Some("the model is outside the frame, so the drawing is empty".to_owned());
+    }
+    let size = high - low;
+    let dot = size.x.max(size.y) < DOT * camera.width.min(camera.height);
+    dot.then(|| {
+        let (width, height) = (plain(size.x, 1), plain(size.y, 1));
+        format!(
+            "the model covers only {width} x {height} {} of the page; give its unit with --unit",
+            paper.unit.name()
+        )
+    })
+}
+
+/// A camera that keeps its own frame unless a sheet is asked for.
+pub(crate) fn on_sheet(sheet: &Sheet, camera: Camera) -> Result<Viewpoint, Error> {
+    let own = (Extent { width: camera.width, height: camera.height }, Unit::Px);
+    let (extent, unit) = sheet.extent.unwrap_or(own);
+    let paper = Paper::new(extent, unit, sheet.margin)?;
+    let (width, height) = paper.frame();
+    Ok(Viewpoint { camera: camera.with_frame(width, height), paper, warning: None })
+}
+
+fn open_camera(scene: &Scene, name: &str) -> Result<Camera, Error> {
+    if let Some(named) = scene.cameras.iter().find(|camera| camera.name == name) {
+        return Ok(named.camera);
+    }
+    let path = Path::new(name);
+    let is_record = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+    if is_record || path.is_file() {
+        return Camera::open(path);
+    }
+    let names: Vec<&str> = scene.cameras.iter().map(|camera| camera.name.as_str()).collect();
+    let remedy = if names.is_empty() {
+        "the model has no cameras; give a camera record, FILE.json".to_owned()
+    } else {
+        format!("the model's cameras are {}; or give a camera record, FILE.json", names.join(", "))
+    };
+    Err(Error::new(format!("there is no camera `{name}`")).at("--camera").remedy(remedy))
+}

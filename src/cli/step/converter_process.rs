@@ -1,0 +1,134 @@
+//! A converter as a process, with bounds on its time and memory.
+
+use std::ffi::OsString;
+use std::fs::{self, File};
+use std::io::{Read, Seek, SeekFrom};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+/// Bounds, where the environment does not set others. A STEP file of 100 MB takes a minute and 2 GB.
+const MAX_SECONDS: u64 = 300;
+const MAX_MB: u64 = 8192;
+
+/// Variables that set other bounds.
+pub(crate) const SECONDS_VARIABLE: &str = "LIGNE_STEP_SECONDS";
+pub(crate) const MB_VARIABLE: &str = "LIGNE_STEP_MB";
+
+/// Time between two looks at the process.
+const POLL: Duration = Duration::from_millis(10);
+
+/// The end of a long output says what went wrong.
+const MAX_SHOWN_BYTES: u64 = 2000;
+
+/// Bounds of a converter.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Limits {
+    pub(crate) seconds: u64,
+    pub(crate) mb: u64,
+}
+
+impl Limits {
+    /// The bounds that the environment sets, else the built-in ones.
+    pub(crate) fn of_process() -> Self {
+        let number = |name: &str| std::env::var(name).ok()?.trim().parse().ok().filter(|n: &u64| *n > 0);
+        Self {
+            seconds: number(SECONDS_VARIABLE).unwrap_or(MAX_SECONDS),
+            mb: number(MB_VARIABLE).unwrap_or(MAX_MB),
+        }
+    }
+}
+
+/// How a converter ended.
+#[derive(Debug)]
+pub(crate) enum Outcome {
+    /// With this exit status, and with these last words.
+    Exited(i32, String),
+    /// By a signal, with these last words.
+    Killed(String),
+    /// The time was over, and it was stopped.
+    TimedOut,
+    /// There is no such program, or it cannot be run.
+    NotRun(std::io::Error),
+}
+
+/// Runs a program until it ends or its time is over. Its output goes to `log`: a pipe would have to be read meanwhile.
+///
+/// `bounds_memory` is for programs that reserve little more address space than they use.
+pub(crate) fn run(
+    program: &Path,
+    arguments: &[OsString],
+    variables: &[(&str, OsString)],
+    (limits, bounds_memory): (Limits, bool),
+    log: &Path,
+) -> Outcome {
+    let output = File::create(log).and_then(|file| Ok((file.try_clone()?, file)));
+    let (out, err) = match output {
+        Ok(files) => files,
+        Err(error) => return Outcome::NotRun(error),
+    };
+    let mut command = bounded(program, limits, bounds_memory);
+    command.args(arguments).envs(variables.iter().map(|(name, value)| (name, value)));
+    let started = Instant::now();
+    let mut child = match command.stdin(Stdio::null()).stdout(out).stderr(err).spawn() {
+        Ok(child) => child,
+        Err(error) => return Outcome::NotRun(error),
+    };
+    let outcome = loop {
+        match child.try_wait() {
+            Ok(Some(status)) => {
+                let said = last_words(log);
+                break status.code().map_or_else(
+                    || Outcome::Killed(said.clone()),
+                    |code| Outcome::Exited(code, said.clone()),
+                );
+            }
+            Ok(None) if started.elapsed() < Duration::from_secs(limits.seconds) => std::thread::sleep(POLL),
+            Ok(None) => {
+                // One that has just ended cannot be killed, which is as well.
+                let _ = child.kill();
+                let _ = child.wait();
+                break Outcome::TimedOut;
+            }
+            Err(error) => break Outcome::NotRun(error),
+        }
+    };
+    // A file that stays does no harm.
+    let _ = fs::remove_file(log);
+    outcome
+}
+
+/// The program behind a shell that sets the bounds. Processor time is bounded as well, for processes that outlive a script.
+#[cfg(unix)]
+fn bounded(program: &Path, limits: Limits, bounds_memory: bool) -> Command {
+    let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get) as u64;
+    let mut script = format!("ulimit -t {} 2>/dev/null; ", limits.seconds.saturating_mul(cores));
+    if bounds_memory {
+        // macOS has no such limit.
+        script += &format!("ulimit -v {} 2>/dev/null; ", limits.mb.saturating_mul(1024));
+    }
+    let mut command = Command::new("/bin/sh");
+    command.arg("-c").arg(script + "exec \"$0\" \"$@\"").arg(program);
+    command
+}
+
+#[cfg(not(unix))]
+fn bounded(program: &Path, _: Limits, _: bool) -> Command {
+    Command::new(program)
+}
+
+/// The end of a text file, without blank lines.
+fn last_words(log: &Path) -> String {
+    let read = || {
+        let mut file = File::open(log)?;
+        let length = file.metadata()?.len();
+        file.seek(SeekFrom::Start(length.saturating_sub(MAX_SHOWN_BYTES)))?;
+        let mut bytes = Vec::new();
+        file.take(MAX_SHOWN_BYTES).read_to_end(&mut bytes)?;
+        Ok::<_, std::io::Error>(bytes)
+    };
+    let text = String::from_utf8_lossy(&read().unwrap_or_default()).into_owned();
+    // Bars of progress are parted by tabs and carriage returns.
+    let mut lines = text.split(['\n', '\r', '\t']).map(str::trim);
+    lines.rfind(|line| !line.is_empty()).unwrap_or_default().to_owned()
+}

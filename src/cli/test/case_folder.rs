@@ -1,0 +1,116 @@
+//! The cases in a folder, and the drawings in it that no case draws.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::failure_files::LEFT_BEHIND;
+use super::test_case::Case;
+use crate::error::Error;
+use crate::geometry::names::glob::Glob;
+
+/// What a folder holds.
+#[derive(Debug, Default)]
+pub(crate) struct Folder {
+    /// In the order of their names.
+    pub(crate) cases: Vec<Case>,
+    /// SVG files that are nobody's approved drawing.
+    pub(crate) orphans: Vec<PathBuf>,
+}
+
+impl Folder {
+    /// Reads all cases in a folder and the folders in it, or one case by the name of its file; of
+    /// those the ones whose name matches one of `only`, if there are any.
+    pub(crate) fn read(path: &Path, only: &[Glob]) -> Result<Self, Error> {
+        let mut found = Found::default();
+        if path.is_dir() {
+            found.search(path, "")?;
+        } else if !path.exists() {
+            return Err(Error::new("there is no such folder").in_file(path).remedy("check the path"));
+        } else {
+            let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+            found.cases.push((name, path.to_path_buf()));
+        }
+        found.cases.sort();
+        found.drawings.sort();
+        let mut folder = Self::default();
+        for (name, path) in found.cases {
+            folder.cases.push(Case::read(name, &path));
+        }
+        folder.refuse_shared();
+        let of_no_case =
+            |drawing: &PathBuf| folder.cases.iter().all(|case| !same_place(&case.drawing, drawing));
+        folder.orphans = found.drawings.into_iter().filter(of_no_case).collect();
+        if folder.cases.is_empty() {
+            return Err(Error::new("this folder contains no case")
+                .in_file(path)
+                .remedy("write a file such as gear.toml with model = \"gear.obj\", then approve its drawing with --bless"));
+        }
+        folder.cases.retain(|case| only.is_empty() || only.iter().any(|glob| glob.matches(&case.name)));
+        if folder.cases.is_empty() {
+            return Err(Error::new("no case has a matching name").at("--cases").in_file(path));
+        }
+        Ok(folder)
+    }
+
+    /// Two cases may not approve one drawing.
+    fn refuse_shared(&mut self) {
+        let shared = |i: usize| {
+            let case = self.cases.get(i)?;
+            let others = self.cases.iter().enumerate().filter(|(j, _)| *j != i).map(|(_, other)| other);
+            let other = others.into_iter().find(|other| same_place(&other.drawing, &case.drawing))?;
+            Some(
+                Error::new(format!("the case `{}` uses the same drawing", other.name))
+                    .in_file(&case.drawing)
+                    .remedy("give each case its own drawing"),
+            )
+        };
+        let faults: Vec<Option<Error>> = (0..self.cases.len()).map(shared).collect();
+        for (case, fault) in self.cases.iter_mut().zip(faults) {
+            if let Some(error) = fault {
+                case.order = Err(error);
+            }
+        }
+    }
+}
+
+/// Files found so far.
+#[derive(Debug, Default)]
+struct Found {
+    /// Name and path.
+    cases: Vec<(String, PathBuf)>,
+    drawings: Vec<PathBuf>,
+}
+
+impl Found {
+    /// Searches a folder whose name among the cases is `prefix`. Names that begin with `.` or `_` are
+    /// passed over, and so is the file of the project.
+    fn search(&mut self, folder: &Path, prefix: &str) -> Result<(), Error> {
+        let unread = |error: std::io::Error| {
+            Error::io("cannot read the folder", error).in_file(folder).remedy("check the path")
+        };
+        for entry in fs::read_dir(folder).map_err(unread)? {
+            let path = entry.map_err(unread)?.path();
+            let file_name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            if file_name.starts_with(['.', '_']) || file_name == "ligne.toml" {
+                continue;
+            }
+            // A linked folder could lead back to where it lies.
+            if path.is_dir() && !path.is_symlink() {
+                self.search(&path, &format!("{prefix}{file_name}/"))?;
+            } else if let Some(name) = file_name.strip_suffix(".toml") {
+                self.cases.push((format!("{prefix}{name}"), path));
+            } else if file_name.ends_with(".svg") && !LEFT_BEHIND.iter().any(|end| file_name.ends_with(end)) {
+                self.drawings.push(path);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Whether two paths lead to one place, which need not be there yet.
+fn same_place(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => a == b,
+    }
+}

@@ -1,0 +1,174 @@
+//! [`Outcome`]: what a case drew, and how that compares with the approved drawing.
+
+use std::path::Path;
+
+use super::test_case::{Case, Made, Order};
+use crate::cli::draw::model_drawing;
+use crate::cli::step::{StepArgs, open_other};
+use crate::diff::{self, Diff, DiffOptions, Picture, Tolerances, View};
+use crate::error::Error;
+use crate::export::SvgOptions;
+use crate::page::PageFile;
+use crate::pipeline::Stopwatch;
+
+/// What became of a case.
+#[derive(Debug)]
+pub(crate) enum Verdict {
+    /// Drawn as approved, within the tolerance.
+    Passed,
+    /// Drawn otherwise.
+    Differs(Box<Diff>),
+    /// Nothing is approved yet.
+    New,
+    /// It cannot be drawn, or not be compared.
+    Error(Error),
+}
+
+impl Verdict {
+    /// The verdict in a word.
+    pub(crate) fn word(&self) -> &'static str {
+        match self {
+            Self::Passed => "passed",
+            Self::Differs(_) => "differs",
+            Self::New => "new",
+            Self::Error(_) => "error",
+        }
+    }
+}
+
+/// A case after it was drawn.
+#[derive(Debug)]
+pub(crate) struct Outcome<'a> {
+    pub(crate) case: &'a Case,
+    pub(crate) verdict: Verdict,
+    /// The approved drawing, if there is one.
+    pub(crate) before: Option<String>,
+    /// The drawing as it is now, if it could be made.
+    pub(crate) after: Option<String>,
+    pub(crate) seconds: f64,
+}
+
+/// The one page of a page file as SVG.
+fn page(file: &Path) -> Result<Vec<u8>, Error> {
+    let pages =
+        PageFile::open(file)?.reading_models(|path| open_other(path, &StepArgs::default())).compose()?;
+    match pages.as_slice() {
+        [page] => Ok(page.composition.to_svg(&SvgOptions::default()).into_bytes()),
+        pages => Err(Error::new(format!("it has {} pages, and a case compares one", pages.len()))
+            .in_file(file)
+            .remedy("write a page file for each page")),
+    }
+}
+
+impl<'a> Outcome<'a> {
+    /// Draws a case and compares.
+    pub(crate) fn of(case: &'a Case, tolerances: &Tolerances) -> Self {
+        let watch = Stopwatch::start();
+        let mut outcome = Self { case, verdict: Verdict::New, before: None, after: None, seconds: 0.0 };
+        outcome.verdict = match &case.order {
+            Ok(order) => outcome.draw(order, tolerances).unwrap_or_else(Verdict::Error),
+            Err(error) => Verdict::Error(error.clone()),
+        };
+        outcome.seconds = watch.seconds();
+        outcome
+    }
+
+    fn draw(&mut self, order: &Order, tolerances: &Tolerances) -> Result<Verdict, Error> {
+        let svg = match &order.made {
+            Made::Drawing(request) => model_drawing::encoded(request)?,
+            Made::Page(file) => page(file)?,
+        };
+        let after = self.after.insert(String::from_utf8_lossy(&svg).into_owned());
+        let drawing = &self.case.drawing;
+        let before = match std::fs::read(drawing) {
+            Ok(bytes) => self.before.insert(String::from_utf8_lossy(&bytes).into_owned()),
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(Verdict::New),
+            Err(error) => {
+                return Err(Error::io("cannot read the approved drawing", error).in_file(drawing));
+            }
+        };
+        if before == after {
+            return Ok(Verdict::Passed);
+        }
+        let unfit = |error: Error| {
+            error.in_file(drawing).remedy("remove the file, then approve the drawing with --bless")
+        };
+        let before = Picture::from_svg(before).map_err(unfit)?;
+        let after = Picture::from_svg(after)?;
+        let tolerances = tolerances.clone().with(order.tolerances.clone());
+        let diff = diff::compare(&before, &after, &DiffOptions { tolerances, ..DiffOptions::default() });
+        Ok(if diff.is_same() { Verdict::Passed } else { Verdict::Differs(Box::new(diff)) })
+    }
+
+    /// The picture of what differs, as SVG.
+    pub(crate) fn difference(&self) -> Option<String> {
+        match &self.verdict {
+            Verdict::Differs(diff) => Some(diff.picture(View::Over).to_svg(&SvgOptions::default())),
+            _ => None,
+        }
+    }
+
+    /// The verdict in a line. `blessed`: what differed or was new has been approved.
+    pub(crate) fn summary(&self, blessed: bool) -> String {
+        match &self.verdict {
+            Verdict::New if blessed => "drawn for the first time".to_owned(),
+            Verdict::Passed => String::new(),
+            Verdict::Differs(diff) => diff.summary(),
+            Verdict::New => format!("{} is not approved yet", self.case.drawing.display()),
+            Verdict::Error(error) => error.to_string(),
+        }
+    }
+
+    /// What differs, a line each.
+    pub(crate) fn lines(&self) -> Vec<String> {
+        match &self.verdict {
+            Verdict::Differs(diff) => diff.lines(),
+            _ => Vec::new(),
+        }
+    }
+}
+
+/// How many cases came out how.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Totals {
+    pub(crate) passed: usize,
+    pub(crate) differ: usize,
+    pub(crate) new: usize,
+    pub(crate) errors: usize,
+}
+
+impl Totals {
+    /// Counts.
+    pub(crate) fn of(outcomes: &[Outcome<'_>]) -> Self {
+        let mut totals = Self::default();
+        for outcome in outcomes {
+            match outcome.verdict {
+                Verdict::Passed => totals.passed += 1,
+                Verdict::Differs(_) => totals.differ += 1,
+                Verdict::New => totals.new += 1,
+                Verdict::Error(_) => totals.errors += 1,
+            }
+        }
+        totals
+    }
+
+    /// `12 cases: 10 passed, 1 differs, 1 is new`
+    pub(crate) fn line(self, blessed: bool) -> String {
+        let Self { passed, differ, new, errors } = self;
+        let cases = passed + differ + new + errors;
+        let mut parts = vec![format!("{passed} passed")];
+        let mut count = |n: usize, one: &str, many: &str| {
+            if n > 0 {
+                parts.push(format!("{n} {}", if n == 1 { one } else { many }));
+            }
+        };
+        if blessed {
+            count(differ + new, "blessed", "blessed");
+        } else {
+            count(differ, "differs", "differ");
+            count(new, "is new", "are new");
+        }
+        count(errors, "cannot be drawn", "cannot be drawn");
+        format!("{cases} {}: {}", if cases == 1 { "case" } else { "cases" }, parts.join(", "))
+    }
+}

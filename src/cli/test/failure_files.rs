@@ -1,0 +1,45 @@
+//! Files for looking at: what was drawn instead of the approved drawings, and what differs.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::case_outcome::Outcome;
+use crate::cli::output::output_files::Staging;
+use crate::error::Error;
+
+/// How the names of the files end; no approved drawing is called so.
+pub(crate) const LEFT_BEHIND: [&str; 2] = [".actual.svg", ".diff.svg"];
+
+/// Writes the drawings of the cases that fail into a folder, and removes what earlier runs left there
+/// of those that no longer do.
+pub(crate) fn keep(
+    folder: &Path,
+    outcomes: &[Outcome<'_>],
+    passed: impl Fn(&Outcome<'_>) -> bool,
+) -> Result<(), Error> {
+    let mut staging = Staging::default();
+    for outcome in outcomes {
+        let place = |end: &str| -> PathBuf { folder.join(format!("{}{end}", outcome.case.name)) };
+        let texts =
+            if passed(outcome) { [None, None] } else { [outcome.after.clone(), outcome.difference()] };
+        for (end, text) in LEFT_BEHIND.into_iter().zip(texts) {
+            let path = place(end);
+            match text {
+                None => {
+                    // What was not there need not go.
+                    let _ = fs::remove_file(&path);
+                }
+                Some(text) => {
+                    let inner = path.parent().unwrap_or(folder);
+                    fs::create_dir_all(inner).map_err(|error| {
+                        Error::new(format!("cannot create this folder: {error}"))
+                            .in_file(inner)
+                            .remedy("check the path")
+                    })?;
+                    staging.add(&path, text.as_bytes())?;
+                }
+            }
+        }
+    }
+    staging.commit()
+}

@@ -1,0 +1,88 @@
+//! The outcomes as a page to look at: each case before, after, and what differs.
+//!
+//! The page is one file that asks for nothing else. It has no script: boxes and focus do what is needed.
+
+use std::fmt::Write;
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+
+use super::SHOWN;
+use super::case_outcome::{Outcome, Totals, Verdict};
+use crate::export::encoding::xml::escaped;
+
+/// What the page looks like.
+const SHEET: &str = include_str!("report.css");
+
+/// The page. Cases that pass have pictures only if `all` of them are to be shown.
+pub(crate) fn page(folder: &str, outcomes: &[Outcome<'_>], all: bool, blessed: bool) -> String {
+    let (folder, totals) = (escaped(folder), escaped(&Totals::of(outcomes).line(blessed)));
+    let mut html = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
+         <title>{folder}: {totals}</title>\n<style>\n{SHEET}</style>\n</head>\n<body>\n\
+         <h1>{folder}</h1>\n<p>{totals}</p>\n\
+         <input type=\"checkbox\" id=\"failed\"/> <label for=\"failed\">only what failed</label>\n<main>\n"
+    );
+    for outcome in outcomes {
+        section(&mut html, outcome, all, blessed);
+    }
+    html.push_str("</main>\n</body>\n</html>\n");
+    html
+}
+
+fn section(html: &mut String, outcome: &Outcome<'_>, all: bool, blessed: bool) {
+    let is_blessed = blessed && matches!(outcome.verdict, Verdict::Differs(_) | Verdict::New);
+    let word = if is_blessed { "blessed" } else { outcome.verdict.word() };
+    let name = escaped(&outcome.case.name);
+    let _ = writeln!(html, "<section class=\"{word}\">\n<h2>{name} <span>{word}</span></h2>");
+    let summary = outcome.summary(blessed);
+    if !summary.is_empty() {
+        // Some errors go on with a picture of the line that is wrong.
+        let tag = if summary.contains('\n') { "pre" } else { "p" };
+        let _ = writeln!(html, "<{tag}>{}</{tag}>", text(&summary));
+    }
+    if all || !matches!(outcome.verdict, Verdict::Passed) {
+        html.push_str("<div>\n");
+        picture(html, "before", outcome.before.as_deref());
+        picture(html, "after", outcome.after.as_deref());
+        picture(html, "difference", outcome.difference().as_deref());
+        html.push_str("</div>\n");
+    }
+    let lines = outcome.lines();
+    let (first, rest) = lines.split_at(lines.len().min(SHOWN));
+    list(html, first);
+    if !rest.is_empty() {
+        let _ = writeln!(html, "<details>\n<summary>and {} more</summary>", rest.len());
+        list(html, rest);
+        html.push_str("</details>\n");
+    }
+    html.push_str("</section>\n");
+}
+
+fn list(html: &mut String, lines: &[String]) {
+    if lines.is_empty() {
+        return;
+    }
+    html.push_str("<ul>\n");
+    for line in lines {
+        let _ = writeln!(html, "<li>{}</li>", escaped(line));
+    }
+    html.push_str("</ul>\n");
+}
+
+/// Escaped, with line breaks kept.
+fn text(text: &str) -> String {
+    text.lines().map(escaped).collect::<Vec<_>>().join("\n")
+}
+
+/// A drawing as a picture of its own, so that the ids and classes of several do not mix.
+fn picture(html: &mut String, caption: &str, svg: Option<&str>) {
+    let Some(svg) = svg else { return };
+    let data = STANDARD.encode(svg);
+    let _ = writeln!(
+        html,
+        "<figure><img tabindex=\"0\" alt=\"{caption}\" src=\"data:image/svg+xml;base64,{data}\"/>\
+         <figcaption>{caption}</figcaption></figure>"
+    );
+}

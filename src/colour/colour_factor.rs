@@ -1,0 +1,101 @@
+//! [`Factor`]: what a colour is multiplied with, channel by channel.
+
+use std::fmt;
+
+use serde::de::value::SeqAccessDeserializer;
+use serde::de::{Error, SeqAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+
+use super::srgb::Colour;
+
+/// Factors of red, green and blue as written (sRGB).
+///
+/// Written as one number for all three, 0 to 2, as three numbers, or as a colour, whose channels count from 0 to 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Factor(pub [f64; 3]);
+
+impl Factor {
+    /// Nothing is left of a colour.
+    pub const NONE: Self = Self([0.0; 3]);
+    /// Colours stay as they are.
+    pub const ALL: Self = Self([1.0; 3]);
+}
+
+impl From<Colour> for Factor {
+    fn from(colour: Colour) -> Self {
+        Self(colour.channels())
+    }
+}
+
+impl<'de> Deserialize<'de> for Factor {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(FactorVisitor)
+    }
+}
+
+/// Reads either form by what it meets, so that errors keep their place in the sheet.
+struct FactorVisitor;
+
+impl<'de> Visitor<'de> for FactorVisitor {
+    type Value = Factor;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a number from 0 to 2, three such numbers, or a colour such as \"#a09ab8\"")
+    }
+
+    fn visit_i64<E: Error>(self, number: i64) -> Result<Factor, E> {
+        self.visit_f64(number as f64)
+    }
+
+    fn visit_u64<E: Error>(self, number: u64) -> Result<Factor, E> {
+        self.visit_f64(number as f64)
+    }
+
+    fn visit_f64<E: Error>(self, number: f64) -> Result<Factor, E> {
+        if (0.0..=2.0).contains(&number) {
+            Ok(Factor([number; 3]))
+        } else {
+            Err(E::custom(format!("{number} is not a colour factor; write a number from 0 to 2")))
+        }
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, list: A) -> Result<Factor, A::Error> {
+        let list = Vec::<f64>::deserialize(SeqAccessDeserializer::new(list))?;
+        let count = list.len();
+        let numbers: [f64; 3] = list.try_into().map_err(|_| {
+            A::Error::custom(format!("{count} numbers are not a factor of red, green and blue; write three"))
+        })?;
+        match numbers.iter().find(|number| !(0.0..=2.0).contains(*number)) {
+            Some(number) => Err(A::Error::custom(format!(
+                "{number} is not a factor of colours; write numbers from 0 to 2"
+            ))),
+            None => Ok(Factor(numbers)),
+        }
+    }
+
+    fn visit_str<E: Error>(self, text: &str) -> Result<Factor, E> {
+        Colour::try_from(text.to_owned()).map(Factor::from).map_err(E::custom)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Deserialize)]
+    struct Sheet {
+        factor: Factor,
+    }
+
+    #[test]
+    fn numbers_and_colours() {
+        let read = |text: &str| toml::from_str::<Sheet>(&format!("factor = {text}")).map(|s| s.factor);
+        assert_eq!(read("0.5"), Ok(Factor([0.5; 3])));
+        assert_eq!(read("1"), Ok(Factor::ALL));
+        assert_eq!(read("\"#ff0000\""), Ok(Factor([1.0, 0.0, 0.0])));
+        assert_eq!(read("[0.7, 0.66, 0.78]"), Ok(Factor([0.7, 0.66, 0.78])));
+        for wrong in ["-1", "3", "nan", "\"red-ish\"", "[1]", "[1, 1, 3]", "[0, 0, 0, 0]"] {
+            assert!(read(wrong).is_err(), "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,296 @@
+//! [`Shades`]: how dark a picture is, and the outlines of its dark parts.
+
+use glam::DVec2;
+use kurbo::Point;
+
+use super::pixel_picture::Picture;
+use crate::geometry::plane::marching_squares::level_lines;
+use crate::geometry::plane::planar_distance::distance2;
+
+/// Outlines may be off by this part of a pixel before they are simplified.
+const STRAIGHT: f64 = 0.05;
+
+/// Pictures with more points on their outlines than this have none.
+const MOST_CROSSINGS: usize = 1 << 20;
+
+/// How dark a picture is on white paper, 0 to 1, in rectangles of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shades {
+    /// Pixels in a row, at least 1.
+    pub width: usize,
+    /// Rows, at least 1.
+    pub height: usize,
+    /// The sum of all that is above and to the left of each corner of pixels.
+    sums: Vec<f64>,
+}
+
+/// How outlines are traced.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Tracing {
+    /// Pixels darker than this are in.
+    pub level: f64,
+    /// How large a pixel will be, in both directions.
+    pub scale: [f64; 2],
+    /// How far outlines may be off, by that scale.
+    pub tolerance: f64,
+    /// Outlines around less than this area, by that scale, are left out.
+    pub speck: f64,
+    /// Whether the picture goes on beyond its frame with the other side of it.
+    pub repeats: bool,
+}
+
+impl Shades {
+    /// How dark the pixels of a picture are.
+    #[must_use]
+    pub fn of(picture: &Picture) -> Self {
+        Self::of_values(picture.width, picture.height, |column, row| {
+            let c = picture.at(column, row);
+            let grey = (f64::from(c.r) + f64::from(c.g) + f64::from(c.b)) / 765.0;
+            (1.0 - grey) * f64::from(c.a) / 255.0
+        })
+    }
+
+    /// From the shade of each pixel.
+    #[must_use]
+    pub fn of_values(width: usize, height: usize, value: impl Fn(usize, usize) -> f64) -> Self {
+        let stride = width + 1;
+        let mut sums = vec![0.0; stride * (height + 1)];
+        for row in 0..height {
+            let mut along = 0.0;
+            for column in 0..width {
+                along += value(column, row);
+                sums[(row + 1) * stride + column + 1] = sums[row * stride + column + 1] + along;
+            }
+        }
+        Self { width, height, sums }
+    }
+
+    /// The sum of all above and to the left of a point.
+    fn sum(&self, x: f64, y: f64) -> f64 {
+        let (i, j) = ((x as usize).min(self.width - 1), (y as usize).min(self.height - 1));
+        let (s, t) = (x - i as f64, y - j as f64);
+        let at = |i: usize, j: usize| self.sums[j * (self.width + 1) + i];
+        let row = |j: usize| at(i, j) + (at(i + 1, j) - at(i, j)) * s;
+        row(j) + (row(j + 1) - row(j)) * t
+    }
+
+    /// The mean of a rectangle within the picture.
+    #[must_use]
+    pub fn mean(&self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
+        let sum = self.sum(x1, y1) - self.sum(x0, y1) - self.sum(x1, y0) + self.sum(x0, y0);
+        sum / ((x1 - x0) * (y1 - y0)).max(f64::MIN_POSITIVE)
+    }
+
+    /// The same picture in no more pixels than this in both directions.
+    #[must_use]
+    pub fn at_most(&self, columns: usize, rows: usize) -> Self {
+        let (width, height) = (columns.clamp(1, self.width), rows.clamp(1, self.height));
+        let [x, y] = [self.width as f64 / width as f64, self.height as f64 / height as f64];
+        Self::of_values(width, height, |column, row| {
+            let (i, j) = (column as f64, row as f64);
+            self.mean([i * x, j * y], [(i + 1.0) * x, (j + 1.0) * y])
+        })
+    }
+
+    /// The outlines of what is dark, in pixels from the upper left corner: closed, without their first point again, with
+    /// what is dark on one side of all of them, so that holes turn the other way than islands do. None if there are too many.
+    #[must_use]
+    pub fn outlines(&self, tracing: &Tracing) -> Option<Vec<Vec<Point>>> {
+        let (width, height) = (self.width as i64, self.height as i64);
+        let inner =
+            |i: i64, count: i64| if tracing.repeats { i.rem_euclid(count) } else { i.clamp(0, count - 1) };
+        // The picture, a ring of pixels that goes on with it, and a ring that closes all outlines, which then lose what
+        // is beyond the frame.
+        let value = |i: i64, j: i64| {
+            let (i, j) = (i - 2, j - 2);
+            let (column, row) = (inner(i, width), inner(j, height));
+            let [x, y] = [column as f64, row as f64];
+            let own = self.mean([x, y], [x + 1.0, y + 1.0]) - tracing.level;
+            // No pixel lies upon the level.
+            let own = if own == 0.0 { f64::MIN_POSITIVE } else { own };
+            if (-1..=width).contains(&i) && (-1..=height).contains(&j) { own } else { -own.abs() }
+        };
+        let lines = level_lines(&value, [self.width + 3, self.height + 3], STRAIGHT, MOST_CROSSINGS)?;
+        let frame = [self.width as f64, self.height as f64];
+        let own = |line: &Vec<DVec2>| {
+            let ring: Vec<Point> = line.iter().map(|p| Point::new(p.x - 1.5, p.y - 1.5)).collect();
+            let ring = simplified(&framed(&ring, frame), frame, tracing);
+            let [x, y] = tracing.scale;
+            (ring.len() > 2 && (area(&ring) * x * y).abs() > tracing.speck.max(f64::MIN_POSITIVE))
+                .then_some(ring)
+        };
+        Some(lines.iter().filter_map(own).collect())
+    }
+}
+
+/// The area within a ring, by its sign the way it turns.
+fn area(ring: &[Point]) -> f64 {
+    let next = |k: usize| ring[(k + 1) % ring.len()];
+    (0..ring.len()).map(|k| ring[k].to_vec2().cross(next(k).to_vec2())).sum::<f64>() / 2.0
+}
+
+/// What a frame leaves of a closed line, whose first point is its last: crossings with the frame are made points, and what is
+/// beyond is laid on it.
+fn framed(line: &[Point], [width, height]: [f64; 2]) -> Vec<Point> {
+    let mut ring: Vec<Point> = Vec::with_capacity(line.len());
+    let mut push = |p: Point| {
+        let p = Point::new(p.x.clamp(0.0, width), p.y.clamp(0.0, height));
+        if ring.last() != Some(&p) {
+            ring.push(p);
+        }
+    };
+    for pair in line.windows(2) {
+        let (a, b) = (pair[0], pair[1]);
+        push(a);
+        let mut ways: Vec<f64> = [(a.x, b.x, 0.0), (a.x, b.x, width), (a.y, b.y, 0.0), (a.y, b.y, height)]
+            .into_iter()
+            .filter(|(a, b, at)| (a < at) != (b < at))
+            .map(|(a, b, at)| (at - a) / (b - a))
+            .collect();
+        ways.sort_by(f64::total_cmp);
+        ways.into_iter().for_each(|way| push(a.lerp(b, way)));
+    }
+    while ring.len() > 1 && ring.first() == ring.last() {
+        ring.pop();
+    }
+    // Along a side of the frame it goes straight from where it came to it to where it leaves it.
+    let sides = |p: &Point| [p.x == 0.0, p.x == width, p.y == 0.0, p.y == height];
+    let is_between = |a: &Point, b: &Point, c: &Point| {
+        let [a, b, c] = [a, b, c].map(sides);
+        (0..4).any(|side| a[side] && b[side] && c[side])
+    };
+    let mut kept: Vec<Point> = Vec::with_capacity(ring.len());
+    for p in ring {
+        while let [.., a, b] = &kept[..]
+            && is_between(a, b, &p)
+        {
+            kept.pop();
+        }
+        kept.push(p);
+    }
+    while kept.len() > 2 && is_between(&kept[kept.len() - 2], &kept[kept.len() - 1], &kept[0]) {
+        kept.pop();
+    }
+    while kept.len() > 2 && is_between(&kept[kept.len() - 1], &kept[0], &kept[1]) {
+        kept.remove(0);
+    }
+    kept
+}
+
+/// A ring without points that it can do without; where it comes to the frame and leaves it, it stays.
+fn simplified(ring: &[Point], [width, height]: [f64; 2], tracing: &Tracing) -> Vec<Point> {
+    let n = ring.len();
+    if n < 4 {
+        return ring.to_vec();
+    }
+    let [x, y] = tracing.scale;
+    let scaled: Vec<Point> = ring.iter().map(|p| Point::new(p.x * x, p.y * y)).collect();
+    let on = |p: &Point| [p.x == 0.0, p.x == width, p.y == 0.0, p.y == height];
+    let alike = |a: &Point, b: &Point| (0..4).any(|side| on(a)[side] && on(b)[side]);
+    let is_fixed = |k: usize| {
+        let (before, own, after) = (&ring[(k + n - 1) % n], &ring[k], &ring[(k + 1) % n]);
+        on(own).contains(&true) && !(alike(before, own) && alike(own, after) && alike(before, after))
+    };
+    let mut fixed: Vec<usize> = (0..n).filter(|k| is_fixed(*k)).collect();
+    if fixed.len() < 2 {
+        // Any point, and the one farthest from it.
+        let first = fixed.first().copied().unwrap_or(0);
+        let away = |k: &usize| (scaled[*k] - scaled[first]).hypot2();
+        let far = (0..n).max_by(|a, b| away(a).total_cmp(&away(b)).then(b.cmp(a))).unwrap_or(0);
+        fixed = vec![first.min(far), first.max(far)];
+    }
+    let mut stays = vec![false; n];
+    for (k, from) in fixed.iter().enumerate() {
+        let to = fixed.get(k + 1).copied().unwrap_or(fixed[0] + n);
+        stays[*from] = true;
+        let mut open = vec![(*from, to)];
+        while let Some((a, b)) = open.pop() {
+            let off = |i: &usize| distance2(scaled[i % n], scaled[a % n], scaled[b % n]);
+            let Some(worst) = (a + 1..b).max_by(|i, j| off(i).total_cmp(&off(j)).then(j.cmp(i))) else {
+                continue;
+            };
+            if off(&worst) > tracing.tolerance * tracing.tolerance {
+                stays[worst % n] = true;
+                open.extend([(a, worst), (worst, b)]);
+            }
+        }
+    }
+    (0..n).filter(|k| stays[*k]).map(|k| ring[k]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TRACING: Tracing =
+        Tracing { level: 0.5, scale: [1.0; 2], tolerance: 0.05, speck: 0.0, repeats: false };
+
+    /// A ring between two radii, softened over a pixel.
+    fn annulus(size: usize, [inner, outer]: [f64; 2]) -> Shades {
+        Shades::of_values(size, size, |column, row| {
+            let middle = size as f64 / 2.0;
+            let p = DVec2::new(column as f64 + 0.5 - middle, row as f64 + 0.5 - middle).length();
+            (outer + 0.5 - p).clamp(0.0, 1.0).min((p - inner + 0.5).clamp(0.0, 1.0))
+        })
+    }
+
+    #[test]
+    fn a_ring_is_an_island_with_a_hole_where_they_are() {
+        let rings = annulus(64, [9.3, 25.8]).outlines(&TRACING).unwrap();
+        let [outer, inner] = &rings[..] else { panic!("{}", rings.len()) };
+        let (outer, inner) =
+            if area(outer).abs() > area(inner).abs() { (outer, inner) } else { (inner, outer) };
+        assert!(area(outer) * area(inner) < 0.0, "holes turn the other way");
+        for (ring, radius) in [(outer, 25.8), (inner, 9.3)] {
+            let off = |p: &Point| ((*p - Point::new(32.0, 32.0)).hypot2().sqrt() - radius).abs();
+            let worst = ring.iter().map(off).fold(0.0, f64::max);
+            assert!(worst < 0.15, "{worst} px off");
+            assert!((area(ring).abs() / (std::f64::consts::PI * radius * radius) - 1.0).abs() < 0.01);
+            assert!(ring.len() < 120, "{}", ring.len());
+        }
+        // Less of it: the hole is a speck.
+        let coarse = Tracing { speck: 300.0, ..TRACING };
+        assert_eq!(annulus(64, [9.3, 25.8]).outlines(&coarse).unwrap().len(), 1);
+        // In fewer pixels the ring is the same.
+        let small = annulus(64, [9.3, 25.8]).at_most(32, 64).outlines(&TRACING).unwrap();
+        let whole: f64 = small.iter().map(|ring| area(ring)).sum::<f64>() * 2.0;
+        let right = std::f64::consts::PI * (25.8_f64.powi(2) - 9.3_f64.powi(2));
+        assert!((whole.abs() / right - 1.0).abs() < 0.01, "{whole} {right}");
+    }
+
+    #[test]
+    fn what_is_dark_to_the_frame_ends_at_it() {
+        let dark = Shades::of_values(7, 4, |_, _| 1.0);
+        let [ring] = &dark.outlines(&TRACING).unwrap()[..] else { panic!("one") };
+        assert_eq!(ring.len(), 4, "{ring:?}");
+        assert_eq!(area(ring).abs(), 28.0);
+        let left = Shades::of_values(8, 6, |column, _| f64::from(u8::from(column < 3)));
+        assert!((area(&left.outlines(&TRACING).unwrap()[0]).abs() - 18.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_repeats_meets_itself_over_the_frame() {
+        // A slanted band that leaves on the right where it comes in on the left.
+        let band = Shades::of_values(32, 32, |column, row| {
+            let way = (column as f64 + row as f64).rem_euclid(32.0) - 16.0;
+            (8.5 - way.abs()).clamp(0.0, 1.0)
+        });
+        let rings = band.outlines(&Tracing { repeats: true, ..TRACING }).unwrap();
+        let on = |of: fn(&Point) -> (f64, f64), side: f64| {
+            let mut found: Vec<i64> = rings
+                .iter()
+                .flatten()
+                .map(of)
+                .filter(|(across, _)| *across == side)
+                .map(|(_, along)| (along * 1e6).round() as i64)
+                .filter(|along| *along > 0 && *along < 32_000_000)
+                .collect();
+            found.sort_unstable();
+            found
+        };
+        type Order = fn(&Point) -> (f64, f64);
+        let [x, y]: [Order; 2] = [|p| (p.x, p.y), |p| (p.y, p.x)];
+        assert!(on(x, 0.0) == on(x, 32.0) && !on(x, 0.0).is_empty(), "{:?} {:?}", on(x, 0.0), on(x, 32.0));
+        assert!(on(y, 0.0) == on(y, 32.0) && !on(y, 0.0).is_empty());
+    }
+}

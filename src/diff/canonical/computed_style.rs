@@ -1,0 +1,244 @@
+//! [`Look`]: how an element is painted, as far as its attributes and those around it tell.
+
+use rustc_hash::FxHashSet;
+use usvg::roxmltree::{Attribute, Document, Node, NodeType};
+
+use crate::export::paths::canonical_path::Form;
+
+/// Elements whose content is drawn elsewhere, or not as it stands.
+const ELSEWHERE: [&str; 7] = ["defs", "symbol", "clipPath", "mask", "pattern", "marker", "glyph"];
+/// Elements that describe the one around them.
+const DESCRIPTIONS: [&str; 3] = ["title", "desc", "metadata"];
+/// Beginnings of the names of properties that keep the place and colour of a mark its own.
+const HARMLESS: [&str; 17] = [
+    "fill",
+    "stroke",
+    "opacity",
+    "color",
+    "display",
+    "visibility",
+    "shape-rendering",
+    "clip-rule",
+    "paint-order",
+    "vector-effect",
+    "font",
+    "text",
+    "line-height",
+    "letter-spacing",
+    "word-spacing",
+    "overflow",
+    "solid-",
+];
+/// Attributes of editors that tell how a path's points came about.
+const EDITED: [&str; 4] = ["nodetypes", "type", "original-d", "path-effect"];
+
+/// What a document says of its elements from afar.
+#[derive(Debug, Default)]
+pub(crate) struct Afar<'a> {
+    /// Whether a style sheet or a script may paint anything anew.
+    sheets: bool,
+    /// Ids that are referred to.
+    referred: FxHashSet<&'a str>,
+}
+
+impl<'a> Afar<'a> {
+    pub fn of(document: &'a Document) -> Self {
+        let mut afar = Self::default();
+        for node in document.descendants() {
+            let sheet = match node.node_type() {
+                NodeType::PI => node.pi().is_some_and(|pi| pi.target == "xml-stylesheet"),
+                NodeType::Element => matches!(node.tag_name().name(), "style" | "script"),
+                _ => false,
+            };
+            afar.sheets |= sheet;
+            for attribute in node.attributes() {
+                let value = attribute.value();
+                if attribute.name() == "href" {
+                    afar.referred.extend(value.trim().strip_prefix('#'));
+                }
+                for rest in value.split("url(").skip(1) {
+                    let rest = rest.trim_start_matches(['"', '\'', ' ']);
+                    let id = rest.strip_prefix('#').and_then(|rest| rest.split(['"', '\'', ')', ' ']).next());
+                    afar.referred.extend(id);
+                }
+            }
+        }
+        afar
+    }
+}
+
+/// What may be done to a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Leave {
+    pub form: Form,
+    /// Whether every point must stay: something stands at them, or counts them.
+    pub all_points: bool,
+}
+
+/// How an element is painted.
+#[derive(Debug, Clone)]
+pub(crate) struct Look<'a> {
+    fill: &'a str,
+    stroke: &'a str,
+    dashed: bool,
+    /// Whether all this may be otherwise after all.
+    unsure: bool,
+    /// Whether the element is used elsewhere, moves, or bears markers.
+    used: bool,
+    /// Whether the order and directions of the marks matter.
+    ordered: bool,
+}
+
+impl<'a> Look<'a> {
+    /// What holds around the root.
+    pub fn new(afar: &Afar) -> Self {
+        Self {
+            fill: "black",
+            stroke: "none",
+            dashed: false,
+            unsure: afar.sheets,
+            used: false,
+            ordered: false,
+        }
+    }
+
+    /// The look of an element inside one that looks so.
+    pub fn inside(&self, node: Node<'a, '_>, afar: &Afar) -> Self {
+        let mut look = self.clone();
+        look.used |= ELSEWHERE.contains(&node.tag_name().name());
+        look.ordered |= node.attribute("data-order").is_some();
+        for attribute in node.attributes() {
+            match (attribute.namespace(), attribute.name()) {
+                (None, "id") => look.used |= afar.referred.contains(attribute.value()),
+                (None, "d" | "style") => {}
+                (None, name) => look.set(name, attribute.value()),
+                // A path that is made of another one, or whose corners are listed.
+                (Some(_), name) => look.used |= EDITED.contains(&name),
+            }
+        }
+        // Style wins over attributes.
+        match declarations(node.attribute("style").unwrap_or_default()) {
+            Some(list) => list.iter().for_each(|(name, value)| look.set(name, value)),
+            None => look.unsure = true,
+        }
+        let moves =
+            |child: &Node| child.tag_name().name().starts_with("animate") || child.has_tag_name("set");
+        look.used |= node.children().filter(Node::is_element).any(|child| moves(&child));
+        look
+    }
+
+    fn set(&mut self, name: &str, value: &'a str) {
+        let value = value.trim();
+        let painting = match name {
+            "fill" | "stroke" | "stroke-dasharray" => true,
+            "all" | "d" | "pathLength" => {
+                self.unsure = true;
+                false
+            }
+            _ => {
+                // Markers of the elements around are inherited.
+                self.used |= name.starts_with("marker") && name != "markerUnits" && value != "none";
+                self.unsure |= name.starts_with("animation") || name.starts_with("transition");
+                false
+            }
+        };
+        if !painting || value == "inherit" {
+            return;
+        }
+        // Variables, and words that only style sheets know.
+        self.unsure |=
+            value.is_empty() || value.contains("var(") || ["initial", "unset", "revert"].contains(&value);
+        match name {
+            "fill" => self.fill = value,
+            "stroke" => self.stroke = value,
+            _ => self.dashed = value != "none",
+        }
+    }
+
+    /// What may be done to a path that looks so.
+    pub fn leave(&self, path: Node) -> Leave {
+        let bears = path.children().filter(Node::is_element).any(|child| !describes(&child));
+        let all_points = self.used || bears;
+        let (filled, stroked) = (self.fill != "none", self.stroke != "none");
+        let form = match () {
+            () if all_points || self.unsure || self.ordered => Form::Kept,
+            () if stroked && self.dashed => Form::Kept,
+            () if filled => Form::Filled,
+            () if stroked => Form::Stroked,
+            () => Form::Kept,
+        };
+        Leave { form, all_points }
+    }
+
+    /// Whether a path that looks so may change places with one that is painted alike: it has one flat colour, and
+    /// nothing but its place and shape decides where.
+    pub fn may_be_exchanged(&self, path: Node) -> bool {
+        let parent = path.parent_element().is_some_and(|p| matches!(p.tag_name().name(), "svg" | "g" | "a"));
+        let one_colour = match (self.fill, self.stroke) {
+            ("none", colour) | (colour, "none") => is_flat(colour),
+            _ => false,
+        };
+        let knows = |attribute: Attribute| match (attribute.namespace(), attribute.name()) {
+            (Some(_), _) | (None, "class" | "id" | "d" | "transform" | "role") => true,
+            (None, "style") => declarations(attribute.value())
+                .is_some_and(|list| list.iter().all(|(n, v)| is_harmless(n, v))),
+            (None, name) => name.starts_with("data-") || is_harmless(name, attribute.value()),
+        };
+        let described = path.children().filter(Node::is_element).all(|child| describes(&child));
+        let sure = !self.unsure && !self.used && !self.ordered;
+        sure && parent && one_colour && described && path.attributes().all(knows)
+    }
+}
+
+/// Whether two paths have the same attributes, but for what tells where and what they are, and dashes.
+pub(crate) fn painted_alike(a: Node, b: Node) -> bool {
+    fn paints<'a>(node: Node<'a, '_>) -> Vec<(Option<&'a str>, &'a str, &'a str)> {
+        let counts = |attribute: &Attribute| {
+            let name = attribute.name();
+            let told = matches!(name, "d" | "class" | "id" | "stroke-dasharray" | "stroke-dashoffset");
+            attribute.namespace().is_some() || !(told || name.starts_with("data-"))
+        };
+        let mut found: Vec<_> = node
+            .attributes()
+            .filter(counts)
+            .map(|attribute| (attribute.namespace(), attribute.name(), attribute.value()))
+            .collect();
+        found.sort_unstable();
+        found
+    }
+    paints(a) == paints(b)
+}
+
+fn describes(child: &Node) -> bool {
+    DESCRIPTIONS.contains(&child.tag_name().name())
+}
+
+fn is_harmless(name: &str, value: &str) -> bool {
+    HARMLESS.iter().any(|known| name.starts_with(known)) || matches!(value.trim(), "none" | "normal" | "auto")
+}
+
+/// A colour that is the same everywhere.
+fn is_flat(paint: &str) -> bool {
+    let word = !paint.is_empty() && paint.bytes().all(|b| b.is_ascii_alphabetic());
+    word || paint.starts_with('#') || paint.starts_with("rgb")
+}
+
+/// The declarations of a `style` attribute; `None` where they are more than a list of names and values.
+fn declarations(style: &str) -> Option<Vec<(&str, &str)>> {
+    if style.contains("/*") || style.contains(['{', '}', '\\']) {
+        return None;
+    }
+    let parts = style.split(';').map(str::trim).filter(|part| !part.is_empty());
+    parts
+        .map(|part| {
+            let (name, value) = part.split_once(':')?;
+            let name = name.trim();
+            let value = value.split('!').next()?.trim();
+            // A semicolon inside of quotes or brackets would have cut it in two.
+            let whole =
+                !value.contains(['"', '\'']) && value.matches('(').count() == value.matches(')').count();
+            (whole && !name.starts_with("--") && !name.contains(|c: char| c.is_ascii_uppercase()))
+                .then_some((name, value))
+        })
+        .collect()
+}

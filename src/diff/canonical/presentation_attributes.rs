@@ -1,0 +1,195 @@
+//! Styles as attributes: what `style` and style sheets say of how elements are painted, said in the words of SVG itself.
+
+use std::fmt::Write as _;
+use std::ops::Range;
+
+use usvg::roxmltree::{Document, Node, NodeType};
+
+use crate::diff::markup::cascade::Cascade;
+use crate::diff::markup::inline_style::escaped;
+use crate::diff::markup::input_limits;
+use crate::diff::markup::sheet_inlining::{after_name, edited};
+use crate::diff::markup::style_sheet::{self, Declaration};
+use crate::error::Error;
+
+/// Properties that are attributes as well, with the same values.
+const PROPERTIES: [&str; 50] = [
+    "alignment-baseline",
+    "baseline-shift",
+    "clip-path",
+    "clip-rule",
+    "color",
+    "color-interpolation",
+    "color-interpolation-filters",
+    "color-rendering",
+    "direction",
+    "display",
+    "dominant-baseline",
+    "fill",
+    "fill-opacity",
+    "fill-rule",
+    "filter",
+    "flood-color",
+    "flood-opacity",
+    "font-family",
+    "font-size",
+    "font-stretch",
+    "font-style",
+    "font-variant",
+    "font-weight",
+    "image-rendering",
+    "letter-spacing",
+    "lighting-color",
+    "marker-end",
+    "marker-mid",
+    "marker-start",
+    "mask",
+    "opacity",
+    "overflow",
+    "paint-order",
+    "pointer-events",
+    "shape-rendering",
+    "stop-color",
+    "stop-opacity",
+    "stroke",
+    "stroke-dasharray",
+    "stroke-dashoffset",
+    "stroke-linecap",
+    "stroke-linejoin",
+    "stroke-miterlimit",
+    "stroke-opacity",
+    "stroke-width",
+    "text-anchor",
+    "text-decoration",
+    "text-rendering",
+    "visibility",
+    "word-spacing",
+];
+
+/// Declarations for one element: more are no drawing's.
+const MOST_DECLARED: usize = 512;
+
+/// The file with its styles as attributes; `None` where it has none, or where not all that they say can be said so: rules for
+/// media or for states of a pointer, scripts, entities.
+pub(crate) fn plain(text: &str) -> Result<Option<String>, Error> {
+    let document = input_limits::parse(text)?;
+    if text.contains("<!ENTITY")
+        || !document.descendants().any(|node| has_style(&node))
+        || is_moving(&document)
+    {
+        return Ok(None);
+    }
+    let mut cascade = Cascade::of(&document);
+    let mut edits = Edits { text, list: Vec::new() };
+    if cascade.has_more || !edits.inside(document.root_element(), &mut cascade)? {
+        return Ok(None);
+    }
+    Ok((!edits.list.is_empty()).then(|| edited(text, edits.list)))
+}
+
+fn is_svg(node: &Node) -> bool {
+    matches!(node.tag_name().namespace(), None | Some("http://www.w3.org/2000/svg"))
+}
+
+fn has_style(node: &Node) -> bool {
+    node.is_element() && is_svg(node) && (node.has_attribute("style") || node.tag_name().name() == "style")
+}
+
+/// Whether something may ask for styles later on.
+fn is_moving(document: &Document) -> bool {
+    document.descendants().any(|node| match node.node_type() {
+        NodeType::PI => node.pi().is_some_and(|pi| pi.target == "xml-stylesheet"),
+        NodeType::Element => {
+            let name = node.tag_name().name();
+            name == "script" || name == "set" || name.starts_with("animate") || name == "foreignObject"
+        }
+        _ => false,
+    })
+}
+
+struct Edits<'a> {
+    text: &'a str,
+    list: Vec<(Range<usize>, String)>,
+}
+
+impl Edits<'_> {
+    /// Collects what is to be edited in an element; false where something cannot be said in attributes.
+    fn inside(&mut self, node: Node, cascade: &mut Cascade) -> Result<bool, Error> {
+        let declared = cascade.enter(node)?;
+        let fine = match is_svg(&node) {
+            true if node.tag_name().name() == "style" => {
+                self.list.push((node.range(), String::new()));
+                true
+            }
+            true => self.element(node, &declared),
+            false => declared.is_empty(),
+        };
+        if !fine {
+            return Ok(false);
+        }
+        for child in node.children().filter(Node::is_element) {
+            if !self.inside(child, cascade)? {
+                return Ok(false);
+            }
+        }
+        cascade.leave();
+        Ok(true)
+    }
+
+    fn element(&mut self, node: Node, declared: &[Declaration]) -> bool {
+        let own = node.attributes().find(|a| a.namespace().is_none() && a.name() == "style");
+        let style = own.map(|own| own.value()).unwrap_or_default();
+        let Some(own_list) = style_sheet::declarations(style) else { return false };
+        if declared.is_empty() && own_list.is_empty() {
+            return true;
+        }
+        if declared.len() + own_list.len() > MOST_DECLARED {
+            return false;
+        }
+        let mut won: Vec<Declaration> = Vec::new();
+        for declaration in declared.iter().chain(&own_list) {
+            match won.iter_mut().find(|other| other.name == declaration.name) {
+                Some(other) if other.important && !declaration.important => {}
+                Some(other) => *other = *declaration,
+                None => won.push(*declaration),
+            }
+        }
+        let is_plain = |declaration: &Declaration| {
+            let words = ["initial", "unset", "revert", "revert-layer"];
+            let value = declaration.value;
+            let computed = value.contains("var(") || value.contains("calc(");
+            PROPERTIES.contains(&declaration.name) && !words.contains(&value) && !computed
+        };
+        let (plain, rest): (Vec<Declaration>, Vec<Declaration>) = won.into_iter().partition(is_plain);
+        // What one style says for several properties would be said after them all; values that only style sheets know are
+        // for those who wrote them.
+        let several = |other: &Declaration| matches!(other.name, "font" | "marker" | "all" | "mask-image");
+        let unsure = rest.iter().any(|other| several(other) || PROPERTIES.contains(&other.name));
+        if unsure || plain.is_empty() {
+            return declared.is_empty() || !unsure && own_list.is_empty() && rest.is_empty();
+        }
+        let mut new = String::new();
+        for Declaration { name, value, .. } in &plain {
+            let _ = write!(new, " {name}=\"{}\"", escaped(value));
+        }
+        if !rest.is_empty() {
+            let said = |other: &Declaration| {
+                format!("{}:{}{}", other.name, other.value, if other.important { " !important" } else { "" })
+            };
+            let said: Vec<String> = rest.iter().map(said).collect();
+            let _ = write!(new, " style=\"{}\"", escaped(&said.join(";")));
+        }
+        let at = after_name(self.text, node);
+        self.list.push((at..at, new));
+        for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
+            let replaced = plain.iter().any(|declaration| declaration.name == attribute.name());
+            if replaced || attribute.name() == "style" {
+                let range = attribute.range();
+                let before = self.text.get(..range.start).unwrap_or_default();
+                let start = before.trim_end().len().max(at);
+                self.list.push((start..range.end, String::new()));
+            }
+        }
+        true
+    }
+}

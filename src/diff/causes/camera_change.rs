@@ -1,0 +1,173 @@
+//! Drawings seen from another side, found before their marks are compared one by one.
+//!
+//! 1. Hardly any mark has an equal.
+//! 2. One affine map is fitted to the middles of the parts. A drawing that was moved, scaled or turned on the page ends here.
+//! 3. A part keeps its form if its longest line was only shifted, as where parts of the model moved. The others turned towards the camera
+//!    or away from it.
+//! 4. These parts lie off the map in more directions than an edit of the model explains.
+
+use std::collections::BTreeMap;
+
+use kurbo::{BezPath, Point, Rect, Shape as _, Vec2};
+
+use super::cause_sentences::MOST_WAYS;
+use super::motion::points;
+use crate::diff::findings::finding::{Cause, Finding, Place, Verdict};
+use crate::diff::matching::equal_shapes::Parted;
+use crate::diff::shapes::label::Label;
+use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
+
+/// Fewest marks without an equal. Fewer are compared one by one in about half a second.
+const LEAST_MARKS: usize = 1000;
+/// At most one of this number of marks has an equal: lines on the axis of the turn do.
+const MARKS_PER_EQUAL: usize = 20;
+/// Parts that go the same way, by this part of it and this many px.
+const SAME_WAY: f64 = 0.02;
+const SAME_WAY_PX: f64 = 0.05;
+
+/// The lines of one part without an equal, in one picture.
+#[derive(Default)]
+struct PartLines<'a> {
+    /// The sum of the points of all paths, and their number.
+    sum: Vec2,
+    count: usize,
+    longest: Option<(&'a BezPath, f64)>,
+}
+
+impl PartLines<'_> {
+    /// The mean of all points. Unlike the middle of a box it goes where an affine map takes it.
+    fn middle(&self) -> Point {
+        (self.sum / self.count.max(1) as f64).to_point()
+    }
+}
+
+/// The sentence for two drawings seen from two sides, and a finding that stands for all marks; none for all others, and for small ones.
+pub(crate) fn find(pictures: [&Picture; 2], parted: &Parted, reach: f64) -> Option<(Finding, Cause)> {
+    let marks = parted.rest[0].len().max(parted.rest[1].len());
+    if marks < LEAST_MARKS || parted.equal.len() * MARKS_PER_EQUAL > marks {
+        return None;
+    }
+    let [before, after] = [0, 1].map(|side: usize| lines_of_parts(pictures[side], &parted.rest[side]));
+    let both = before.iter().filter_map(|(part, old)| Some((old, after.get(part)?)));
+    let both: Vec<(&PartLines, &PartLines)> = both.collect();
+    let middles: Vec<[Point; 2]> = both.iter().map(|(old, new)| [old.middle(), new.middle()]).collect();
+    let map = affine(&middles)?;
+    let mut ways: Vec<Vec2> = Vec::new();
+    for ((old, new), [from, to]) in both.iter().zip(&middles) {
+        let way = *to - map(*from);
+        let keeps_form = old.longest.zip(new.longest).is_some_and(|(a, b)| is_shifted([a.0, b.0], reach));
+        let near = |other: &Vec2| (*other - way).hypot() <= SAME_WAY_PX + SAME_WAY * way.hypot();
+        if !keeps_form && way.hypot() > reach && !ways.iter().any(near) {
+            ways.push(way);
+        }
+    }
+    if ways.len() <= MOST_WAYS {
+        return None;
+    }
+    let place = Place::of(Rect::new(0.0, 0.0, pictures[0].width, pictures[0].height));
+    let finding = Finding::in_place(Verdict::Moved, ShapeKind::Line, Label::default(), Vec::new(), place);
+    let sentence = format!("the drawing is seen from another side: {marks} marks of {} parts", both.len());
+    Some((finding, Cause { verdict: Verdict::Moved, sentence, findings: vec![0] }))
+}
+
+fn lines_of_parts<'a>(picture: &'a Picture, rest: &[usize]) -> BTreeMap<&'a str, PartLines<'a>> {
+    let mut parts: BTreeMap<&str, PartLines> = BTreeMap::new();
+    let lines = rest.iter().filter_map(|index| picture.shapes.get(*index));
+    for shape in lines.filter(|shape| shape.kind == ShapeKind::Line) {
+        let Shape { path, label, .. } = shape;
+        let Some(part) = label.part.as_deref() else { continue };
+        let own = parts.entry(part).or_default();
+        let place = path.bounding_box();
+        let points = points(path);
+        own.sum += points.iter().map(|p| p.to_vec2()).fold(Vec2::ZERO, |sum, p| sum + p);
+        own.count += points.len();
+        let length = place.width() + place.height();
+        if own.longest.is_none_or(|(_, known)| length > known) {
+            own.longest = Some((path, length));
+        }
+    }
+    parts
+}
+
+/// Whether one line lies like another one, shifted.
+fn is_shifted([old, new]: [&BezPath; 2], reach: f64) -> bool {
+    let (old, new) = (points(old), points(new));
+    let (Some(from), Some(to)) = (old.first(), new.first()) else { return false };
+    let shift = *to - *from;
+    old.len() == new.len() && old.iter().zip(&new).all(|(p, q)| (*p + shift).distance(*q) <= 2.0 * reach)
+}
+
+/// The affine map that carries points to points, by least squares; none for points on one line.
+fn affine(pairs: &[[Point; 2]]) -> Option<impl Fn(Point) -> Point + use<>> {
+    let count = pairs.len() as f64;
+    let mean = |side: usize| pairs.iter().fold(Vec2::ZERO, |sum, pair| sum + pair[side].to_vec2()) / count;
+    let (from, to) = (mean(0), mean(1));
+    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+    let (mut by_x, mut by_y) = (Vec2::ZERO, Vec2::ZERO);
+    for [p, q] in pairs {
+        let (p, q) = (p.to_vec2() - from, q.to_vec2() - to);
+        (xx, xy, yy) = (xx + p.x * p.x, xy + p.x * p.y, yy + p.y * p.y);
+        (by_x, by_y) = (by_x + q * p.x, by_y + q * p.y);
+    }
+    let determinant = xx * yy - xy * xy;
+    if determinant.is_nan() || determinant <= 1e-9 * xx * yy {
+        return None;
+    }
+    let along_x = (by_x * yy - by_y * xy) / determinant;
+    let along_y = (by_y * xx - by_x * xy) / determinant;
+    Some(move |p: Point| {
+        let p = p.to_vec2() - from;
+        (to + along_x * p.x + along_y * p.y).to_point()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diff::{DiffOptions, compare};
+    use crate::geometry::numbers::portable_math::{cos, sin};
+
+    /// Boxes of lines in space, drawn in parallel from a side turned by `degrees`; each moved along x by `apart` times its place.
+    fn picture(degrees: f64, apart: f64, scale: f64) -> Picture {
+        let (sin, cos) = (sin(degrees.to_radians()), cos(degrees.to_radians()));
+        let mut paths = String::new();
+        for part in 0..300 {
+            let of = |step: usize, count: usize| (part / step % count) as f64;
+            let middle = [of(1, 10) * 80.0 * (1.0 + apart), of(10, 10) * 80.0, of(100, 3) * 120.0];
+            for line in 0..4 {
+                let corner = |k: usize| {
+                    let along =
+                        [(k & 1) as f64 * 30.0, (k >> 1 & 1) as f64 * 20.0, (k >> 2 & 1) as f64 * 25.0];
+                    let [x, y, z] = [0, 1, 2].map(|axis: usize| middle[axis] + along[axis]);
+                    let (x, y) = (x * cos + z * sin, y * 0.9 + (z * cos - x * sin) * 0.4);
+                    format!("{:.2} {:.2}", 100.0 + x * scale, 400.0 + y * scale)
+                };
+                let (a, b) = (corner(line), corner(7 - line));
+                paths += &format!(r#"<path class="crease" data-part="box-{part}" d="M{a}L{b}"/>"#);
+            }
+        }
+        let head = r#"<svg xmlns="http://www.w3.org/2000/svg" width="2400" height="2400">"#;
+        Picture::from_svg(&format!(r##"{head}<g fill="none" stroke="#000">{paths}</g></svg>"##)).unwrap()
+    }
+
+    fn sentence(after: &Picture) -> Option<String> {
+        let brief = compare(&picture(20.0, 0.0, 1.0), after, &DiffOptions::default().in_brief());
+        assert!(!brief.is_same());
+        brief.is_brief.then(|| brief.causes[0].sentence.clone())
+    }
+
+    #[test]
+    fn a_turned_camera_is_one_sentence() {
+        let said = sentence(&picture(21.0, 0.0, 1.0));
+        assert_eq!(said.as_deref(), Some("the drawing is seen from another side: 1200 marks of 300 parts"));
+    }
+
+    #[test]
+    fn parts_that_move_and_drawings_that_grow_or_turn_are_compared_mark_by_mark() {
+        assert_eq!(sentence(&picture(20.0, 0.1, 1.0)), None);
+        assert_eq!(sentence(&picture(20.0, 0.0, 1.1)), None);
+        let old = picture(20.0, 0.0, 1.0);
+        let turned = old.svg.replacen("<g ", r#"<g transform="rotate(2 500 400)" "#, 1);
+        assert_eq!(sentence(&Picture::from_svg(&turned).unwrap()), None);
+    }
+}

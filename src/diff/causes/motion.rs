@@ -1,0 +1,204 @@
+//! [`Motion`]: one shift, turn and growth that carries marks of one drawing to their places in the other.
+
+use kurbo::{Affine, BezPath, PathEl, Point, Rect, Vec2};
+
+use crate::diff::curves::segment::Segment;
+use crate::diff::curves::segment_clusters::Bundles;
+
+/// Motions that are tried: what carries single marks to their likes.
+const TRIED: usize = 48;
+/// Places that a motion is judged by.
+const JUDGED: usize = 600;
+
+/// A shift, a turn and a growth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Motion {
+    pub affine: Affine,
+    /// The share of the places of both drawings that it carries to something.
+    pub share: f64,
+}
+
+impl Motion {
+    /// How much larger all becomes.
+    pub(crate) fn scale(&self) -> f64 {
+        self.affine.determinant().abs().sqrt()
+    }
+
+    /// The turn in degrees, clockwise on the page.
+    pub(crate) fn turn(&self) -> f64 {
+        let [a, b, ..] = self.affine.as_coeffs();
+        crate::geometry::numbers::portable_math::atan2(b, a).to_degrees()
+    }
+
+    /// How far a point goes.
+    pub(crate) fn of(&self, p: Point) -> Vec2 {
+        self.affine * p - p
+    }
+
+    /// How far what lies in a box goes, at its corners: the least and the most.
+    pub(crate) fn ways(&self, place: Rect) -> [Vec2; 4] {
+        let (x, y) = ([place.x0, place.x1], [place.y0, place.y1]);
+        [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j): (usize, usize)| self.of(Point::new(x[i], y[j])))
+    }
+}
+
+/// Marks of both drawings: paths that may be likes, in order, and polylines of all.
+pub(crate) struct Marks<'a> {
+    pub likes: Vec<[&'a BezPath; 2]>,
+    pub lines: [Vec<Vec<Point>>; 2],
+}
+
+/// How much of both sides a motion carries to something of the other.
+struct Judge {
+    places: [Vec<Point>; 2],
+    lines: [Lines; 2],
+    reach: f64,
+}
+
+impl Judge {
+    fn new(marks: &Marks, reach: f64) -> Option<Self> {
+        let places = [0, 1].map(|side: usize| spread(&marks.lines[side]));
+        if places.iter().any(Vec::is_empty) {
+            return None;
+        }
+        Some(Self { places, lines: [0, 1].map(|side: usize| Lines::new(&marks.lines[side])), reach })
+    }
+
+    fn judge(&self, affine: Affine) -> Option<Motion> {
+        let Self { places, lines, reach } = self;
+        let growth = affine.determinant().abs().sqrt();
+        if !(1e-3..1e3).contains(&growth) {
+            return None;
+        }
+        let hits = |places: &[Point], to: Affine, lines: &Lines, reach: f64| {
+            let near = places.iter().filter(|p| lines.has(to * **p, reach)).count();
+            near as f64 / places.len() as f64
+        };
+        let forth = hits(&places[0], affine, &lines[1], reach * growth.max(1.0));
+        let back = hits(&places[1], affine.inverse(), &lines[0], reach / growth.min(1.0));
+        Some(Motion { affine, share: forth.min(back) })
+    }
+}
+
+/// The share of both sides that lies where something of the other does, without any motion.
+pub(crate) fn stays(marks: &Marks, reach: f64) -> f64 {
+    Judge::new(marks, reach)
+        .and_then(|judge| judge.judge(Affine::IDENTITY))
+        .map_or(0.0, |motion| motion.share)
+}
+
+/// The motion that carries most of the one side to the other, within `reach`; shifts alone, unless `similar`.
+pub(crate) fn find(marks: &Marks, more: &[Affine], reach: f64, similar: bool) -> Option<Motion> {
+    let judge = Judge::new(marks, reach)?;
+    let judge = |affine: Affine| judge.judge(affine);
+    let step = (marks.likes.len() / TRIED).max(1);
+    let tried = marks.likes.iter().step_by(step).filter_map(|[old, new]| {
+        let (a, b) = (points(old), points(new));
+        (a.len() == b.len()).then(|| fit(&a, &b, similar)).flatten()
+    });
+    let mut best: Option<Motion> = None;
+    for found in tried.chain(more.iter().copied()).filter_map(judge) {
+        if best.is_none_or(|best| found.share > best.share + 1e-9) {
+            best = Some(found);
+        }
+    }
+    let best = best?;
+    // All likes that it carries to each other tell it more exactly.
+    let (mut a, mut b) = (Vec::new(), Vec::new());
+    for [old, new] in &marks.likes {
+        let (old, new) = (points(old), points(new));
+        let growth = best.scale().max(1.0);
+        if old.len() == new.len()
+            && old.iter().zip(&new).all(|(p, q)| (best.affine * *p).distance(*q) <= 2.0 * reach * growth)
+        {
+            a.extend(old);
+            b.extend(new);
+        }
+    }
+    let refined = fit(&a, &b, similar).and_then(judge).filter(|refined| refined.share >= best.share - 0.01);
+    Some(refined.unwrap_or(best))
+}
+
+/// The shift, or shift, turn and growth, that carries points to points; the least squares.
+fn fit(a: &[Point], b: &[Point], similar: bool) -> Option<Affine> {
+    if a.is_empty() || a.len() != b.len() {
+        return None;
+    }
+    let count = a.len() as f64;
+    let mean = |points: &[Point]| points.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / count;
+    let (mean_a, mean_b) = (mean(a), mean(b));
+    if !similar {
+        return Some(Affine::translate(mean_b - mean_a));
+    }
+    let (mut turn, mut size) = (Vec2::ZERO, 0.0);
+    for (p, q) in a.iter().zip(b) {
+        let (p, q) = (p.to_vec2() - mean_a, q.to_vec2() - mean_b);
+        turn += Vec2::new(p.dot(q), p.cross(q));
+        size += p.hypot2();
+    }
+    if size <= 1e-6 {
+        return None;
+    }
+    let turn = turn / size;
+    let linear = Affine::new([turn.x, turn.y, -turn.y, turn.x, 0.0, 0.0]);
+    Some(Affine::translate(mean_b - (linear * mean_a.to_point()).to_vec2()) * linear)
+}
+
+/// The points that a path is written with.
+pub(crate) fn points(path: &BezPath) -> Vec<Point> {
+    let mut points = Vec::new();
+    for element in path.elements() {
+        match *element {
+            PathEl::MoveTo(p) | PathEl::LineTo(p) => points.push(p),
+            PathEl::QuadTo(c, p) => points.extend([c, p]),
+            PathEl::CurveTo(c, d, p) => points.extend([c, d, p]),
+            PathEl::ClosePath => {}
+        }
+    }
+    points
+}
+
+/// Places all over some lines, in equal distances.
+fn spread(lines: &[Vec<Point>]) -> Vec<Point> {
+    let segments = || lines.iter().flat_map(|points| points.windows(2)).map(|pair| (pair[0], pair[1]));
+    let length: f64 = segments().map(|(p, q)| p.distance(q)).sum();
+    let step = length / JUDGED as f64;
+    let mut found = Vec::new();
+    let mut rest = step / 2.0;
+    for (p, q) in segments() {
+        let own = p.distance(q);
+        while rest < own && found.len() <= JUDGED {
+            found.push(p.lerp(q, rest / own));
+            rest += step;
+        }
+        rest -= own;
+    }
+    found
+}
+
+/// Lines that are asked whether something of them is near.
+struct Lines {
+    segments: Vec<Segment>,
+    bundles: Bundles,
+}
+
+impl Lines {
+    fn new(lines: &[Vec<Point>]) -> Self {
+        let segments = lines.iter().flat_map(|points| points.windows(2));
+        let segments: Vec<Segment> =
+            segments.map(|pair| Segment { chain: 0, from: pair[0], to: pair[1] }).collect();
+        let bundles = Bundles::new(&segments);
+        Self { segments, bundles }
+    }
+
+    fn has(&self, p: Point, reach: f64) -> bool {
+        self.bundles.any(&self.segments, p, reach)
+    }
+}
+
+/// The box round lines.
+pub(crate) fn extent(lines: &[Vec<Point>]) -> Rect {
+    let mut points = lines.iter().flatten();
+    let Some(first) = points.next() else { return Rect::ZERO };
+    points.fold(Rect::from_points(*first, *first), |rect, p| rect.union_pt(*p))
+}

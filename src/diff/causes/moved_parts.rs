@@ -1,0 +1,73 @@
+//! Parts that moved as a whole: one shift, turn and growth carries most of what differs of each.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use kurbo::Shape as _;
+
+use super::cause_sentences::Mover;
+use super::motion;
+use super::whole_motion;
+use crate::diff::findings::finding::{Finding, Verdict};
+use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
+
+/// The share of a part's marks without an equal that a motion must carry.
+const CARRIED: f64 = 0.5;
+/// A part of which so much lies where it lay did not move.
+const STAYED: f64 = 0.9;
+/// What a shift leaves, as a part of its length: parts that come nearer grow a little.
+const OFF_OF_WAY: f64 = 0.1;
+/// Least and most of it (px).
+const LEAST_PX: f64 = 0.06;
+const MOST_PX: f64 = 1.0;
+/// Parts that are looked at, at most.
+const MOST_PARTS: usize = 200;
+
+/// The parts of which more than one mark is elsewhere, and their motions.
+pub(crate) fn movers(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], findings: &[Finding]) -> Vec<Mover> {
+    let mut counts: BTreeMap<&Arc<str>, usize> = BTreeMap::new();
+    for finding in findings {
+        let elsewhere =
+            !matches!(finding.verdict, Verdict::Restyled | Verdict::Relabelled | Verdict::Restacked);
+        if let Some(part) = finding.label.part.as_ref().filter(|_| elsewhere) {
+            *counts.entry(part).or_default() += 1;
+        }
+    }
+    let parts = counts.into_iter().filter(|(_, count)| *count > 1).take(MOST_PARTS);
+    parts.filter_map(|(part, _)| mover(pictures, rest, part)).collect()
+}
+
+fn mover(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], part: &Arc<str>) -> Option<Mover> {
+    let is_own = |shape: &&Shape| shape.kind != ShapeKind::Clip && shape.label.part.as_ref() == Some(part);
+    let shapes = [0, 1].map(|side: usize| -> Vec<&Shape> {
+        rest[side].iter().filter_map(|index| pictures[side].shapes.get(*index)).filter(is_own).collect()
+    });
+    // Where most of it stayed, it did not move.
+    for side in 0..2 {
+        let all: Vec<&Shape> = pictures[side].shapes.iter().filter(is_own).collect();
+        let length = |shapes: &[&Shape]| shapes.iter().map(|shape| shape.path.perimeter(1e-2)).sum::<f64>();
+        let few = shapes[side].len() * 2 < all.len() || shapes[side].is_empty();
+        // A part whose longer lines stay has a hole that moved, or a boss.
+        if few || length(&shapes[side]) * 2.0 < length(&all) {
+            return None;
+        }
+    }
+    let marks = whole_motion::marks([&shapes[0], &shapes[1]], 0.02);
+    let places = [motion::extent(&marks.lines[0]), motion::extent(&marks.lines[1])];
+    let between = kurbo::Affine::translate(places[1].center() - places[0].center());
+    let way = (places[1].center() - places[0].center()).hypot();
+    let reach = (OFF_OF_WAY * way).clamp(LEAST_PX, MOST_PX);
+    let shift = motion::find(&marks, &[between], reach, false);
+    let found = match shift {
+        Some(shift) if shift.share >= CARRIED => shift,
+        _ => motion::find(&marks, &[between], reach, true)?,
+    };
+    // What is only cut otherwise, by what moves before it, lies where it lay: lines of one direction are carried along themselves.
+    let stays = motion::stays(&marks, reach);
+    if stays >= STAYED || found.share <= stays {
+        return None;
+    }
+    let ways = found.ways(places[0]);
+    let goes = ways.iter().any(|way| way.hypot() > LEAST_PX);
+    (goes && found.share >= CARRIED).then(|| Mover { part: Arc::clone(part), motion: found, places })
+}

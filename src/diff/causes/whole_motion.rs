@@ -1,0 +1,192 @@
+//! [`whole`]: whether one motion carries the whole of one drawing to the other: the page grew, or all was shifted or turned.
+
+use std::sync::Arc;
+
+use kurbo::{Affine, BezPath, PathEl, Point, Vec2};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::motion::{self, Marks, Motion};
+use crate::diff::curves::chain::flatten;
+use crate::diff::findings::finding::{Finding, Place, PlaceKey, Verdict};
+use crate::diff::shapes::label::Label;
+use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
+
+/// Fewer marks than this move one by one.
+const FEWEST: usize = 3;
+/// The share of the marks that must have no equal for the whole to have moved, and of these the share that must be
+/// where the motion carries them.
+const MOST_OF: f64 = 0.6;
+const CARRIED: f64 = 0.7;
+/// A drawing made anew in another size is smoothed anew: its lines are this part of the page away from where they would be.
+const ANEW_OF_PAGE: f64 = 5e-4;
+
+/// The motion of the whole, and the old drawing as it carries it: shapes that have equals stay.
+pub(crate) struct Whole {
+    pub motion: Motion,
+    /// The old drawing, carried: with lines as wide as they were, and as wide as the motion makes them.
+    pub carried: [Picture; 2],
+    /// What lies farther than this (px) from where it was carried is told.
+    pub reach: f64,
+}
+
+/// The motion that carries the shapes without an equal, if most have none.
+pub(crate) fn whole(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], tolerance: f64) -> Option<Whole> {
+    let counted = |side: usize| pictures[side].shapes.len();
+    let many = |side: usize| {
+        rest[side].len() >= FEWEST && rest[side].len() as f64 >= MOST_OF * (counted(side) as f64 - 1.0)
+    };
+    if !(many(0) && many(1)) {
+        return None;
+    }
+    let [before, after] = pictures;
+    let shapes = [0, 1].map(|side: usize| -> Vec<&Shape> {
+        let drawn = rest[side].iter().filter_map(|index| pictures[side].shapes.get(*index));
+        // Paper is as large as the page, whatever lies on it.
+        drawn.filter(|shape| shape.kind != ShapeKind::Clip && shape.label.layer.as_ref() != "paper").collect()
+    });
+    let marks = marks([&shapes[0], &shapes[1]], tolerance);
+    let page = after.width.max(after.height);
+    let grown = page / before.width.max(before.height);
+    let boxes = [motion::extent(&marks.lines[0]), motion::extent(&marks.lines[1])];
+    let larger = boxes[1].width().max(boxes[1].height()) / boxes[0].width().max(boxes[0].height());
+    let boxed = Affine::translate(boxes[1].center().to_vec2())
+        * Affine::scale(larger)
+        * Affine::translate(-boxes[0].center().to_vec2());
+    let reach = tolerance * 2.0;
+    let mut found = motion::find(&marks, &[Affine::scale(grown), boxed], reach, true);
+    let mut told = reach;
+    if found.is_none_or(|found| found.share < CARRIED) {
+        told = reach.max(ANEW_OF_PAGE * page);
+        found = motion::find(&marks, &[Affine::scale(grown), boxed], told, true);
+    }
+    let motion = found.filter(|found| found.share >= CARRIED)?;
+    let ends = motion.ways(boxes[0]);
+    if ends.iter().all(|way| way.hypot() <= 2.0 * told) {
+        return None;
+    }
+    let carried = [1.0, motion.scale()].map(|wider| carried(before, &rest[0], &motion, wider, after));
+    Some(Whole { motion, carried, reach: told * motion.scale().max(1.0) })
+}
+
+/// The shift that each finding tells, if all that moved without exception went the same way, and it is nearly all of the drawing.
+pub(crate) fn together(
+    findings: &mut [Finding],
+    before: &Picture,
+    rest: &[usize],
+    tolerance: f64,
+) -> Option<Motion> {
+    if (rest.len() as f64) < MOST_OF * (before.shapes.len() as f64 - 1.0) {
+        return None;
+    }
+    let shifts: Option<Vec<Vec2>> = findings
+        .iter()
+        .map(|f| {
+            f.shift
+                .filter(|_| f.verdict == Verdict::Moved && f.changes.is_empty())
+                .map(|[x, y]| Vec2::new(x, y))
+        })
+        .collect();
+    let shifts = shifts.filter(|shifts| shifts.len() >= FEWEST && shifts.len() * 2 >= rest.len())?;
+    let parts = findings.iter().map(|f| &f.label.part).collect::<FxHashSet<_>>().len();
+    let mean = shifts.iter().fold(Vec2::ZERO, |sum, shift| sum + *shift) / shifts.len() as f64;
+    let near = shifts.iter().all(|shift| (*shift - mean).hypot() <= 2.0 * tolerance + 0.02 * mean.hypot());
+    if !near || parts < 2 {
+        return None;
+    }
+    findings.iter_mut().for_each(|finding| finding.carried = true);
+    Some(Motion { affine: Affine::translate(mean), share: 1.0 })
+}
+
+/// What motions are found from.
+pub(crate) fn marks<'a>(shapes: [&[&'a Shape]; 2], tolerance: f64) -> Marks<'a> {
+    let lines = shapes.map(|shapes| {
+        let flat =
+            shapes.iter().flat_map(|shape| flatten(&shape.path, tolerance, shape.kind != ShapeKind::Line));
+        flat.map(|(points, _)| points).collect()
+    });
+    // Likes are written alike: of one label, one paint and as many points, in the order of the file.
+    type Key<'k> = (ShapeKind, &'k Label, usize);
+    let key = |shape: &&'a Shape| -> Key<'a> { (shape.kind, &*shape.label, shape.path.elements().len()) };
+    let mut waiting: FxHashMap<Key, Vec<&'a BezPath>> = FxHashMap::default();
+    for shape in shapes[1].iter().rev() {
+        waiting.entry(key(shape)).or_default().push(&shape.path);
+    }
+    let like = |shape: &&'a Shape| Some([&shape.path, waiting.get_mut(&key(shape))?.pop()?]);
+    let mut likes: Vec<[&BezPath; 2]> = shapes[0].iter().filter_map(like).collect();
+    // Long ones tell more.
+    likes.sort_by_key(|[old, _]| std::cmp::Reverse(old.elements().len()));
+    Marks { likes, lines }
+}
+
+fn carried(picture: &Picture, rest: &[usize], motion: &Motion, wider: f64, after: &Picture) -> Picture {
+    let mut shapes = picture.shapes.to_vec();
+    for index in rest {
+        let Some(shape) = shapes.get_mut(*index) else { continue };
+        shape.path = motion.affine * &shape.path;
+        shape.outline = shape.outline.as_ref().map(|outline| motion.affine * outline);
+        shape.ink.width *= wider;
+        shape.ink.dash.iter_mut().for_each(|length| *length *= wider);
+    }
+    Picture {
+        width: after.width,
+        height: after.height,
+        step_px: picture.step_px * motion.scale().max(1.0),
+        shapes: Arc::from(shapes),
+        ..picture.clone()
+    }
+}
+
+/// A finding for each shape that was carried, but for those that are gone after all.
+pub(crate) fn findings(before: &Picture, rest: &[usize], motion: &Motion, gone: &[Finding]) -> Vec<Finding> {
+    let shifts = (motion.scale() - 1.0).abs() < 1e-6 && motion.turn().abs() < 1e-4;
+    let gone: FxHashSet<(PlaceKey, &Label)> =
+        gone.iter().filter(|f| f.verdict == Verdict::Removed).map(|f| (f.place.key(), &f.label)).collect();
+    let mut found = Vec::new();
+    for shape in rest.iter().filter_map(|index| before.shapes.get(*index)) {
+        let new = motion.affine * &shape.path;
+        let place = Place::of(new.control_box());
+        if shape.kind == ShapeKind::Clip || gone.contains(&(place.key(), &*shape.label)) {
+            continue;
+        }
+        let mut ways: Vec<f64> = ends(&shape.path).into_iter().map(|p| motion.of(p).hypot()).collect();
+        ways.sort_by(f64::total_cmp);
+        let largest = ways.last().copied().unwrap_or_default();
+        let way = motion.of(shape.path.control_box().center());
+        found.push(Finding {
+            size: size(shape),
+            largest,
+            p95: ways
+                .get((ways.len() * 95 / 100).min(ways.len().saturating_sub(1)))
+                .copied()
+                .unwrap_or(largest),
+            shift: shifts.then_some([way.x, way.y]),
+            place: Place::of(new.control_box().union(shape.path.control_box())),
+            gone: shape.path.clone(),
+            carried: true,
+            material: shape.material.clone(),
+            new,
+            ..Finding::in_place(Verdict::Moved, shape.kind, (*shape.label).clone(), Vec::new(), place)
+        });
+    }
+    found
+}
+
+/// Whether a finding follows from the motion of the whole.
+pub(crate) fn is_carried(finding: &Finding) -> bool {
+    finding.carried
+}
+
+fn size(shape: &Shape) -> f64 {
+    match shape.kind {
+        ShapeKind::Line => kurbo::Shape::perimeter(&shape.path, 1e-3),
+        _ => crate::diff::curves::region_area::area(shape),
+    }
+}
+
+fn ends(path: &BezPath) -> Vec<Point> {
+    let of = |element: &PathEl| match *element {
+        PathEl::MoveTo(p) | PathEl::LineTo(p) | PathEl::QuadTo(_, p) | PathEl::CurveTo(_, _, p) => Some(p),
+        PathEl::ClosePath => None,
+    };
+    path.elements().iter().filter_map(of).collect()
+}

@@ -1,0 +1,61 @@
+//! Findings about lines: what became of each.
+
+use crate::parallel::prelude::*;
+use kurbo::{BezPath, Rect, Shape as _};
+
+use super::finding_writer::{Teller, label};
+use crate::diff::curves::chain::Chain;
+use crate::diff::findings::finding::{Finding, Place, Verdict};
+use crate::diff::matching::chain_events::Event;
+use crate::diff::matching::chain_pairs::bounds;
+use crate::diff::shapes::picture::ShapeKind;
+
+/// One finding a line that something happened to.
+pub(crate) fn findings(teller: &Teller, events: Vec<Event>) -> Vec<Finding> {
+    events.into_par_iter().map(|event| one(teller, event)).collect()
+}
+
+/// What became of one line.
+fn one(teller: &Teller, event: Event) -> Finding {
+    let chain = |side: usize, index: Option<usize>| index.map(|index| &teller.sides[side].chains[index]);
+    let (old, new) = (chain(0, event.old), chain(1, event.new));
+    let shapes = [old.and_then(|c| teller.shape(0, c)), new.and_then(|c| teller.shape(1, c))];
+    let length = |chain: Option<&Chain>| chain.map_or(0.0, Chain::length);
+    let boxes = [(0, old), (1, new)].into_iter().filter_map(|(_, c)| Some(bounds(&c?.points)));
+    // Where only a piece differs, the piece is the place.
+    let bare = [&event.gone, &event.added].into_iter().filter(|path| !path.elements().is_empty());
+    let bare: Vec<Rect> = bare.map(BezPath::bounding_box).collect();
+    let place = match event.verdict {
+        Verdict::Moved => union(boxes),
+        _ => union(bare.into_iter()).or(union(boxes)),
+    };
+    let size = match event.verdict {
+        Verdict::Reshaped | Verdict::Moved => length(old).max(0.0),
+        _ => event.size,
+    };
+    let pieces = match event.verdict {
+        Verdict::Moved | Verdict::Reshaped => [event.gone.perimeter(1e-3), event.added.perimeter(1e-3)],
+        _ => [0.0; 2],
+    };
+    Finding {
+        verdict: event.verdict,
+        kind: shapes.iter().flatten().next().map_or(ShapeKind::Line, |shape| shape.kind),
+        label: label(shapes),
+        changes: teller.changes(shapes),
+        place: Place::of(place.unwrap_or_default()),
+        size,
+        growth: if old.is_some() && new.is_some() { pieces[1] - pieces[0] } else { 0.0 },
+        pieces: if old.is_some() && new.is_some() { pieces } else { [0.0; 2] },
+        material: shapes.iter().flatten().next().and_then(|shape| shape.material.clone()),
+        largest: event.largest,
+        p95: event.p95,
+        shift: event.shift,
+        gone: event.gone,
+        new: event.added,
+        carried: false,
+    }
+}
+
+fn union(boxes: impl Iterator<Item = Rect>) -> Option<Rect> {
+    boxes.reduce(|a, b| a.union(b))
+}

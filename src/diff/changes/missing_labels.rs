@@ -1,0 +1,84 @@
+//! Labels that another program left out: the one drawing has parts and classes, the other has none.
+
+use std::sync::Arc;
+
+use kurbo::Rect;
+use rustc_hash::FxHashMap;
+
+use crate::diff::findings::finding::{Cause, Change, Finding, Place, Verdict};
+use crate::diff::shapes::label::Label;
+use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
+
+/// The drawing that has labels, where the other one has none; layers alone are none, programs make their own.
+pub(crate) fn lost(pictures: [&Picture; 2]) -> Option<usize> {
+    let has = pictures.map(|picture| picture.shapes.iter().any(is_labelled));
+    let drawn = pictures.iter().all(|picture| !picture.shapes.is_empty());
+    match has {
+        [true, false] if drawn => Some(0),
+        [false, true] if drawn => Some(1),
+        _ => None,
+    }
+}
+
+fn is_labelled(shape: &Shape) -> bool {
+    shape.label.part.is_some() || !shape.label.classes.is_empty()
+}
+
+/// Places of findings are rounded by less than this.
+const ROUNDED_PX: f64 = 0.02;
+/// Findings of one label that a mark is sought in, at most.
+const MOST_PLACES: usize = 2000;
+
+/// A finding for each mark whose label is not in the other drawing, but for those that are only in the one.
+pub(crate) fn findings(labelled: &Picture, others: &[Finding], side: usize) -> Vec<Finding> {
+    let alone = [Verdict::Removed, Verdict::Added][side];
+    // Lines that are gone are told as joined: each of their pieces lies in the box of one.
+    let mut lonely: FxHashMap<&Label, Vec<Rect>> = FxHashMap::default();
+    for finding in others.iter().filter(|finding| finding.verdict == alone) {
+        let Place { x, y, width, height } = finding.place;
+        let place = Rect::new(x, y, x + width, y + height).inflate(ROUNDED_PX, ROUNDED_PX);
+        lonely.entry(&finding.label).or_default().push(place);
+    }
+    let marks = labelled.shapes.iter().filter(|shape| is_labelled(shape) && shape.kind != ShapeKind::Clip);
+    let one = |shape: &Shape| {
+        let place = Place::of(kurbo::Shape::bounding_box(&shape.path));
+        let bounds = kurbo::Shape::bounding_box(&shape.path);
+        let is_alone =
+            |places: &Vec<Rect>| places.iter().take(MOST_PLACES).any(|place| place.contains_rect(bounds));
+        if lonely.get(&*shape.label).is_some_and(is_alone) {
+            return None;
+        }
+        let mut changes = Vec::new();
+        let mut note = |what: &str, was: String| {
+            let words = [was, "none".to_owned()];
+            let [old, new] = if side == 0 { words } else { [words[1].clone(), words[0].clone()] };
+            changes.push(Change { what: what.to_owned(), old, new });
+        };
+        if let Some(part) = &shape.label.part {
+            note("part", part.to_string());
+        }
+        if !shape.label.classes.is_empty() {
+            note("class", shape.label.classes.join(" "));
+        }
+        let size = match shape.kind {
+            ShapeKind::Line => kurbo::Shape::perimeter(&shape.path, 1e-3),
+            _ => crate::diff::curves::region_area::area(shape),
+        };
+        let label: Label = (*shape.label).clone();
+        Some(Finding {
+            size,
+            new: shape.path.clone(),
+            material: shape.material.as_ref().map(Arc::clone),
+            ..Finding::in_place(Verdict::Relabelled, shape.kind, label, changes, place)
+        })
+    };
+    marks.filter_map(one).collect()
+}
+
+/// All of it in one sentence.
+pub(crate) fn cause(findings: &[Finding], side: usize) -> Option<Cause> {
+    let count = findings.len();
+    let which = ["new", "old"][side];
+    let sentence = format!("{count} marks: the {which} drawing stores no parts and classes");
+    (count > 0).then(|| Cause { verdict: Verdict::Relabelled, sentence, findings: Vec::new() })
+}

@@ -1,0 +1,120 @@
+//! What lies over what: marks that stayed, and are painted in another order where they overlap.
+
+use kurbo::{Point, Rect, Shape as _};
+
+use crate::diff::curves::chain::flatten;
+use crate::diff::findings::finding::{Change, Finding, Place, Verdict};
+use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
+
+/// Pairs that are looked at, at most.
+const MOST_PAIRS: usize = 50_000_000;
+/// Points along each side of the box that two regions share.
+const POINTS: usize = 8;
+
+/// Findings about marks that stayed: each is given by its places in both pictures.
+pub(crate) fn findings(before: &Picture, after: &Picture, mut stayed: Vec<(usize, usize)>) -> Vec<Finding> {
+    stayed.sort_unstable();
+    stayed.dedup_by_key(|pair| pair.0);
+    let moved = out_of_order(&stayed);
+    if moved.is_empty() || moved.len().saturating_mul(stayed.len()) > MOST_PAIRS {
+        return Vec::new();
+    }
+    let boxes: Vec<Rect> = stayed
+        .iter()
+        .map(|(_, new)| after.shapes.get(*new).map_or(Rect::ZERO, |shape| shape.path.bounding_box()))
+        .collect();
+    let mut found = Vec::new();
+    for item in moved {
+        let (old, new) = stayed[item];
+        let (Some(was), Some(shape)) = (before.shapes.get(old), after.shapes.get(new)) else { continue };
+        let other = stayed.iter().zip(&boxes).find_map(|(&(other_old, other_new), bounds)| {
+            let turned = (old < other_old) != (new < other_new) && old != other_old;
+            let other = after.shapes.get(other_new)?;
+            let touches = turned && bounds.overlaps(boxes[item]) && matters(shape, other);
+            (touches && overlap(shape, other, bounds.intersect(boxes[item]))).then_some((other_new, other))
+        });
+        if let Some((other_new, other)) = other {
+            let side = |over: bool| format!("{} {}", if over { "over" } else { "under" }, other.label);
+            let change =
+                Change { what: "order".to_owned(), old: side(new < other_new), new: side(new > other_new) };
+            let place = Place::of(boxes[item]);
+            let label = (*was.label).clone();
+            found.push(Finding {
+                new: shape.path.clone(),
+                ..Finding::in_place(Verdict::Restacked, shape.kind, label, vec![change], place)
+            });
+        }
+    }
+    found
+}
+
+/// Whether it can be seen which of two marks lies over the other.
+fn matters(a: &Shape, b: &Shape) -> bool {
+    let clip = a.kind == ShapeKind::Clip || b.kind == ShapeKind::Clip;
+    let fills = a.kind == ShapeKind::Region || b.kind == ShapeKind::Region;
+    !clip && fills && a.ink.paint != b.ink.paint
+}
+
+/// The fewest marks whose going elsewhere explains the new order: all but a longest rising run.
+fn out_of_order(stayed: &[(usize, usize)]) -> Vec<usize> {
+    // Patience sorting: the last item of the best run of each length, and for each item the one before it.
+    let mut tails: Vec<usize> = Vec::new();
+    let mut previous = vec![usize::MAX; stayed.len()];
+    for (index, (_, new)) in stayed.iter().enumerate() {
+        let at = tails.partition_point(|tail| stayed[*tail].1 < *new);
+        if at > 0 {
+            previous[index] = tails[at - 1];
+        }
+        match tails.get_mut(at) {
+            Some(tail) => *tail = index,
+            None => tails.push(index),
+        }
+    }
+    let mut rising = vec![false; stayed.len()];
+    let mut at = tails.last().copied().unwrap_or(usize::MAX);
+    while let Some(mark) = rising.get_mut(at) {
+        *mark = true;
+        at = previous[at];
+    }
+    (0..stayed.len()).filter(|index| !rising[*index]).collect()
+}
+
+/// Whether two marks, at least one of them a region, have points in common.
+fn overlap(a: &Shape, b: &Shape, common: Rect) -> bool {
+    let inside = |shape: &Shape, p: Point| match shape.even_odd {
+        true => shape.path.winding(p) % 2 != 0,
+        false => shape.path.winding(p) != 0,
+    };
+    match (a.kind, b.kind) {
+        (ShapeKind::Region, ShapeKind::Region) => {
+            let step = |index: usize| (index as f64 + 0.5) / POINTS as f64;
+            (0..POINTS).flat_map(|x| (0..POINTS).map(move |y| (x, y))).any(|(x, y)| {
+                let at =
+                    Point::new(common.x0 + step(x) * common.width(), common.y0 + step(y) * common.height());
+                inside(a, at) && inside(b, at)
+            })
+        }
+        (ShapeKind::Line, _) => on_line(a, |p| inside(b, p)),
+        _ => on_line(b, |p| inside(a, p)),
+    }
+}
+
+/// Whether some point of a line is such; its ends often lie on borders, and are not asked.
+fn on_line(line: &Shape, is_such: impl Fn(Point) -> bool) -> bool {
+    flatten(&line.path, 0.1, false)
+        .iter()
+        .flat_map(|(points, _)| points.windows(2))
+        .any(|pair| [0.25, 0.5, 0.75].into_iter().any(|share| is_such(pair[0].lerp(pair[1], share))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::out_of_order;
+
+    #[test]
+    fn the_fewest_marks_moved() {
+        assert!(out_of_order(&[(0, 3), (1, 5), (2, 9)]).is_empty());
+        assert_eq!(out_of_order(&[(0, 9), (1, 0), (2, 1), (3, 2)]), [0]);
+        assert_eq!(out_of_order(&[(0, 0), (1, 2), (2, 3), (3, 1)]), [3]);
+    }
+}

@@ -1,0 +1,364 @@
+//! From two pictures to a [`Diff`].
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+use kurbo::{Point, Rect};
+
+use super::DiffOptions;
+use super::causes::camera_change;
+use super::causes::cause_sentences;
+use super::causes::moved_parts;
+use super::causes::whole_motion;
+use super::changes::line_findings;
+use super::changes::missing_labels;
+use super::changes::outline_findings;
+use super::changes::region_findings;
+use super::changes::stacking_order;
+use super::changes::{self, Renamed};
+use super::curves::chain;
+use super::findings::pixel_count;
+use super::matching::equal_shapes;
+use super::raster_check::{self, Decision};
+use super::report::text_report;
+use crate::diff::causes::cause_sentences::Mover;
+use crate::diff::causes::motion::Motion;
+use crate::diff::changes::finding_writer::Teller;
+use crate::diff::curves::segment_grid::SegmentCells;
+use crate::diff::findings::finding::{Cause, Change, Diff, Finding, Place, Stage, Verdict};
+use crate::diff::findings::ink_totals::Totals;
+use crate::diff::matching::chain_events::{Event, events};
+use crate::diff::matching::chain_pairs::Side;
+use crate::diff::matching::interval_cover::cover;
+use crate::diff::shapes::ignore_options::Ignore;
+use crate::diff::shapes::ink::trimmed;
+use crate::diff::shapes::label::Label;
+use crate::diff::shapes::mark_groups::Groups;
+use crate::diff::shapes::picture::{Picture, ShapeKind};
+use crate::diff::shapes::tolerances::{Tolerances, default_px};
+use crate::drawing::{Length, Unit};
+
+/// Room for the recursion of the renderer over nested elements.
+const STACK_BYTES: usize = 64 << 20;
+
+/// Compares two pictures, see [`super::compare`].
+pub(crate) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) -> Diff {
+    let mut diff = Diff {
+        findings: Vec::new(),
+        causes: Vec::new(),
+        same_at: None,
+        totals: Totals::default(),
+        tolerance_px: options
+            .tolerances
+            .all
+            .map_or_else(|| default_px(before, after), |length| length.in_unit(crate::drawing::Unit::Px)),
+        unused_tolerances: options.tolerances.unused([before, after]),
+        pictures_unknown: false,
+        is_brief: false,
+        pixels: None,
+        before: before.clone(),
+        after: after.clone(),
+    };
+    diff.totals = Totals::of(before, after);
+    if before.svg == after.svg {
+        diff.same_at = Some(Stage::Bytes);
+        return diff;
+    }
+    let (left_before, left_after) = (left(before, options.ignore), left(after, options.ignore));
+    judge(&mut diff, [&left_before, &left_after], options);
+    if options.pixels {
+        diff.pixels = pixel_count::compare(before, after);
+        if diff.pixels.as_ref().is_some_and(|pixels| !pixels.is_same()) {
+            diff.same_at = None;
+        }
+    }
+    diff
+}
+
+/// A picture without what does not count.
+fn left(picture: &Picture, ignore: Ignore) -> Picture {
+    match picture.shapes.iter().any(|shape| ignore.leaves_out(shape)) {
+        true => {
+            let shapes = picture.shapes.iter().filter(|shape| !ignore.leaves_out(shape)).cloned();
+            Picture { shapes: shapes.collect(), ..picture.clone() }
+        }
+        false => picture.clone(),
+    }
+}
+
+/// Finds what differs, and what it follows from.
+fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
+    let [before, after] = pictures;
+    // Where the one drawing has lost all its labels, no mark can be told from another by them.
+    let lost = missing_labels::lost(pictures).filter(|_| !options.ignore.labels);
+    let mut ignore = options.ignore;
+    ignore.labels |= lost.is_some();
+    if options.brief && lost.is_none() && settled_in_brief(diff, pictures, options) {
+        return;
+    }
+    let page = page(before, after);
+    let mut compared = one(pictures, &options.tolerances, ignore);
+    let renamed = (!ignore.labels).then(|| changes::renamed(pictures, &compared.findings)).flatten();
+    let (pictures, names) = match &renamed {
+        Some(Renamed { before, findings }) => ([before, pictures[1]], findings.clone()),
+        None => (pictures, Vec::new()),
+    };
+    let [before, after] = pictures;
+    if renamed.is_some() {
+        compared = one(pictures, &options.tolerances, ignore);
+        diff.totals = Totals::of(before, after);
+    }
+    let looked = look(pictures, &compared.findings, options, ignore);
+    diff.pictures_unknown = matches!(looked, Decision::Unknown);
+    let seen = match looked {
+        Decision::Same => {
+            let found = std::mem::take(&mut compared.findings);
+            let before = found.len();
+            compared.findings = raster_check::without_picture(found, pictures, ignore);
+            compared.is_one_picture = compared.findings.len() < before;
+            if compared.is_one_picture {
+                compared.movers.clear();
+            }
+            Vec::new()
+        }
+        Decision::Differs(more) => more,
+        Decision::Unknown => Vec::new(),
+    };
+    // Where each mark was found to go the same way, that is what happened.
+    let together =
+        whole_motion::together(&mut compared.findings, before, &compared.rest[0], diff.tolerance_px);
+    if let Some(motion) = together {
+        let cause = sentence(diff, &motion, pictures, compared.findings.len(), diff.tolerance_px);
+        return settle(
+            diff,
+            pictures,
+            [page.into_iter().chain(names).collect(), seen],
+            compared,
+            vec![cause],
+            lost,
+        );
+    }
+    let whole = (compared.findings.len() > 2)
+        .then(|| whole_motion::whole(pictures, &compared.rest, default_px(before, after)))
+        .flatten();
+    let mut causes = Vec::new();
+    if let Some(whole) = whole
+        && let Some((found, cause)) = of_whole(diff, &whole, pictures, &compared, &options.tolerances, ignore)
+    {
+        compared.findings = found;
+        compared.movers.clear();
+        causes.push(cause);
+    }
+    settle(diff, pictures, [page.into_iter().chain(names).collect(), seen], compared, causes, lost);
+}
+
+/// Settles drawings of one size that are seen from two sides; false for all others.
+fn settled_in_brief(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) -> bool {
+    let groups = Groups::new(pictures, &options.tolerances, options.ignore);
+    let parted = equal_shapes::part(pictures[0], pictures[1], &groups);
+    let Some((finding, cause)) = camera_change::find(pictures, &parted, diff.tolerance_px) else {
+        return false;
+    };
+    if page(pictures[0], pictures[1]).is_some()
+        || !matches!(look(pictures, &[], options, options.ignore), Decision::Differs(_))
+    {
+        return false;
+    }
+    (diff.findings, diff.causes, diff.is_brief) = (vec![finding], vec![cause], true);
+    true
+}
+
+/// Compares the pictures. The renderer follows nested references on a large stack, and may give up.
+fn look(pictures: [&Picture; 2], findings: &[Finding], options: &DiffOptions, ignore: Ignore) -> Decision {
+    let groups = Groups::new(pictures, &options.tolerances, ignore);
+    let pool = rayon_core::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK_BYTES).build();
+    let decide = || raster_check::decide(pictures, findings, &groups, ignore);
+    let decided = pool.map(|pool| pool.install(|| catch_unwind(AssertUnwindSafe(decide))));
+    decided.ok().and_then(Result::ok).unwrap_or(Decision::Unknown)
+}
+
+/// Puts together what was found.
+fn settle(
+    diff: &mut Diff,
+    pictures: [&Picture; 2],
+    more: [Vec<Finding>; 2],
+    mut compared: Compared,
+    mut causes: Vec<Cause>,
+    lost: Option<usize>,
+) {
+    let structure = compared.rest.iter().all(Vec::is_empty) && lost.is_none();
+    diff.findings.extend(more.into_iter().flatten());
+    diff.findings.append(&mut compared.findings);
+    if let Some(side) = lost {
+        let findings = missing_labels::findings(pictures[side], &diff.findings, side);
+        causes.extend(missing_labels::cause(&findings, side));
+        diff.findings.extend(findings);
+    }
+    sort(&mut diff.findings);
+    // Which findings follow from the whole is known by their verdict, now that they have their places.
+    for cause in &mut causes {
+        let follows = |finding: &Finding| match cause.verdict {
+            Verdict::Relabelled => finding.verdict == Verdict::Relabelled,
+            _ => finding.verdict == Verdict::Page || whole_motion::is_carried(finding),
+        };
+        let places = diff.findings.iter().enumerate().filter(|(_, finding)| follows(finding));
+        cause.findings = places.map(|(index, _)| index).collect();
+    }
+    diff.causes = causes;
+    let more = cause_sentences::causes(diff, &compared.movers);
+    diff.causes.extend(more);
+    if diff.findings.is_empty() {
+        diff.same_at = Some(match (compared.is_one_picture, structure) {
+            (true, _) => Stage::Picture,
+            (_, true) => Stage::Structure,
+            _ => Stage::Geometry,
+        });
+    }
+}
+
+/// The gravest first, then by part, class and place.
+fn sort(findings: &mut [Finding]) {
+    findings.sort_by(|a, b| {
+        (a.verdict, &a.label)
+            .cmp(&(b.verdict, &b.label))
+            .then(a.place.y.total_cmp(&b.place.y))
+            .then(a.place.x.total_cmp(&b.place.x))
+            .then(b.size.total_cmp(&a.size))
+    });
+}
+
+/// What a motion of the whole leaves, and that motion in words; nothing where it explains little.
+fn of_whole(
+    diff: &Diff,
+    whole: &whole_motion::Whole,
+    pictures: [&Picture; 2],
+    compared: &Compared,
+    tolerances: &Tolerances,
+    ignore: Ignore,
+) -> Option<(Vec<Finding>, Cause)> {
+    let mut tolerances = tolerances.clone();
+    let reach = Length::px(whole.reach);
+    let own = tolerances.all.map_or(0.0, |all| all.in_unit(Unit::Px));
+    if own < whole.reach {
+        tolerances.all = Some(reach);
+    }
+    let tried = whole.carried.iter().map(|carried| one([carried, pictures[1]], &tolerances, ignore).findings);
+    let left = tried.min_by_key(Vec::len)?;
+    if left.len() * 4 > compared.findings.len() {
+        return None;
+    }
+    let carried = whole_motion::findings(pictures[0], &compared.rest[0], &whole.motion, &left);
+    if carried.is_empty() {
+        return None;
+    }
+    let cause = sentence(diff, &whole.motion, pictures, carried.len(), whole.reach);
+    Some((left.into_iter().chain(carried).collect(), cause))
+}
+
+/// The motion of the whole in words; its findings are found later.
+fn sentence(diff: &Diff, motion: &Motion, pictures: [&Picture; 2], count: usize, reach: f64) -> Cause {
+    let unit = diff.unit();
+    let place = Rect::new(0.0, 0.0, pictures[0].width, pictures[0].height);
+    let mut words = cause_sentences::motion(motion, place, unit);
+    // What grows from the page's corner with the page goes nowhere.
+    if motion.of(Point::ORIGIN).hypot() <= reach
+        && let Some((grown, _)) = words.split_once(", its middle")
+    {
+        words.truncate(grown.len());
+    }
+    let page = match page(pictures[0], pictures[1]) {
+        Some(page) => format!(" ({})", text_report::changed(&page.changes)),
+        None => String::new(),
+    };
+    let exact = unit.length(reach);
+    let sentence = format!("the whole drawing {words}{page}: {count} marks, as they were within {exact}");
+    Cause { verdict: Verdict::Moved, sentence, findings: Vec::new() }
+}
+
+/// What differs mark by mark.
+struct Compared {
+    findings: Vec<Finding>,
+    /// The shapes without an equal.
+    rest: [Vec<usize>; 2],
+    /// Parts that moved as a whole.
+    movers: Vec<Mover>,
+    /// Whether findings were left out because both drawings look the same.
+    is_one_picture: bool,
+}
+
+fn one(pictures: [&Picture; 2], tolerances: &Tolerances, ignore: Ignore) -> Compared {
+    let [before, after] = pictures;
+    let groups = Groups::new(pictures, tolerances, ignore);
+    let equal_shapes::Parted { equal: mut stayed, rest } = equal_shapes::part(before, after, &groups);
+    let mut findings = Vec::new();
+    let mut movers = Vec::new();
+    if !rest.iter().all(Vec::is_empty) {
+        (findings, movers) = unequal(pictures, &rest, &groups, ignore, &mut stayed);
+    }
+    findings.extend(stacking_order::findings(before, after, stayed));
+    Compared { findings, rest, movers, is_one_picture: false }
+}
+
+/// What became of the shapes that have no equal; those that lie where they lay are added to what stayed.
+fn unequal(
+    [before, after]: [&Picture; 2],
+    rest: &[Vec<usize>; 2],
+    groups: &Groups,
+    ignore: Ignore,
+    stayed: &mut Vec<(usize, usize)>,
+) -> (Vec<Finding>, Vec<Mover>) {
+    let chains = [
+        chain::of(before, &rest[0], &groups.of_shape[0], groups),
+        chain::of(after, &rest[1], &groups.of_shape[1], groups),
+    ];
+    let firsts = [chain::firsts(&chains[0]), chain::firsts(&chains[1])];
+    let grid = |side: usize| {
+        let chains = chains[side].iter().enumerate();
+        SegmentCells::of(chains.filter(|(index, _)| firsts[side].get(*index) == Some(index)))
+    };
+    let all = |side: usize| (chains[side].as_slice(), firsts[side].as_slice());
+    let covers = [cover(all(0), all(1), &grid(1), groups), cover(all(1), all(0), &grid(0), groups)];
+    let ([a, b], [cover_a, cover_b], [firsts_a, firsts_b]) = (chains, covers, firsts);
+    let sides = [
+        Side { chains: a, firsts: firsts_a, covers: cover_a },
+        Side { chains: b, firsts: firsts_b, covers: cover_b },
+    ];
+    for (chain, cover) in sides[0].chains.iter().zip(&sides[0].covers).filter(|(_, cover)| cover.is_whole()) {
+        let partner = cover.partners.first().and_then(|(partner, ..)| sides[1].chains.get(*partner as usize));
+        stayed.extend(
+            chain.shapes.first().copied().zip(partner.and_then(|other| other.shapes.first().copied())),
+        );
+    }
+    let page = before.width.max(before.height).max(after.width.max(after.height));
+    let events = events(&sides, groups, page);
+    let teller = Teller { pictures: [before, after], sides: &sides, ignore };
+    let (events_of_lines, borders): (Vec<Event>, Vec<Event>) = events.into_iter().partition(|event| {
+        let chain = event.old.map(|old| &sides[0].chains[old]).or(event.new.map(|new| &sides[1].chains[new]));
+        chain
+            .and_then(|chain| groups.groups.get(chain.group))
+            .is_none_or(|group| group.kind == ShapeKind::Line)
+    });
+    let mut findings = line_findings::findings(&teller, events_of_lines);
+    findings.extend(region_findings::findings(&teller, borders));
+    if !ignore.widths {
+        findings.extend(outline_findings::findings(&teller, groups));
+    }
+    let movers = moved_parts::movers([before, after], rest, &findings);
+    (findings, movers)
+}
+
+/// The page, if it has another size.
+fn page(before: &Picture, after: &Picture) -> Option<Finding> {
+    let size = |picture: &Picture| format!("{} x {} px", trimmed(picture.width), trimmed(picture.height));
+    let tolerance = default_px(before, after);
+    let differs = (before.width - after.width).abs().max((before.height - after.height).abs()) > tolerance;
+    differs.then(|| {
+        let change = Change { what: "size".to_owned(), old: size(before), new: size(after) };
+        let (width, height) = (before.width.max(after.width), before.height.max(after.height));
+        let place = Place::of(Rect::new(0.0, 0.0, width, height));
+        Finding {
+            size: before.width * before.height,
+            growth: after.width * after.height - before.width * before.height,
+            ..Finding::in_place(Verdict::Page, ShapeKind::Region, Label::default(), vec![change], place)
+        }
+    })
+}

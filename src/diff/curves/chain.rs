@@ -1,0 +1,296 @@
+//! [`Chain`]: shapes as polylines, joined where they were split.
+
+use crate::parallel::prelude::*;
+use kurbo::{PathEl, Point};
+use rustc_hash::FxHashMap;
+
+use crate::diff::shapes::mark_groups::Groups;
+use crate::diff::shapes::picture::{Picture, ShapeKind};
+use crate::geometry::numbers::tolerance::{FLAT_OF_CURVE, FLAT_OF_TOLERANCE, JOIN_OF_TOLERANCE};
+
+/// A polyline in px, in a form that does not depend on how it was written: an open one begins at its lesser end, a
+/// closed one at its least point.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Chain {
+    pub group: usize,
+    /// At least two points; a closed chain ends where it begins.
+    pub points: Vec<Point>,
+    pub closed: bool,
+    /// The shapes it is made of.
+    pub shapes: Vec<usize>,
+}
+
+impl Chain {
+    pub(crate) fn length(&self) -> f64 {
+        self.segments().map(|(p, q)| p.distance(q)).sum()
+    }
+
+    pub(crate) fn segments(&self) -> impl Iterator<Item = (Point, Point)> {
+        self.points.windows(2).map(|pair| (pair[0], pair[1]))
+    }
+
+    /// The chain in the form that does not depend on how it was written.
+    fn in_order(mut self) -> Self {
+        let less = |a: &Point, b: &Point| order(*a, *b).is_lt();
+        if self.closed {
+            self.points.pop();
+            let least = (0..self.points.len()).reduce(|a, b| match less(&self.points[b], &self.points[a]) {
+                true => b,
+                false => a,
+            });
+            self.points.rotate_left(least.unwrap_or(0));
+            let (second, last) = (self.points.get(1), self.points.last());
+            if second.zip(last).is_some_and(|(second, last)| less(last, second)) {
+                self.points[1..].reverse();
+            }
+            self.points.extend(self.points.first().copied());
+        } else if self.points.first().zip(self.points.last()).is_some_and(|(first, last)| less(last, first)) {
+            self.points.reverse();
+        }
+        self.shapes.sort_unstable();
+        self.shapes.dedup();
+        self
+    }
+}
+
+fn order(a: Point, b: Point) -> std::cmp::Ordering {
+    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
+}
+
+/// The chains of some shapes of a picture, in an order that does not depend on that of the shapes.
+pub(crate) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups: &Groups) -> Vec<Chain> {
+    let flat: Vec<Vec<Chain>> = shapes
+        .par_iter()
+        .map(|index| {
+            let (Some(shape), Some(group)) = (picture.shapes.get(*index), of_shape.get(*index)) else {
+                return Vec::new();
+            };
+            let tolerance = groups.groups.get(*group).map_or(0.01, |group| group.tolerance);
+            let closes = shape.kind != ShapeKind::Line;
+            flatten(&shape.path, tolerance * FLAT_OF_TOLERANCE, closes)
+                .into_iter()
+                .map(|(points, closed)| Chain { group: *group, points, closed, shapes: vec![*index] })
+                .collect()
+        })
+        .collect();
+    let mut by_group: FxHashMap<usize, Vec<Chain>> = FxHashMap::default();
+    let mut done = Vec::new();
+    for chain in flat.into_iter().flatten() {
+        match chain.closed {
+            true => done.push(chain.in_order()),
+            false => by_group.entry(chain.group).or_default().push(chain),
+        }
+    }
+    let mut open: Vec<(usize, Vec<Chain>)> = by_group.into_iter().collect();
+    open.sort_unstable_by_key(|(group, _)| *group);
+    for (group, chains) in open {
+        let tolerance = groups.groups.get(group).map_or(0.01, |group| group.tolerance);
+        done.extend(join(chains, tolerance * JOIN_OF_TOLERANCE).into_iter().map(Chain::in_order));
+    }
+    sort(&mut done);
+    done
+}
+
+/// Sorts chains by where they are: copies of one chain are neighbours then.
+pub(crate) fn sort(chains: &mut [Chain]) {
+    let key = |chain: &Chain| chain.points.iter().map(|p| (p.x.to_bits(), p.y.to_bits())).collect::<Vec<_>>();
+    chains.sort_by(|a, b| {
+        let start = |chain: &Chain| chain.points.first().copied().unwrap_or_default();
+        let end = |chain: &Chain| chain.points.last().copied().unwrap_or_default();
+        order(start(a), start(b))
+            .then_with(|| order(end(a), end(b)))
+            .then_with(|| key(a).cmp(&key(b)))
+            .then_with(|| a.group.cmp(&b.group))
+    });
+}
+
+/// For each chain the first one that lies exactly where it does, of the same group: chains in order have their copies behind them.
+pub(crate) fn firsts(chains: &[Chain]) -> Vec<usize> {
+    let mut firsts: Vec<usize> = Vec::with_capacity(chains.len());
+    for (index, chain) in chains.iter().enumerate() {
+        let before = firsts.last().copied().filter(|first| {
+            chains.get(*first).is_some_and(|other| {
+                other.group == chain.group && other.closed == chain.closed && other.points == chain.points
+            })
+        });
+        firsts.push(before.unwrap_or(index));
+    }
+    firsts
+}
+
+/// The rings of an outline, in an order that does not depend on how it was written.
+pub(crate) fn rings(outline: Option<&kurbo::BezPath>, tolerance: f64) -> Vec<Chain> {
+    let flat =
+        outline.map(|outline| flatten(outline, tolerance * FLAT_OF_TOLERANCE, true)).unwrap_or_default();
+    let ring = |(points, closed)| Chain { group: 0, points, closed, shapes: Vec::new() }.in_order();
+    let mut rings: Vec<Chain> = flat.into_iter().map(ring).collect();
+    rings.sort_by(|a, b| order(a.points[0], b.points[0]));
+    rings
+}
+
+/// The subpaths of a path as polylines, and whether each is closed.
+pub(crate) fn flatten(path: &kurbo::BezPath, tolerance: f64, closes: bool) -> Vec<(Vec<Point>, bool)> {
+    let mut found: Vec<(Vec<Point>, bool)> = Vec::new();
+    let size = path.control_box().size();
+    let tolerance = tolerance.max(size.width.max(size.height) * FLAT_OF_CURVE);
+    kurbo::flatten(path.elements().iter().copied(), tolerance, |element| match element {
+        PathEl::MoveTo(p) => found.push((vec![p], false)),
+        PathEl::ClosePath => {
+            if let Some((points, closed)) = found.last_mut() {
+                points.extend(points.first().copied());
+                *closed = true;
+                // What follows without a move begins at the same place.
+                let start = points.first().copied();
+                found.extend(start.map(|start| (vec![start], false)));
+            }
+        }
+        PathEl::LineTo(p) | PathEl::QuadTo(_, p) | PathEl::CurveTo(_, _, p) => {
+            if let Some((points, _)) = found.last_mut() {
+                points.push(p);
+            }
+        }
+    });
+    for (points, closed) in &mut found {
+        points.dedup_by(|b, a| b == a && !*closed);
+        if closes && !*closed && points.len() > 2 {
+            points.extend(points.first().copied());
+            *closed = true;
+        }
+        if *closed {
+            points.dedup();
+        }
+        if points.len() == 1 && !closes {
+            // A dot has two ends in one place.
+            points.extend(points.first().copied());
+        }
+    }
+    let after_a_close = |index: usize| index > 0 && found[index - 1].1 && is_dot(&found[index].0);
+    let keep: Vec<bool> =
+        (0..found.len()).map(|index| found[index].0.len() > 1 && !after_a_close(index)).collect();
+    let mut keep = keep.into_iter();
+    found.retain(|_| keep.next().unwrap_or(false));
+    found
+}
+
+fn is_dot(points: &[Point]) -> bool {
+    points.iter().all(|p| Some(p) == points.first())
+}
+
+/// One end of a chain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+struct End {
+    chain: usize,
+    last: bool,
+}
+
+impl End {
+    fn other(self) -> Self {
+        Self { last: !self.last, ..self }
+    }
+}
+
+/// Joins chains of one group where the ends of just two of them meet within `reach`.
+fn join(chains: Vec<Chain>, reach: f64) -> Vec<Chain> {
+    let cell = |p: Point| ((p.x / reach).floor() as i64, (p.y / reach).floor() as i64);
+    let place = |end: End| {
+        let points = &chains[end.chain].points;
+        if end.last { points[points.len() - 1] } else { points[0] }
+    };
+    let is_dot: Vec<bool> = chains.iter().map(|chain| is_dot(&chain.points)).collect();
+    let ends = || {
+        let of = |chain| [End { chain, last: false }, End { chain, last: true }];
+        (0..chains.len()).filter(|chain| !is_dot[*chain]).flat_map(of)
+    };
+    let mut cells: FxHashMap<(i64, i64), Vec<End>> = FxHashMap::default();
+    for end in ends() {
+        cells.entry(cell(place(end))).or_default().push(end);
+    }
+    let only = |end: End| {
+        let (x, y) = cell(place(end));
+        let mut near = (x - 1..=x + 1)
+            .flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)))
+            .filter_map(|cell| cells.get(&cell))
+            .flatten()
+            .filter(|other| **other != end && place(**other).distance(place(end)) <= reach);
+        let first = near.next().copied();
+        if near.next().is_some() { None } else { first }
+    };
+    let mut next: FxHashMap<End, End> = FxHashMap::default();
+    for end in ends() {
+        if let Some(other) = only(end).filter(|other| only(*other) == Some(end)) {
+            next.insert(end, other);
+        }
+    }
+    let mut used = vec![false; chains.len()];
+    let mut joined = Vec::new();
+    // Open chains are walked from an end that nothing joins, what is left goes round.
+    let starts = ends().filter(|end| !next.contains_key(end)).chain(ends());
+    for start in starts.collect::<Vec<_>>() {
+        if used[start.chain] {
+            continue;
+        }
+        let mut points: Vec<Point> = Vec::new();
+        let mut shapes = Vec::new();
+        let mut at = start;
+        let closed = loop {
+            used[at.chain] = true;
+            let chain = &chains[at.chain];
+            let way: Vec<Point> = match at.last {
+                false => chain.points.clone(),
+                true => chain.points.iter().rev().copied().collect(),
+            };
+            // Both ends of a joint become one point.
+            points.extend(way.into_iter().skip(usize::from(!points.is_empty())));
+            shapes.extend_from_slice(&chain.shapes);
+            match next.get(&at.other()) {
+                Some(other) if *other == start => break true,
+                Some(other) if !used[other.chain] => at = *other,
+                _ => break false,
+            }
+        };
+        if closed {
+            let first = points[0];
+            if let Some(last) = points.last_mut() {
+                *last = first;
+            }
+        }
+        joined.push(Chain { group: chains[start.chain].group, points, closed, shapes });
+    }
+    joined.extend(chains.into_iter().zip(is_dot).filter(|(_, dot)| *dot).map(|(chain, _)| chain));
+    joined
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(points: &[(f64, f64)]) -> Chain {
+        let points = points.iter().map(|p| Point::from(*p)).collect();
+        Chain { group: 0, points, closed: false, shapes: vec![0] }
+    }
+
+    #[test]
+    fn split_lines_are_joined_where_two_ends_meet() {
+        let split = vec![line(&[(5.0, 0.0), (9.0, 0.0)]), line(&[(5.0, 0.0), (0.0, 0.0)])];
+        let joined: Vec<Chain> = join(split, 0.01).into_iter().map(Chain::in_order).collect();
+        assert_eq!(joined, [line(&[(0.0, 0.0), (5.0, 0.0), (9.0, 0.0)])]);
+        let star = vec![
+            line(&[(0.0, 0.0), (1.0, 0.0)]),
+            line(&[(0.0, 0.0), (0.0, 1.0)]),
+            line(&[(0.0, 0.0), (-1.0, 0.0)]),
+        ];
+        assert_eq!(join(star, 0.01).len(), 3);
+        let round = vec![line(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)]), line(&[(0.0, 0.0), (1.0, 1.0)])];
+        let round = join(round, 0.01);
+        assert!(round.len() == 1 && round[0].closed && round[0].points.len() == 4, "{round:?}");
+    }
+
+    #[test]
+    fn subpaths_and_dots() {
+        let path = kurbo::BezPath::from_svg("M0 0H4V4ZM9 9h0M1 1L2 2").unwrap();
+        let found = flatten(&path, 0.01, false);
+        let lengths: Vec<(usize, bool)> =
+            found.iter().map(|(points, closed)| (points.len(), *closed)).collect();
+        assert_eq!(lengths, [(4, true), (2, false), (2, false)]);
+    }
+}

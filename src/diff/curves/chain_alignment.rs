@@ -1,0 +1,127 @@
+//! [`Alignment`]: which point of one chain corresponds to which of another, and what motion carries them there.
+
+use kurbo::{Point, Vec2};
+
+use super::chain::Chain;
+use super::hausdorff_distance::places;
+use super::segment::nearest_on;
+
+/// Places that are compared along each chain: enough for its points, within bounds.
+const FEWEST: usize = 5;
+const MOST: usize = 33;
+
+/// Two chains laid beside each other by arc length; in px.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Alignment {
+    /// The largest distance of corresponding places: the Fréchet distance or more.
+    pub largest: f64,
+    /// How far places moved on average.
+    pub shift: Vec2,
+    /// The largest distance that the shift leaves.
+    pub after_shift: f64,
+    /// The largest distance that the best shift, turn and growth leave.
+    pub after_similarity: f64,
+}
+
+/// The alignment of two chains with the smallest largest distance; the same, but for its sign, either way round.
+pub(crate) fn align(a: &Chain, b: &Chain) -> Alignment {
+    let count = (a.points.len().max(b.points.len()) * 2 - 1).clamp(FEWEST, MOST);
+    let on_a: Vec<Point> = places(a, count).collect();
+    let on_b: Vec<Point> = places(b, count).collect();
+    let mut best: Option<Alignment> = None;
+    let mut offer = |a: &[Point], b: &[Point]| {
+        let found = measure(a, b);
+        if best.is_none_or(|best| found.largest + found.after_shift < best.largest + best.after_shift) {
+            best = Some(found);
+        }
+    };
+    if a.closed && b.closed {
+        // Round chains may begin anywhere: at their least point, or where the other one's is nearest.
+        let turned_b = on_a.first().map_or_else(|| on_b.clone(), |start| from_nearest(b, *start, count));
+        let turned_a = on_b.first().map_or_else(|| on_a.clone(), |start| from_nearest(a, *start, count));
+        for (a, b) in [(&on_a, &on_b), (&on_a, &turned_b), (&turned_a, &on_b)] {
+            offer(a, b);
+            offer(a, &reversed(b));
+        }
+    } else {
+        offer(&on_a, &on_b);
+        offer(&on_a, &reversed(&on_b));
+    }
+    best.unwrap_or(Alignment { largest: 0.0, shift: Vec2::ZERO, after_shift: 0.0, after_similarity: 0.0 })
+}
+
+fn reversed(points: &[Point]) -> Vec<Point> {
+    points.iter().rev().copied().collect()
+}
+
+/// Places along a closed chain, from the one nearest to a point.
+fn from_nearest(chain: &Chain, start: Point, count: usize) -> Vec<Point> {
+    let nearest = chain
+        .segments()
+        .enumerate()
+        .map(|(index, (p, q))| {
+            (start.distance_squared(nearest_on(p, q, start)), index, nearest_on(p, q, start))
+        })
+        .min_by(|a, b| a.0.total_cmp(&b.0));
+    let Some((_, index, point)) = nearest else { return places(chain, count).collect() };
+    let mut points = vec![point];
+    points.extend_from_slice(&chain.points[index + 1..]);
+    points.extend(chain.points.iter().skip(1).take(index));
+    points.push(point);
+    places(&Chain { points, ..chain.clone() }, count).collect()
+}
+
+fn measure(a: &[Point], b: &[Point]) -> Alignment {
+    let count = a.len().min(b.len()).max(1) as f64;
+    let mean =
+        |points: &[Point]| points.iter().map(|p| p.to_vec2()).fold(Vec2::ZERO, |sum, v| sum + v) / count;
+    let (mean_a, mean_b) = (mean(a), mean(b));
+    let shift = mean_b - mean_a;
+    // As complex numbers: b - mean_b = turn (a - mean_a), turn by least squares.
+    let (mut turn, mut size) = (Vec2::ZERO, 0.0);
+    for (p, q) in a.iter().zip(b) {
+        let (p, q) = (p.to_vec2() - mean_a, q.to_vec2() - mean_b);
+        turn += Vec2::new(p.dot(q), p.cross(q));
+        size += p.hypot2();
+    }
+    let turn = if size > 0.0 { turn / size } else { Vec2::new(1.0, 0.0) };
+    let mut found = Alignment { largest: 0.0, shift, after_shift: 0.0, after_similarity: 0.0 };
+    for (p, q) in a.iter().zip(b) {
+        let moved = *q - *p;
+        let own = p.to_vec2() - mean_a;
+        let turned = Vec2::new(own.x * turn.x - own.y * turn.y, own.x * turn.y + own.y * turn.x);
+        found.largest = found.largest.max(moved.hypot());
+        found.after_shift = found.after_shift.max((moved - shift).hypot());
+        found.after_similarity = found.after_similarity.max((q.to_vec2() - mean_b - turned).hypot());
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use kurbo::Affine;
+
+    use super::*;
+
+    fn chain(points: &[(f64, f64)], closed: bool) -> Chain {
+        let points = points.iter().map(|p| Point::from(*p)).collect();
+        Chain { group: 0, points, closed, shapes: Vec::new() }
+    }
+
+    fn moved(chain: &Chain, motion: Affine) -> Chain {
+        Chain { points: chain.points.iter().rev().map(|p| motion * *p).collect(), ..chain.clone() }
+    }
+
+    #[test]
+    fn motions_are_found() {
+        let open = chain(&[(0.0, 0.0), (40.0, 10.0), (60.0, 40.0)], false);
+        let closed = chain(&[(0.0, 0.0), (40.0, 0.0), (40.0, 30.0), (0.0, 0.0)], true);
+        for chain in [open, closed] {
+            let shifted = align(&chain, &moved(&chain, Affine::translate((3.0, 4.0))));
+            assert!((shifted.shift - Vec2::new(3.0, 4.0)).hypot() < 0.5, "{shifted:?}");
+            assert!(!chain.closed || shifted.after_shift < 6.0);
+            let turned = align(&chain, &moved(&chain, Affine::rotate(0.02)));
+            assert!(turned.after_similarity < 0.2 * turned.largest.max(1.0), "{turned:?}");
+        }
+    }
+}

@@ -1,0 +1,175 @@
+//! How far two polylines lie apart: the Hausdorff distance, and how far most of them does.
+
+use kurbo::Point;
+
+use super::chain::Chain;
+use super::segment::nearest_on;
+use super::segment_grid::SegmentCells;
+use crate::geometry::numbers::tolerance::DISTANCE_SHARE;
+
+/// Polylines of more segments are searched by a grid.
+const FEW: usize = 48;
+/// Places along each polyline that percentiles are taken of: so many a point, within bounds.
+const PLACES: usize = 8;
+const FEWEST: usize = 20;
+const MOST: usize = 128;
+/// Distances smaller than this (px) are not told apart.
+const LEAST_PX: f64 = 1e-4;
+
+/// How far two lines lie apart, in px.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct Apart {
+    /// The Hausdorff distance, at most [`DISTANCE_SHARE`] of itself too small.
+    pub largest: f64,
+    /// 95 % of both lines are nearer to the other one than this.
+    pub p95: f64,
+}
+
+/// The distances between two chains.
+pub(crate) fn apart(a: &Chain, b: &Chain) -> Apart {
+    let (near_a, near_b) = (Near::new(a), Near::new(b));
+    let largest = near_b.farthest(a, near_a.farthest(b, 0.0));
+    let count = |chain: &Chain| (chain.points.len() * PLACES).clamp(FEWEST, MOST);
+    let mut all: Vec<f64> = places(a, count(a)).map(|p| near_b.nearest(p).1).collect();
+    all.extend(places(b, count(b)).map(|p| near_a.nearest(p).1));
+    all.sort_by(f64::total_cmp);
+    let p95 = all.get((all.len() * 95).div_ceil(100).saturating_sub(1)).copied().unwrap_or(0.0);
+    Apart { largest: largest.max(p95), p95 }
+}
+
+/// Points in equal distances along a chain, from its start to its end.
+pub(crate) fn places(chain: &Chain, count: usize) -> impl Iterator<Item = Point> {
+    let step = chain.length() / (count.max(2) - 1) as f64;
+    let mut segments = chain.segments();
+    let mut current = segments.next();
+    let mut before = 0.0;
+    (0..count).map(move |index| {
+        let wanted = step * index as f64;
+        while let Some((p, q)) = current {
+            let length = p.distance(q);
+            if wanted <= before + length || length.is_nan() {
+                let share = if length > 0.0 { ((wanted - before) / length).clamp(0.0, 1.0) } else { 0.0 };
+                return p.lerp(q, share);
+            }
+            match segments.next() {
+                Some(next) => {
+                    before += length;
+                    current = Some(next);
+                }
+                // Rounding at the very end.
+                None => return q,
+            }
+        }
+        Point::ZERO
+    })
+}
+
+/// A chain that is asked for its nearest point.
+pub(crate) struct Near<'a> {
+    chain: &'a Chain,
+    grid: Option<SegmentCells>,
+}
+
+impl<'a> Near<'a> {
+    pub(crate) fn new(chain: &'a Chain) -> Self {
+        let grid = (chain.points.len() > FEW).then(|| SegmentCells::new(std::slice::from_ref(chain)));
+        Self { chain, grid }
+    }
+
+    /// The nearest segment and its distance.
+    pub(crate) fn nearest(&self, p: Point) -> (usize, f64) {
+        let distance = |index: usize| match self.chain.points.get(index..index + 2) {
+            Some(&[from, to]) => p.distance_squared(nearest_on(from, to, p)),
+            _ => f64::INFINITY,
+        };
+        let best = std::cell::Cell::new((0, f64::INFINITY));
+        let see = |index: usize| {
+            let found = distance(index);
+            let (at, least) = best.get();
+            if found < least || (found == least && index < at) {
+                best.set((index, found));
+            }
+        };
+        match &self.grid {
+            None => (0..self.chain.points.len() - 1).for_each(see),
+            Some(grid) => {
+                let enough = |seen: f64| best.get().1 <= seen * seen;
+                grid.rings(p, (f64::MAX.sqrt(), usize::MAX), |item| see(item as usize), enough);
+            }
+        }
+        let (index, squared) = best.get();
+        (index, squared.sqrt())
+    }
+
+    /// The largest distance of a point of `other`, if it is above `known`; branch and bound.
+    ///
+    /// Between two points the distance to one segment is convex, and that to the whole chain no larger: the larger of
+    /// the distances of both points to the segment nearest to either bounds all in between.
+    pub(crate) fn farthest(&self, other: &Chain, known: f64) -> f64 {
+        let mut most = known;
+        let to_segment = |p: Point, index: usize| match self.chain.points.get(index..index + 2) {
+            Some(&[from, to]) => p.distance(nearest_on(from, to, p)),
+            _ => f64::INFINITY,
+        };
+        let mut open: Vec<(Point, usize, Point, usize)> = Vec::new();
+        let mut before: Option<(Point, usize)> = None;
+        for p in &other.points {
+            let (segment, distance) = self.nearest(*p);
+            most = most.max(distance);
+            if let Some((q, near_q)) = before {
+                open.push((q, near_q, *p, segment));
+            }
+            before = Some((*p, segment));
+        }
+        while let Some((p, near_p, q, near_q)) = open.pop() {
+            let bound = |segment| to_segment(p, segment).max(to_segment(q, segment));
+            let limit = most * (1.0 + DISTANCE_SHARE) + LEAST_PX;
+            if bound(near_p).min(bound(near_q)) <= limit || p.distance(q) <= LEAST_PX {
+                continue;
+            }
+            let middle = p.midpoint(q);
+            let (segment, distance) = self.nearest(middle);
+            most = most.max(distance);
+            open.push((p, near_p, middle, segment));
+            open.push((middle, segment, q, near_q));
+        }
+        most
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chain(points: &[(f64, f64)]) -> Chain {
+        Chain {
+            group: 0,
+            points: points.iter().map(|p| Point::from(*p)).collect(),
+            closed: false,
+            shapes: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn closed_forms() {
+        let line = chain(&[(0.0, 0.0), (100.0, 0.0)]);
+        let beside = chain(&[(0.0, 3.0), (100.0, 3.0)]);
+        assert_eq!(apart(&line, &beside), Apart { largest: 3.0, p95: 3.0 });
+        let along = chain(&[(5.0, 0.0), (105.0, 0.0)]);
+        assert!((apart(&line, &along).largest - 5.0).abs() < 1e-9);
+        let roof = chain(&[(0.0, 0.0), (50.0, 40.0), (100.0, 0.0)]);
+        assert!((apart(&line, &roof).largest - 40.0).abs() < 1e-9);
+        // The farthest point of the line is inside it: between the ends of two others.
+        let comb = chain(&[(0.0, 0.0), (0.0, 300.0), (100.0, 300.0), (100.0, 0.0)]);
+        let wide = chain(&[(0.0, 0.0), (100.0, 0.0)]);
+        let directed = Near::new(&comb).farthest(&wide, 0.0);
+        assert!((directed - 50.0).abs() < 0.2, "{directed}");
+    }
+
+    #[test]
+    fn places_are_evenly_spaced() {
+        let bent = chain(&[(0.0, 0.0), (3.0, 0.0), (3.0, 1.0)]);
+        let found: Vec<Point> = places(&bent, 5).collect();
+        assert_eq!(found, [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 0.0), (3.0, 1.0)].map(Point::from));
+    }
+}

@@ -1,0 +1,156 @@
+//! [`Bundles`]: segments in a tree by where they begin and end, so that thousands that lie nearly on each other are asked as one.
+
+use kurbo::{Point, Rect};
+
+use super::segment::{Segment, nearest_on};
+
+/// Segments of a leaf, at most.
+const LEAF: usize = 4;
+
+/// What a search comes to.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Met {
+    /// Segments that all lie within `radius` of the one from `from` to `to`, point by point: are they to be looked into?
+    Bundle { from: Point, to: Point, radius: f64 },
+    /// One segment, by its number: is that enough?
+    One(u32),
+}
+
+/// A tree over segments: halves by the coordinate of their ends in which they differ most.
+#[derive(Debug)]
+pub(crate) struct Bundles {
+    nodes: Vec<Node>,
+    /// The numbers of the segments, node by node.
+    items: Vec<u32>,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    /// The boxes of the starts and of the ends.
+    starts: Rect,
+    ends: Rect,
+    items: (usize, usize),
+    /// The second half's node; the first one's is the next. `None` for leaves.
+    second: Option<usize>,
+}
+
+impl Bundles {
+    pub(crate) fn new(segments: &[Segment]) -> Self {
+        let mut tree =
+            Self { nodes: Vec::new(), items: (0..segments.len()).map(|item| item as u32).collect() };
+        if !segments.is_empty() {
+            tree.split(segments, 0, segments.len());
+        }
+        tree
+    }
+
+    fn split(&mut self, segments: &[Segment], first: usize, last: usize) {
+        let of = |item: u32| segments[item as usize];
+        let bounds = |end: fn(&Segment) -> Point, items: &[u32]| {
+            let at = items.first().map(|item| end(&of(*item))).unwrap_or_default();
+            items.iter().fold(Rect::from_points(at, at), |all, item| all.union_pt(end(&of(*item))))
+        };
+        let (starts, ends) =
+            (bounds(|s| s.from, &self.items[first..last]), bounds(|s| s.to, &self.items[first..last]));
+        let index = self.nodes.len();
+        self.nodes.push(Node { starts, ends, items: (first, last), second: None });
+        if last - first <= LEAF {
+            return;
+        }
+        let widths = [starts.width(), starts.height(), ends.width(), ends.height()];
+        let widest = (0..4).max_by(|a, b| widths[*a].total_cmp(&widths[*b])).unwrap_or(0);
+        let key = |item: u32| {
+            let segment = of(item);
+            [segment.from.x, segment.from.y, segment.to.x, segment.to.y][widest]
+        };
+        let middle = first + (last - first) / 2;
+        self.items[first..last]
+            .select_nth_unstable_by((last - first) / 2, |a, b| key(*a).total_cmp(&key(*b)).then(a.cmp(b)));
+        self.split(segments, first, middle);
+        self.nodes[index].second = Some(self.nodes.len());
+        self.split(segments, middle, last);
+    }
+
+    /// Goes through the bundles that are to be looked into, down to single segments, until one is enough; says whether one was.
+    pub(crate) fn search(&self, mut meet: impl FnMut(Met) -> bool) -> bool {
+        let mut open = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
+        while let Some(index) = open.pop() {
+            let node = self.nodes[index];
+            let radius = [node.starts, node.ends].map(|ends| ends.size().to_vec2().hypot() / 2.0);
+            let bundle = Met::Bundle {
+                from: node.starts.center(),
+                to: node.ends.center(),
+                radius: radius[0].max(radius[1]),
+            };
+            if !meet(bundle) {
+                continue;
+            }
+            match node.second {
+                Some(second) => open.extend([second, index + 1]),
+                None => {
+                    if self.items[node.items.0..node.items.1].iter().any(|item| meet(Met::One(*item))) {
+                        return true;
+                    }
+                }
+            }
+        }
+        false
+    }
+
+    /// Whether one of these segments, of which the tree was made, is within `reach` of a point.
+    pub(crate) fn any(&self, segments: &[Segment], p: Point, reach: f64) -> bool {
+        let within = |from: Point, to: Point, reach: f64| p.distance(nearest_on(from, to, p)) <= reach;
+        self.search(|met| match met {
+            // A whiff more, for rounding.
+            Met::Bundle { from, to, radius } => within(from, to, (reach + radius) * (1.0 + 1e-9)),
+            Met::One(item) => {
+                segments.get(item as usize).is_some_and(|segment| within(segment.from, segment.to, reach))
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A fan from one point whose ends lie `step` px from each other.
+    fn fan(count: u32, step: f64) -> Vec<Segment> {
+        let segment = |chain: u32| Segment {
+            chain,
+            from: Point::new(60.0, 40.0),
+            to: Point::new(90.0, 20.0 + step * f64::from(chain)),
+        };
+        (0..count).map(segment).collect()
+    }
+
+    #[test]
+    fn points_are_near_as_by_asking_all() {
+        let segments = fan(500, 0.1);
+        let tree = Bundles::new(&segments);
+        let mut hits = 0;
+        for i in 0..900 {
+            let p = Point::new(50.0 + f64::from(i % 30) * 1.7, 10.0 + f64::from(i / 30) * 2.3);
+            let wanted = segments.iter().any(|s| p.distance(nearest_on(s.from, s.to, p)) <= 0.01);
+            assert_eq!(tree.any(&segments, p, 0.01), wanted, "{p:?}");
+            hits += u32::from(wanted);
+        }
+        assert!(hits > 50);
+    }
+
+    #[test]
+    fn what_lies_nearly_on_each_other_is_asked_as_one() {
+        let segments = fan(10_000, 1e-5);
+        let tree = Bundles::new(&segments);
+        let p = Point::new(75.0, 32.0);
+        let mut asked = 0;
+        let found = tree.search(|met| {
+            asked += 1;
+            match met {
+                Met::Bundle { from, to, radius } => p.distance(nearest_on(from, to, p)) <= 0.02 + radius,
+                Met::One(_) => true,
+            }
+        });
+        assert!(!found && asked == 1, "{asked}");
+    }
+}

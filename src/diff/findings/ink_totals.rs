@@ -1,0 +1,62 @@
+//! [`Totals`]: how much ink there is, by layer, class and part.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::diff::curves::region_area::area;
+use crate::diff::shapes::picture::{Picture, ShapeKind};
+
+/// Ink of some marks before and after; lengths in px, areas in square px.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Measure {
+    /// Number of marks.
+    pub marks: [usize; 2],
+    /// Length of lines.
+    pub length: [f64; 2],
+    /// Area of regions; what lies over what is not asked.
+    pub area: [f64; 2],
+}
+
+/// Ink by what it belongs to; the entry of marks without a name is empty.
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
+pub struct Totals {
+    /// Of everything.
+    pub all: Measure,
+    /// By layer.
+    pub layers: BTreeMap<String, Measure>,
+    /// By class; of several classes the first that is not `silhouette`.
+    pub classes: BTreeMap<String, Measure>,
+    /// By part.
+    pub parts: BTreeMap<String, Measure>,
+}
+
+impl Totals {
+    /// The totals of two pictures.
+    pub(crate) fn of(before: &Picture, after: &Picture) -> Self {
+        let mut totals = Self::default();
+        for (side, picture) in [before, after].into_iter().enumerate() {
+            for shape in picture.shapes.iter() {
+                let (length, area) = match shape.kind {
+                    ShapeKind::Line => (kurbo::Shape::perimeter(&shape.path, 1e-3), 0.0),
+                    ShapeKind::Region => (0.0, area(shape)),
+                    ShapeKind::Clip => continue,
+                };
+                let label = &shape.label;
+                let class = label.classes.first().map_or("", |_| label.kind());
+                let entries = [
+                    totals.layers.entry(label.layer.to_string()).or_default(),
+                    totals.classes.entry(class.to_owned()).or_default(),
+                    totals.parts.entry(label.part.as_deref().unwrap_or_default().to_owned()).or_default(),
+                    &mut totals.all,
+                ];
+                for entry in entries {
+                    entry.marks[side] += 1;
+                    entry.length[side] += length;
+                    entry.area[side] += area;
+                }
+            }
+        }
+        totals
+    }
+}

@@ -1,0 +1,85 @@
+//! [`PixelDiff`]: how many pixels of two drawings differ, on white, as `--pixels` counts them.
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use serde::Serialize;
+
+use crate::diff::markup::sheet_inlining;
+use crate::diff::shapes::picture::Picture;
+use crate::export::raster::tree_painter;
+
+/// Channels of a pixel that differ by more than this differ to the eye; borders are blended a little differently.
+const VISIBLE: u8 = 24;
+/// Pixels of the longer side, at most: larger drawings are made smaller.
+const MOST_PIXELS: f64 = 4000.0;
+/// Dashes of one line, at most: each is drawn.
+const MOST_DASHES: f64 = 200_000.0;
+
+/// How many pixels look different.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+pub struct PixelDiff {
+    /// Width of both pictures in pixels.
+    pub width: u32,
+    /// Height of both pictures in pixels.
+    pub height: u32,
+    /// Pixels that look different.
+    pub differing: u64,
+    /// The largest difference of a channel, 0 to 255.
+    pub largest: u8,
+}
+
+impl PixelDiff {
+    /// Whether no pixel looks different.
+    #[must_use]
+    pub fn is_same(&self) -> bool {
+        self.differing == 0
+    }
+
+    pub(crate) fn words(&self) -> String {
+        match self.differing {
+            0 => "no pixel differs".to_owned(),
+            1 => "1 pixel differs".to_owned(),
+            count => format!("{count} pixels differ"),
+        }
+    }
+}
+
+/// Compares the pixels; `None` if one of the drawings would take too long to rasterise.
+pub(crate) fn compare(before: &Picture, after: &Picture) -> Option<PixelDiff> {
+    let (width, height) = (before.width.max(after.width), before.height.max(after.height));
+    let scale = (MOST_PIXELS / width.max(height)).min(1.0);
+    let (columns, rows) = ((width * scale).ceil() as u32, (height * scale).ceil() as u32);
+    let a = rasterise(before, columns, rows, scale)?;
+    let b = rasterise(after, columns, rows, scale)?;
+    let mut found = PixelDiff { width: columns, height: rows, differing: 0, largest: 0 };
+    for (a, b) in a.data().chunks_exact(4).zip(b.data().chunks_exact(4)) {
+        let largest = a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0);
+        found.largest = found.largest.max(largest);
+        found.differing += u64::from(largest > VISIBLE);
+    }
+    Some(found)
+}
+
+/// The drawing on white.
+fn rasterise(picture: &Picture, columns: u32, rows: u32, scale: f64) -> Option<Pixmap> {
+    let dashes = picture.shapes.iter().filter(|shape| !shape.ink.dash.is_empty()).map(|shape| {
+        let pattern: f64 = shape.ink.dash.iter().sum();
+        kurbo::Shape::perimeter(&shape.path, 1.0) / pattern * shape.ink.dash.len() as f64
+    });
+    if dashes.fold(0.0, f64::max) > MOST_DASHES {
+        return None;
+    }
+    let options = usvg::Options {
+        image_href_resolver: usvg::ImageHrefResolver {
+            resolve_data: usvg::ImageHrefResolver::default_data_resolver(),
+            // Nothing is read from the disk.
+            resolve_string: Box::new(|_, _| None),
+        },
+        ..usvg::Options::default()
+    };
+    let tree = usvg::Tree::from_str(&sheet_inlining::without_sheets(&picture.svg).ok()??, &options).ok()?;
+    let mut pixmap = Pixmap::new(columns, rows)?;
+    pixmap.fill(resvg::tiny_skia::Color::WHITE);
+    let scale = scale as f32;
+    tree_painter::render(&tree, Transform::from_scale(scale, scale), &mut pixmap.as_mut());
+    Some(pixmap)
+}

@@ -1,0 +1,274 @@
+//! [`Cascade`]: what style sheets say of each element, in time that grows with the elements times the parts of
+//! selectors that may fit them, however selectors nest.
+//!
+//! Elements are entered and left in the order of the file. For each part of a selector it is known how many of the
+//! elements around fit it and all before it: whether a selector fits is then asked once an element and part,
+//! where a search upwards would begin anew at each.
+
+use rustc_hash::FxHashSet;
+use usvg::roxmltree::{Document, Node};
+
+use super::style_sheet::{Compound, Declaration, Index, Part, Relation, Sheet, Test};
+use super::tag_limits::too_much;
+use crate::error::Error;
+
+/// Parts of selectors that are tried on elements, in a file.
+const MOST_TRIALS: usize = 40_000_000;
+/// Bytes of declarations that elements get, in a file.
+const MOST_GIVEN: usize = 64_000_000;
+
+/// The style sheets of a document at one of its elements.
+pub(crate) struct Cascade<'a> {
+    sheet: Sheet<'a>,
+    index: Index<'a>,
+    /// How many of the elements around fit each part.
+    around: Vec<u32>,
+    open: Vec<Level>,
+    trials: usize,
+    given: usize,
+    /// Whether something stands in the sheets that is not applied.
+    pub has_more: bool,
+}
+
+/// An open element.
+#[derive(Default)]
+struct Level {
+    /// The parts that it fits.
+    fits: Vec<u32>,
+    /// The parts that its last child so far fits, and those that any of its children fits that others may come after.
+    last: Vec<u32>,
+    earlier: FxHashSet<u32>,
+    has_children: bool,
+}
+
+impl<'a> Cascade<'a> {
+    /// The style sheets inside a document.
+    pub(crate) fn of(document: &'a Document) -> Self {
+        let mut sheet = Sheet::default();
+        let mut has_more = false;
+        for node in document.descendants() {
+            if node.has_tag_name("style") {
+                match node.attribute("type") {
+                    None | Some("text/css" | "") => sheet.read(node.text().unwrap_or_default()),
+                    Some(_) => has_more = true,
+                }
+                has_more |= node.attribute("media").is_some_and(|media| !matches!(media, "all" | "screen"));
+            }
+        }
+        has_more |= sheet.has_more;
+        let index = sheet.index();
+        let around = vec![0; sheet.parts.len()];
+        Self { sheet, index, around, open: vec![Level::default()], trials: 0, given: 0, has_more }
+    }
+
+    /// Whether there are no rules at all.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.sheet.rules.is_empty()
+    }
+
+    /// Goes into an element, and tells what the sheets declare for it, what wins last.
+    ///
+    /// # Errors
+    /// Where there are more rules and elements than are read.
+    pub(crate) fn enter(&mut self, node: Node) -> Result<Vec<Declaration<'a>>, Error> {
+        if self.is_empty() {
+            return Ok(Vec::new());
+        }
+        let mut level = Level::default();
+        let first = self.open.last().is_some_and(|parent| !parent.has_children);
+        let class = node.attribute("class").unwrap_or_default();
+        fn of(list: Option<&Vec<u32>>) -> &[u32] {
+            list.map_or(&[], Vec::as_slice)
+        }
+        let mut lists = vec![
+            self.index.any.as_slice(),
+            of(self.index.names.get(node.tag_name().name())),
+            of(node.attribute("id").and_then(|id| self.index.ids.get(id))),
+        ];
+        let mut words: Vec<&str> = class.split_ascii_whitespace().collect();
+        words.sort_unstable();
+        words.dedup();
+        lists.extend(words.into_iter().map(|word| of(self.index.classes.get(word))));
+        let mut won: Vec<usize> = Vec::new();
+        for number in lists.into_iter().flatten() {
+            let Some(part) = self.sheet.parts.get(*number as usize) else { continue };
+            // Long attributes take longer.
+            let tests = part.compound.tests.iter();
+            let long = tests.map(|(name, _)| 1 + node.attribute(*name).map_or(0, str::len) / 64);
+            self.trials += 1 + long.sum::<usize>();
+            if self.trials > MOST_TRIALS {
+                let rules = self.sheet.rules.len();
+                return Err(too_much(&format!("{rules} style rules for a drawing of this size")));
+            }
+            if self.is_in_place(*number, part) && fits(&part.compound, node, first) {
+                level.fits.push(*number);
+                won.extend(part.rule);
+            }
+        }
+        level.fits.sort_unstable();
+        for number in &level.fits {
+            if let Some(count) = self.around.get_mut(*number as usize) {
+                *count += 1;
+            }
+        }
+        self.open.push(level);
+        won.sort_unstable_by_key(|rule| (self.sheet.rules.get(*rule).map(|rule| rule.weight), *rule));
+        let blocks = won.iter().filter_map(|rule| self.sheet.blocks.get(self.sheet.rules.get(*rule)?.block));
+        let mut found: Vec<Declaration> = Vec::new();
+        for block in blocks {
+            self.given += block.iter().map(|d| d.name.len() + d.value.len() + 2).sum::<usize>();
+            if self.given > MOST_GIVEN {
+                return Err(too_much("declarations in style rules for a drawing of this size"));
+            }
+            found.extend_from_slice(block);
+        }
+        Ok(found)
+    }
+
+    /// Leaves the element that was entered last.
+    pub(crate) fn leave(&mut self) {
+        if self.is_empty() {
+            return;
+        }
+        let Some(level) = self.open.pop() else { return };
+        for number in &level.fits {
+            if let Some(count) = self.around.get_mut(*number as usize) {
+                *count -= 1;
+            }
+        }
+        if let Some(parent) = self.open.last_mut() {
+            let parts = &self.sheet.parts;
+            let may_follow = |number: &&u32| {
+                parts.get(**number as usize).is_some_and(|part| part.next == Some(Relation::After))
+            };
+            parent.earlier.extend(level.fits.iter().filter(may_follow));
+            parent.last = level.fits;
+            parent.has_children = true;
+        }
+    }
+
+    /// Whether what the part before this one asks for is where it has to be.
+    fn is_in_place(&self, number: u32, part: &Part) -> bool {
+        let Some(before) = number.checked_sub(1) else { return part.relation == Relation::First };
+        let parent = self.open.last();
+        match part.relation {
+            Relation::First => true,
+            Relation::Inside => self.around.get(before as usize).is_some_and(|count| *count > 0),
+            Relation::Child => parent.is_some_and(|parent| parent.fits.binary_search(&before).is_ok()),
+            Relation::Next => parent.is_some_and(|parent| parent.last.binary_search(&before).is_ok()),
+            Relation::After => parent.is_some_and(|parent| parent.earlier.contains(&before)),
+        }
+    }
+}
+
+/// Whether an element is what a part of a selector asks for.
+fn fits(compound: &Compound, node: Node, first: bool) -> bool {
+    let named = compound.name.is_none_or(|name| name == node.tag_name().name());
+    named
+        && (first || !compound.first_child)
+        && compound.tests.iter().all(|(name, test)| {
+            node.attribute(*name).is_some_and(|value| match *test {
+                Test::Exists => true,
+                Test::Equals(wanted) => value == wanted,
+                Test::Word(wanted) => value.split_ascii_whitespace().any(|word| word == wanted),
+                Test::Language(wanted) => {
+                    value.strip_prefix(wanted).is_some_and(|rest| rest.is_empty() || rest.starts_with('-'))
+                }
+                Test::Begins(wanted) => !wanted.is_empty() && value.starts_with(wanted),
+                Test::Ends(wanted) => !wanted.is_empty() && value.ends_with(wanted),
+                Test::Contains(wanted) => !wanted.is_empty() && value.contains(wanted),
+            })
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the sheet says of each element, by the elements' names for themselves.
+    fn told(svg: &str) -> String {
+        fn inside(node: Node, cascade: &mut Cascade, out: &mut String) {
+            let list = cascade.enter(node).unwrap();
+            let values: Vec<&str> = list.iter().map(|declaration| declaration.value).collect();
+            if !values.is_empty() {
+                *out += &format!("{}={} ", node.attribute("n").unwrap_or("?"), values.join(","));
+            }
+            node.children().filter(Node::is_element).for_each(|child| inside(child, cascade, out));
+            cascade.leave();
+        }
+        let document = Document::parse(svg).unwrap();
+        let mut out = String::new();
+        inside(document.root_element(), &mut Cascade::of(&document), &mut out);
+        out
+    }
+
+    #[test]
+    fn selectors_fit_as_css_says() {
+        let body = "<g n='a' class='x y'><g n='b'><p n='c' id='i'/><p n='d' k='en-us'/><q n='e'/></g></g><p n='f' class='xy'/>";
+        for (selector, wanted) in [
+            ("p", "c d f"),
+            ("g p", "c d"),
+            ("g g p", "c d"),
+            ("g g g p", ""),
+            ("g > p", "c d"),
+            (".x > p", ""),
+            (".x p", "c d"),
+            (".x.y > g > p + p", "d"),
+            ("p ~ q", "e"),
+            ("p + q", "e"),
+            ("#i ~ q", "e"),
+            ("q ~ p", ""),
+            ("p:first-child", "c"),
+            ("[k|=en]", "d"),
+            ("[k^=en][k$='us'][k*=\"-\"]", "d"),
+            ("* > * > p", "c d"),
+            ("g * ", "b c d e"),
+            ("p:hover", ""),
+            ("g >> p", ""),
+            ("> p", ""),
+        ] {
+            let svg = format!("<s><style>{}{{v:1}}</style>{body}</s>", selector.replace('>', "&gt;"));
+            let found: Vec<String> =
+                told(&svg).split_whitespace().map(|word| word.replace("=1", "")).collect();
+            assert_eq!(found.join(" "), wanted, "{selector}");
+        }
+    }
+
+    #[test]
+    fn work_is_bounded() {
+        let refused = |sheet: &str, body: &str| {
+            fn inside(node: Node, cascade: &mut Cascade) -> Result<(), Error> {
+                cascade.enter(node)?;
+                node.children().filter(Node::is_element).try_for_each(|child| inside(child, cascade))?;
+                cascade.leave();
+                Ok(())
+            }
+            let svg = format!("<s><style>{sheet}</style>{body}</s>");
+            let document = Document::parse(&svg).unwrap();
+            inside(document.root_element(), &mut Cascade::of(&document))
+                .err()
+                .map_or_else(|| "read".to_owned(), |error| error.to_string())
+        };
+        let many = "<g/>".repeat(20_000);
+        assert!(refused(&"g{fill:red}".repeat(20_000), &many).contains("style rules"));
+        assert!(refused(&format!("{}g{{fill:red}}", "g,".repeat(20_000)), &many).contains("style rules"));
+        let long = format!("g{{{}}}", "a:b;".repeat(20_000));
+        assert!(refused(&long, &many).contains("declarations"));
+        // What is named is only tried where it may fit.
+        let named: String = (0..20_000).map(|i| format!(".c{i} g.d{i}{{fill:red}}")).collect();
+        assert_eq!(refused(&named, &many), "read");
+        // A search upwards would take the number of groups to the power of that of names.
+        let nested = "<g>".repeat(200) + "<p/>" + &"</g>".repeat(200);
+        assert_eq!(refused(&format!("x {}p{{fill:red}}", "g ".repeat(60)), &nested), "read");
+        assert_eq!(refused(&format!("x {}p{{fill:red}}", "g ".repeat(60)).repeat(1000), &nested), "read");
+    }
+
+    #[test]
+    fn the_weightier_rule_comes_last() {
+        let sheet = "#i{v:4} p{v:1} .x{v:2} g .x{v:3}";
+        assert_eq!(
+            told(&format!("<s><style>{sheet}</style><g><p n='a' id='i' class='x'/></g></s>")),
+            "a=1,2,3,4 "
+        );
+    }
+}

@@ -1,0 +1,312 @@
+//! [`Event`]: what became of one chain.
+
+use std::collections::BTreeMap;
+
+use crate::parallel::prelude::*;
+use kurbo::BezPath;
+use rustc_hash::FxHashSet;
+
+use super::chain_pairs::{Pair, Side, bounds, pairs};
+use super::interval_cover::{Cover, Stretch};
+use crate::diff::curves::chain::{Chain, flatten};
+use crate::diff::curves::chain_alignment::align;
+use crate::diff::curves::hausdorff_distance::{Near, apart};
+use crate::diff::findings::finding::Verdict;
+use crate::diff::shapes::mark_groups::{Groups, Likeness};
+
+/// A chain of which less than this is left lies elsewhere or is gone.
+const LEFT: f64 = 0.1;
+/// What a shift leaves, as a part of the largest distance, for a chain to have moved as it was.
+const RIGID: f64 = 0.05;
+/// What shift, turn and growth leave, likewise.
+const SIMILAR: f64 = 0.4;
+/// Stretches of other ink shorter than this many tolerances, or this part of a line, are what ends and crossings of other
+/// lines leave.
+const CRUMB: f64 = 12.0;
+const CRUMB_OF_LINE: f64 = 0.01;
+
+/// What became of one chain; lengths in px.
+#[derive(Debug, Clone)]
+pub(crate) struct Event {
+    pub verdict: Verdict,
+    pub old: Option<usize>,
+    pub new: Option<usize>,
+    /// Length that it is about.
+    pub size: f64,
+    pub largest: f64,
+    pub p95: f64,
+    pub shift: Option<[f64; 2]>,
+    pub gone: BezPath,
+    pub added: BezPath,
+}
+
+/// What became of the chains of two drawings.
+pub(crate) fn events(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Event> {
+    let pairs = pairs(sides, groups, page);
+    let paired: [FxHashSet<usize>; 2] =
+        [pairs.iter().map(|pair| pair.old).collect(), pairs.iter().map(|pair| pair.new).collect()];
+    let mut events: Vec<Event> = pairs.par_iter().map(|pair| of_pair(sides, pair, groups)).collect();
+    events.extend(repainted(sides, groups));
+    for side in 0..2 {
+        for (index, cover) in sides[side].covers.iter().enumerate() {
+            if !cover.is_whole() && !paired[side].contains(&index) {
+                events.push(of_one(sides, side, index, groups));
+            }
+        }
+    }
+    recoloured(events, sides, groups)
+}
+
+/// Joins what is gone with what is new where both lie on each other and belong to one part: the mark was painted otherwise. Covers
+/// miss it where other marks lie there too.
+fn recoloured(events: Vec<Event>, sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
+    let chain = |side: usize, event: &Event| match (side, event.verdict, event.old, event.new) {
+        (0, Verdict::Removed, Some(index), _) | (1, Verdict::Added, _, Some(index)) => Some(index),
+        _ => None,
+    };
+    let key = |side: usize, index: usize| {
+        let place = bounds(&sides[side].chains[index].points);
+        [place.x0, place.y0, place.x1, place.y1].map(|value| value.round() as i64)
+    };
+    let mut waiting: BTreeMap<[i64; 4], Vec<usize>> = BTreeMap::new();
+    for (event, index) in events.iter().enumerate().filter_map(|(at, event)| Some((at, chain(0, event)?))) {
+        waiting.entry(key(0, index)).or_default().push(event);
+    }
+    let mut joined: BTreeMap<usize, usize> = BTreeMap::new();
+    for (at, new) in events.iter().enumerate().filter_map(|(at, event)| Some((at, chain(1, event)?))) {
+        let b = &sides[1].chains[new];
+        let is_one = |other: &usize| {
+            let Some(a) = chain(0, &events[*other]).map(|old| &sides[0].chains[old]) else { return false };
+            let tolerance = groups.groups.get(a.group).map_or(0.01, |group| group.tolerance);
+            groups.likeness(a.group, b.group) == Some(Likeness::Ink)
+                && (a.length() - b.length()).abs() <= 4.0 * tolerance
+                && align(a, b).largest <= tolerance
+        };
+        let list = waiting.get_mut(&key(1, new));
+        if let Some(other) =
+            list.and_then(|list| list.iter().position(is_one).map(|place| list.remove(place)))
+        {
+            joined.insert(at, other);
+        }
+    }
+    let gone: FxHashSet<usize> = joined.values().copied().collect();
+    let old_of: BTreeMap<usize, Option<usize>> =
+        joined.iter().map(|(at, other)| (*at, events[*other].old)).collect();
+    let all = events.into_iter().enumerate().filter(|(at, _)| !gone.contains(at));
+    all.map(|(at, event)| match old_of.get(&at) {
+        Some(old) => Event { verdict: Verdict::Restyled, old: *old, ..event },
+        None => event,
+    })
+    .collect()
+}
+
+/// A mark that has another form or another place.
+fn of_pair(sides: &[Side; 2], pair: &Pair, groups: &Groups) -> Event {
+    let (a, b) = (&sides[0].chains[pair.old], &sides[1].chains[pair.new]);
+    let (cover_a, cover_b) = (&sides[0].covers[pair.old], &sides[1].covers[pair.new]);
+    let tolerance = groups.groups.get(a.group).map_or(0.01, |group| group.tolerance);
+    let apart = apart(a, b);
+    let alignment = &pair.alignment;
+    // What went nowhere on average was shaken, not moved.
+    let rigid = alignment.after_shift <= (2.0 * tolerance).max(RIGID * alignment.largest)
+        && alignment.shift.hypot() >= 0.5 * alignment.largest;
+    let grown = (cover_a.length - cover_b.length).abs();
+    let similar = alignment.after_similarity <= (2.0 * tolerance).max(SIMILAR * alignment.largest)
+        && grown <= (4.0 * tolerance).max(alignment.largest)
+        && cover_a.share().max(cover_b.share()) < 0.5;
+    let mut event = Event {
+        verdict: if rigid || similar { Verdict::Moved } else { Verdict::Reshaped },
+        old: Some(pair.old),
+        new: Some(pair.new),
+        size: cover_a.length,
+        largest: apart.largest,
+        p95: apart.p95,
+        shift: None,
+        gone: bare(a, cover_a),
+        added: bare(b, cover_b),
+    };
+    if event.verdict == Verdict::Reshaped {
+        event.largest = off(a, cover_a, b, tolerance).max(off(b, cover_b, a, tolerance));
+        event.p95 = event.p95.min(event.largest);
+    }
+    if rigid {
+        // Lines slide along themselves unseen: where all went the same way, so did the rest.
+        event.shift = Some([alignment.shift.x, alignment.shift.y]);
+        event.p95 = event.largest;
+    }
+    event
+}
+
+/// A chain with uncovered stretches and without a partner: part of a mark, or all of it.
+fn of_one(sides: &[Side; 2], side: usize, index: usize, groups: &Groups) -> Event {
+    let (chain, cover) = (&sides[side].chains[index], &sides[side].covers[index]);
+    let own = |partner: &&(u32, Likeness, f64)| {
+        let other = sides[1 - side].chains.get(partner.0 as usize);
+        other.is_some_and(|other| groups.same_part(chain.group, other.group))
+    };
+    let rest = cover.partners.iter().find(own).filter(|partner| partner.2 > LEFT * cover.length);
+    let rest = rest.map(|(partner, ..)| *partner as usize);
+    let (mut old, mut new) = if side == 0 { (Some(index), rest) } else { (rest, Some(index)) };
+    let mut event = Event {
+        verdict: Verdict::Reshaped,
+        old,
+        new,
+        size: cover.bare(),
+        largest: 0.0,
+        p95: 0.0,
+        shift: None,
+        gone: BezPath::new(),
+        added: BezPath::new(),
+    };
+    if let Some((a, b)) = old.zip(new) {
+        let other = if side == 0 { &sides[1].chains[b] } else { &sides[0].chains[a] };
+        let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
+        event.largest = off(chain, cover, other, tolerance);
+        event.p95 = event.largest;
+    } else {
+        event.verdict = if side == 0 { Verdict::Removed } else { Verdict::Added };
+        (old, new) = if side == 0 { (Some(index), None) } else { (None, Some(index)) };
+        (event.old, event.new) = (old, new);
+    }
+    let path = if rest.is_some() { bare(chain, cover) } else { stretch(chain, 0.0, f64::INFINITY) };
+    match side {
+        0 => event.gone = path,
+        _ => event.added = path,
+    }
+    event
+}
+
+/// How far what nothing covers of a chain lies from the other drawing: from the chain that became of it, and no farther than along
+/// the chain itself to where something covers it. Of a line that was linked to another one, that is all that differs.
+fn off(chain: &Chain, cover: &Cover, other: &Chain, tolerance: f64) -> f64 {
+    let near = Near::new(other);
+    let is_covered =
+        |at: Option<usize>| at.and_then(|at| cover.runs.get(at)).is_some_and(|run| run.likeness.is_some());
+    let last = cover.runs.len().saturating_sub(1);
+    let mut most = 0.0f64;
+    for (index, run) in cover.runs.iter().enumerate().filter(|(_, run)| run.likeness.is_none()) {
+        let before = if index == 0 { chain.closed.then_some(last) } else { Some(index - 1) };
+        let after = if index == last { chain.closed.then_some(0) } else { Some(index + 1) };
+        let piece = stretch(chain, run.from, run.to);
+        let points = flatten(&piece, 1.0, false).into_iter().flat_map(|(points, _)| points).collect();
+        let piece = Chain { group: chain.group, points, closed: false, shapes: Vec::new() };
+        let limit = match (is_covered(before), is_covered(after)) {
+            (true, true) => run.length() / 2.0 + tolerance,
+            (false, false) => f64::INFINITY,
+            _ => run.length() + tolerance,
+        };
+        most = most.max(near.farthest(&piece, 0.0).min(limit));
+    }
+    most
+}
+
+/// Chains whose place is taken by another ink or another part.
+fn repainted(sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
+    // Nothing where all is as it was; else what took the chain's place, if one mark can be said to have done so.
+    let other = |side: usize, index: usize| -> Option<Vec<(usize, Likeness, f64)>> {
+        let (chain, cover) = (&sides[side].chains[index], &sides[side].covers[index]);
+        if !cover.is_whole() || cover.is_same() {
+            return None;
+        }
+        let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
+        let crumb = (CRUMB * tolerance).max(CRUMB_OF_LINE * cover.length).min(0.5 * cover.length);
+        let strange = || {
+            let partners = cover.partners.iter().copied();
+            partners.filter(|(_, likeness, length)| *likeness != Likeness::Same && *length >= crumb)
+        };
+        strange().next()?;
+        let kept: f64 = cover.partners.iter().filter(|p| p.1 == Likeness::Same).map(|p| p.2).sum();
+        // Bits of the lines of several other parts do not add up to a mark.
+        let took = |partner: u32, length: f64| {
+            let same_part = groups.same_part(chain.group, sides[1 - side].chains[partner as usize].group);
+            same_part || length.max(kept) >= 0.5 * cover.length
+        };
+        Some(
+            strange()
+                .filter(|(partner, _, length)| took(*partner, *length))
+                .map(|(partner, likeness, length)| (partner as usize, likeness, length))
+                .collect(),
+        )
+    };
+    let of_new: Vec<Option<Vec<(usize, Likeness, f64)>>> =
+        (0..sides[1].chains.len()).map(|index| other(1, index)).collect();
+    let mut events = Vec::new();
+    let mut told: FxHashSet<usize> = FxHashSet::default();
+    for index in 0..sides[0].chains.len() {
+        let Some(list) = other(0, index) else { continue };
+        let mut drawn_over = true;
+        for (partner, likeness, length) in list {
+            // What covers it is not covered by it: it was drawn twice, and is drawn once.
+            let mutual = of_new[partner].iter().flatten().any(|(back, ..)| *back == index)
+                || !sides[1].covers[partner].is_whole();
+            if mutual {
+                drawn_over = false;
+                told.insert(partner);
+                events.push(Event {
+                    verdict: match likeness {
+                        Likeness::Same | Likeness::Ink | Likeness::Both => Verdict::Restyled,
+                        Likeness::Label => Verdict::Relabelled,
+                    },
+                    old: Some(index),
+                    new: Some(partner),
+                    size: length,
+                    largest: 0.0,
+                    p95: 0.0,
+                    shift: None,
+                    gone: BezPath::new(),
+                    added: stretches(&sides[0].chains[index], &sides[0].covers[index], |run| {
+                        run.likeness.is_some_and(|likeness| likeness != Likeness::Same)
+                    }),
+                });
+            }
+        }
+        if drawn_over {
+            events.push(alone(sides, 0, index));
+        }
+    }
+    for (index, list) in of_new.iter().enumerate() {
+        if list.is_some() && !told.contains(&index) {
+            events.push(alone(sides, 1, index));
+        }
+    }
+    events
+}
+
+/// A chain that is only in one drawing, though another lies in its place.
+fn alone(sides: &[Side; 2], side: usize, index: usize) -> Event {
+    let path = stretch(&sides[side].chains[index], 0.0, f64::INFINITY);
+    let (old, new) = if side == 0 { (Some(index), None) } else { (None, Some(index)) };
+    let (gone, added) = if side == 0 { (path, BezPath::new()) } else { (BezPath::new(), path) };
+    let verdict = if side == 0 { Verdict::Removed } else { Verdict::Added };
+    let size = sides[side].covers[index].length;
+    Event { verdict, old, new, size, largest: 0.0, p95: 0.0, shift: None, gone, added }
+}
+
+/// What nothing covers of a chain.
+fn bare(chain: &Chain, cover: &Cover) -> BezPath {
+    stretches(chain, cover, |run| run.likeness.is_none())
+}
+
+fn stretches(chain: &Chain, cover: &Cover, wanted: impl Fn(&Stretch) -> bool) -> BezPath {
+    let runs = cover.runs.iter().filter(|run| wanted(run));
+    runs.flat_map(|run| stretch(chain, run.from, run.to).into_iter().collect::<Vec<_>>()).collect()
+}
+
+/// A chain between two arc lengths.
+fn stretch(chain: &Chain, from: f64, to: f64) -> BezPath {
+    let mut path = BezPath::new();
+    let mut at = 0.0;
+    for (p, q) in chain.segments() {
+        let length = p.distance(q);
+        let (start, end) = (from.max(at), to.min(at + length));
+        if start <= end {
+            let point = |s: f64| if length > 0.0 { p.lerp(q, (s - at) / length) } else { p };
+            if path.elements().is_empty() {
+                path.move_to(point(start));
+            }
+            path.line_to(point(end));
+        }
+        at += length;
+    }
+    path
+}

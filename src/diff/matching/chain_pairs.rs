@@ -1,0 +1,256 @@
+//! Pairs of chains that may be one mark, before and after.
+
+use std::cell::RefCell;
+use std::cmp::Ordering;
+use std::collections::BTreeMap;
+
+use crate::parallel::prelude::*;
+use kurbo::{Point, Rect};
+use rustc_hash::FxHashMap;
+
+use super::interval_cover::Cover;
+use crate::diff::curves::chain::Chain;
+use crate::diff::curves::chain_alignment::{Alignment, align};
+use crate::diff::curves::hausdorff_distance::places;
+use crate::diff::curves::segment::nearest_on;
+use crate::diff::curves::segment_grid::SegmentCells;
+use crate::diff::shapes::mark_groups::{Groups, Likeness};
+
+/// A mark is sought no farther than this part of the page's longer side from where it was.
+const REACH_OF_PAGE: f64 = 0.03;
+/// Short marks may still go as far as this part of it.
+const LEAST_REACH_OF_PAGE: f64 = 0.006;
+/// A mark goes no farther than this part of its own size.
+const REACH_OF_MARK: f64 = 0.5;
+/// Where this share of two chains coincides, they are one mark however far the rest went.
+const COMMON: f64 = 0.2;
+/// From how many places of a chain others are looked for, how many others each place looks for, and how many of all
+/// found are looked at closely.
+const PLACES: usize = 5;
+const WANTED: usize = 4;
+const CLOSELY: usize = 6;
+/// Closed chains of about one length that each is compared with.
+const MAX_CONGRUENT: usize = 64;
+/// Segments that each place looks at: where thousands lie on each other, any of them will do.
+const MOST_SEEN: usize = 512;
+
+/// One drawing's chains and what the other drawing covers of them.
+#[derive(Debug)]
+pub(crate) struct Side {
+    pub chains: Vec<Chain>,
+    /// For each chain the first that lies exactly on it.
+    pub firsts: Vec<usize>,
+    pub covers: Vec<Cover>,
+}
+
+/// Two chains that are one mark.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pair {
+    pub old: usize,
+    pub new: usize,
+    pub alignment: Alignment,
+    cost: f64,
+}
+
+/// Pairs chains that have uncovered stretches, each with one of the other side at most; nearest first.
+pub(crate) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> {
+    let bare: [Vec<usize>; 2] = [0, 1].map(|side: usize| {
+        let covers = &sides[side].covers;
+        (0..covers.len())
+            .filter(|index| !covers[*index].is_whole() && sides[side].firsts[*index] == *index)
+            .collect()
+    });
+    if bare.iter().any(Vec::is_empty) {
+        return Vec::new();
+    }
+    let mut near: Vec<(usize, usize)> = Vec::new();
+    for side in 0..2 {
+        let other = 1 - side;
+        let targets: Vec<Chain> =
+            bare[other].iter().map(|index| sides[other].chains[*index].clone()).collect();
+        let grid = SegmentCells::new(&targets);
+        let of = |index: &usize| {
+            let mut near = candidates(&sides[side], *index, &bare[other], &grid, page * REACH_OF_PAGE);
+            let chain = &sides[side].chains[*index];
+            near.sort_by_cached_key(|there| ends_apart(chain, &sides[other].chains[*there]).to_bits());
+            near.truncate(CLOSELY);
+            let index = *index;
+            near.into_iter().map(move |there| if side == 0 { (index, there) } else { (there, index) })
+        };
+        near.par_extend(bare[side].par_iter().flat_map_iter(of));
+    }
+    near.par_sort_unstable();
+    near.dedup();
+    let mut found: Vec<Pair> =
+        near.into_par_iter().filter_map(|(old, new)| judge(sides, old, new, groups, page)).collect();
+    found.sort_by(|a, b| a.cost.total_cmp(&b.cost).then_with(|| tie(sides, a, b)));
+    let mut free = [vec![true; sides[0].chains.len()], vec![true; sides[1].chains.len()]];
+    found.retain(|pair| {
+        let both = free[0][pair.old] && free[1][pair.new];
+        if both {
+            (free[0][pair.old], free[1][pair.new]) = (false, false);
+        }
+        both
+    });
+    found.extend(congruent(sides, groups, &bare, &mut free));
+    let copies = |pair: &Pair| {
+        let is_copy = |side: usize, of: usize, copy: usize| sides[side].firsts.get(copy) == Some(&of);
+        let (old, new, pair) = (pair.old, pair.new, *pair);
+        (1..)
+            .take_while(move |rank| is_copy(0, old, old + rank) && is_copy(1, new, new + rank))
+            .map(move |rank| Pair { old: old + rank, new: new + rank, ..pair })
+    };
+    let more: Vec<Pair> = found.iter().flat_map(copies).collect();
+    found.extend(more);
+    found
+}
+
+/// Closed chains that are left, each with the only one of the other side that has its form: they moved, however far.
+fn congruent(
+    sides: &[Side; 2],
+    groups: &Groups,
+    bare: &[Vec<usize>; 2],
+    free: &mut [Vec<bool>; 2],
+) -> Vec<Pair> {
+    let left = [0, 1].map(|side: usize| -> Vec<(f64, usize)> {
+        let chains = &sides[side].chains;
+        let whole = |index: &&usize| {
+            let closed = chains[**index].points.first() == chains[**index].points.last();
+            closed && free[side][**index] && sides[side].covers[**index].partners.is_empty()
+        };
+        let mut left: Vec<(f64, usize)> =
+            bare[side].iter().filter(whole).map(|index| (chains[*index].length(), *index)).collect();
+        left.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        left
+    });
+    let tolerance =
+        |index: usize| groups.groups.get(sides[0].chains[index].group).map_or(0.0, |g| g.tolerance);
+    let mut of: [BTreeMap<usize, Vec<usize>>; 2] = Default::default();
+    let mut pairs = Vec::new();
+    for (length, old) in &left[0] {
+        // Where each of many points goes by the tolerance, the length changes little.
+        let off = 4.0 * tolerance(*old) + 1e-3 * length;
+        let from = left[1].partition_point(|(other, _)| *other < length - off);
+        for (_, new) in
+            left[1].iter().skip(from).take(MAX_CONGRUENT).take_while(|(other, _)| *other <= length + off)
+        {
+            let (a, b) = (&sides[0].chains[*old], &sides[1].chains[*new]);
+            if groups.likeness(a.group, b.group) != Some(Likeness::Same) {
+                continue;
+            }
+            let alignment = align(a, b);
+            if alignment.after_shift <= 2.0 * tolerance(*old) + 1e-3 * length {
+                of[0].entry(*old).or_default().push(*new);
+                of[1].entry(*new).or_default().push(*old);
+                pairs.push(Pair { old: *old, new: *new, alignment, cost: alignment.largest });
+            }
+        }
+    }
+    let only = |side: usize, index: usize| of[side].get(&index).is_some_and(|list| list.len() == 1);
+    pairs.retain(|pair| only(0, pair.old) && only(1, pair.new));
+    for pair in &pairs {
+        (free[0][pair.old], free[1][pair.new]) = (false, false);
+    }
+    pairs
+}
+
+/// Among equals, the same order whichever drawing comes first: by the lesser start, then by the greater one.
+fn tie(sides: &[Side; 2], a: &Pair, b: &Pair) -> Ordering {
+    let key = |pair: &Pair| {
+        let start = |side: usize, index: usize| {
+            let p = sides[side].chains[index].points.first().copied().unwrap_or(Point::ZERO);
+            (p.x.to_bits(), p.y.to_bits())
+        };
+        let (old, new) = (start(0, pair.old), start(1, pair.new));
+        (old.min(new), old.max(new))
+    };
+    key(a).cmp(&key(b)).then((a.old, a.new).cmp(&(b.old, b.new)))
+}
+
+/// Uncovered chains of the other side that lie near.
+fn candidates(side: &Side, index: usize, bare: &[usize], grid: &SegmentCells, reach: f64) -> Vec<usize> {
+    let chain = &side.chains[index];
+    let partners = side.covers[index].partners.iter().map(|(partner, ..)| *partner as usize);
+    let mut found: Vec<usize> = partners.filter(|partner| bare.binary_search(partner).is_ok()).collect();
+    let known: RefCell<FxHashMap<u32, usize>> = RefCell::default();
+    for place in places(chain, (chain.points.len() + 1).min(PLACES)) {
+        // The nearest few: each with its distance.
+        let near: RefCell<Vec<(f64, u32)>> = RefCell::default();
+        known.borrow_mut().clear();
+        let see = |item: u32| {
+            let segment = grid.segments[item as usize];
+            let distance = place.distance(nearest_on(segment.from, segment.to, place));
+            if distance > reach {
+                return;
+            }
+            let mut near = near.borrow_mut();
+            let at = *known.borrow_mut().entry(segment.chain).or_insert(near.len());
+            match near.get_mut(at) {
+                Some(entry) => entry.0 = entry.0.min(distance),
+                None => near.push((distance, segment.chain)),
+            }
+        };
+        let enough =
+            |seen: f64| near.borrow().iter().filter(|(distance, _)| *distance <= seen).count() >= WANTED;
+        grid.rings(place, (reach, MOST_SEEN), see, enough);
+        let mut near = near.into_inner();
+        let nearest = |a: &(f64, u32), b: &(f64, u32)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+        if near.len() > 2 * WANTED {
+            near.select_nth_unstable_by(2 * WANTED, nearest);
+            near.truncate(2 * WANTED);
+        }
+        found.extend(near.iter().map(|(_, chain)| bare[*chain as usize]));
+    }
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// How far the ends of two chains lie apart, squared and at least 0: a first guess at whether they are one mark.
+fn ends_apart(a: &Chain, b: &Chain) -> f64 {
+    let ends = |chain: &Chain| {
+        let start = chain.points.first().copied().unwrap_or(Point::ZERO);
+        let end = if chain.closed { chain.points.get(chain.points.len() / 2) } else { chain.points.last() };
+        (start, end.copied().unwrap_or(start))
+    };
+    let ((a0, a1), (b0, b1)) = (ends(a), ends(b));
+    let forth = a0.distance_squared(b0) + a1.distance_squared(b1);
+    forth.min(a0.distance_squared(b1) + a1.distance_squared(b0))
+}
+
+/// The pair, if the two may be one mark.
+fn judge(sides: &[Side; 2], old: usize, new: usize, groups: &Groups, page: f64) -> Option<Pair> {
+    let (a, b) = (&sides[0].chains[old], &sides[1].chains[new]);
+    let likeness = groups.likeness(a.group, b.group)?;
+    let (cover_a, cover_b) = (&sides[0].covers[old], &sides[1].covers[new]);
+    let of = |cover: &Cover, partner: usize| {
+        cover.partners.iter().find(|(p, ..)| *p as usize == partner).map_or(0.0, |(.., length)| *length)
+    };
+    let both = cover_a.length + cover_b.length;
+    let common = if both > 0.0 { (of(cover_a, new) + of(cover_b, old)) / both } else { 0.0 };
+    let alignment = align(a, b);
+    let size = |chain: &Chain| {
+        let bounds = bounds(&chain.points);
+        bounds.size().to_vec2().hypot()
+    };
+    let limit =
+        (REACH_OF_MARK * size(a).max(size(b))).max(LEAST_REACH_OF_PAGE * page).min(REACH_OF_PAGE * page);
+    // What lies elsewhere is another mark if it is of another part: a bolt that is gone did not become the washer under it.
+    if common < COMMON && (alignment.largest > limit || !groups.same_part(a.group, b.group)) {
+        return None;
+    }
+    let strangeness = match likeness {
+        Likeness::Same => 1.0,
+        Likeness::Ink => 1.5,
+        Likeness::Label => 2.0,
+        Likeness::Both => 4.0,
+    };
+    let cost = alignment.largest * strangeness * (1.0 - 0.9 * common);
+    Some(Pair { old, new, alignment, cost })
+}
+
+/// The box round points.
+pub(crate) fn bounds(points: &[Point]) -> Rect {
+    let Some(first) = points.first() else { return Rect::ZERO };
+    points.iter().fold(Rect::from_points(*first, *first), |rect, p| rect.union_pt(*p))
+}

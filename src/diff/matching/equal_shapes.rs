@@ -1,0 +1,67 @@
+//! What is equal point for point is set aside: most of two versions of a drawing is.
+
+use std::hash::{Hash, Hasher};
+
+use kurbo::{BezPath, PathEl, Point};
+use rustc_hash::{FxHashMap, FxHasher};
+
+use crate::diff::shapes::mark_groups::Groups;
+use crate::diff::shapes::picture::{Picture, Shape};
+
+/// What is equal, and what is not.
+pub(crate) struct Parted {
+    /// Places of equal shapes in both pictures.
+    pub equal: Vec<(usize, usize)>,
+    /// The shapes of either picture that have no equal in the other one.
+    pub rest: [Vec<usize>; 2],
+}
+
+/// Finds what is equal. Each shape is the equal of one other: a line that is drawn twice in one picture remains once.
+pub(crate) fn part(before: &Picture, after: &Picture, groups: &Groups) -> Parted {
+    let hash = |shape: &Shape, group: usize| {
+        let mut hasher = FxHasher::default();
+        group.hash(&mut hasher);
+        hash_path(&shape.path, &mut hasher);
+        hasher.finish()
+    };
+    let mut waiting: FxHashMap<u64, Vec<usize>> = FxHashMap::default();
+    for (index, (shape, group)) in before.shapes.iter().zip(&groups.of_shape[0]).enumerate().rev() {
+        waiting.entry(hash(shape, *group)).or_default().push(index);
+    }
+    let mut gone = vec![true; before.shapes.len()];
+    let (mut equal_pairs, mut new) = (Vec::new(), Vec::new());
+    for (index, (shape, group)) in after.shapes.iter().zip(&groups.of_shape[1]).enumerate() {
+        let equal = |other: &usize| {
+            groups.of_shape[0].get(*other) == Some(group)
+                && before
+                    .shapes
+                    .get(*other)
+                    .is_some_and(|o| o.path == shape.path && o.outline == shape.outline)
+        };
+        let candidates = waiting.get_mut(&hash(shape, *group));
+        let found = candidates.and_then(|list| list.iter().rposition(equal).map(|at| list.remove(at)));
+        match found {
+            Some(other) => {
+                gone[other] = false;
+                equal_pairs.push((other, index));
+            }
+            None => new.push(index),
+        }
+    }
+    Parted { equal: equal_pairs, rest: [(0..gone.len()).filter(|index| gone[*index]).collect(), new] }
+}
+
+fn hash_path(path: &BezPath, hasher: &mut FxHasher) {
+    let mut point = |p: &Point| {
+        p.x.to_bits().hash(hasher);
+        p.y.to_bits().hash(hasher);
+    };
+    for element in path.elements() {
+        match element {
+            PathEl::MoveTo(p) | PathEl::LineTo(p) => point(p),
+            PathEl::QuadTo(c, p) => [c, p].into_iter().for_each(&mut point),
+            PathEl::CurveTo(c1, c2, p) => [c1, c2, p].into_iter().for_each(&mut point),
+            PathEl::ClosePath => {}
+        }
+    }
+}

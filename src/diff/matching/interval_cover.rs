@@ -1,0 +1,443 @@
+//! [`Cover`]: which pieces of a chain lie within tolerance of another drawing's chains.
+//!
+//! The points of a segment that are within r of another segment are those inside its capsule. That is convex, so they
+//! are one interval, whose ends are roots of quadratics: nothing is sampled.
+
+use crate::parallel::prelude::*;
+use kurbo::Point;
+
+use crate::diff::curves::chain::Chain;
+use crate::diff::curves::segment_clusters::Met;
+use crate::diff::curves::segment_grid::SegmentCells;
+use crate::diff::shapes::mark_groups::{Groups, Likeness};
+
+/// Stretches of a chain shorter than this many tolerances, between two that are alike, are what lines leave that
+/// merely cross it.
+const CROSSING: f64 = 6.0;
+/// Where segments are a crowd, so many are asked for the best likeness.
+const MOST_ASKED: usize = 4096;
+/// Pieces of all copies of a line.
+const MOST_PIECES: usize = 4_000_000;
+/// Gaps between intervals shorter than this (px) are rounding.
+const ROUNDING_PX: f64 = 1e-7;
+
+/// A stretch of a chain, by arc length in px.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Stretch {
+    pub from: f64,
+    pub to: f64,
+    /// The best of what lies there in the other drawing; `None` where nothing does.
+    pub likeness: Option<Likeness>,
+    /// The chain that lies there.
+    pub partner: u32,
+}
+
+impl Stretch {
+    pub(crate) fn length(&self) -> f64 {
+        self.to - self.from
+    }
+}
+
+/// What covers a chain.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Cover {
+    /// From its start to its end, without gaps.
+    pub runs: Vec<Stretch>,
+    /// The chains that cover it, the one with the longest stretch first; each with the best likeness that it has anywhere, and
+    /// the length that it covers.
+    pub partners: Vec<(u32, Likeness, f64)>,
+    /// Length of the chain in px.
+    pub length: f64,
+    /// Whether the chain is a dot.
+    dot: bool,
+}
+
+impl Cover {
+    /// Length of what nothing covers.
+    pub(crate) fn bare(&self) -> f64 {
+        self.runs.iter().filter(|run| run.likeness.is_none()).map(Stretch::length).sum()
+    }
+
+    /// Whether something covers all of it.
+    pub(crate) fn is_whole(&self) -> bool {
+        self.runs.iter().all(|run| run.likeness.is_some())
+    }
+
+    /// Whether all of it is as it was.
+    pub(crate) fn is_same(&self) -> bool {
+        self.runs.iter().all(|run| run.likeness == Some(Likeness::Same))
+    }
+
+    /// The share of it that is covered.
+    pub(crate) fn share(&self) -> f64 {
+        if self.dot { f64::from(u8::from(self.is_whole())) } else { 1.0 - self.bare() / self.length }
+    }
+
+    /// Bare where it was, or covered where nothing of it is bare, as one piece from its start to its end.
+    fn without_crossings(self) -> Self {
+        let best = |runs: &[Stretch]| runs.iter().map(|run| run.likeness).max().flatten();
+        let likeness = if self.is_whole() { best(&self.runs) } else { None };
+        let partner = self.runs.first().map_or(0, |run| run.partner);
+        let mut cover = Self {
+            runs: vec![Stretch { from: 0.0, to: self.length, likeness, partner }],
+            partners: Vec::new(),
+            ..self
+        };
+        cover.sum_up();
+        cover
+    }
+
+    /// Sums up the runs by partner.
+    fn sum_up(&mut self) {
+        for run in &self.runs {
+            let Some(likeness) = run.likeness else { continue };
+            match self.partners.iter_mut().find(|(partner, ..)| *partner == run.partner) {
+                Some((_, best, length)) => {
+                    *best = likeness.min(*best);
+                    *length += run.length();
+                }
+                None => self.partners.push((run.partner, likeness, run.length())),
+            }
+        }
+        self.partners.sort_by(|a, b| b.2.total_cmp(&a.2).then(a.0.cmp(&b.0)));
+    }
+}
+
+/// What of the chains of `there`, which are sorted into `grid`, covers each of those of `here`; of chains that lie exactly on
+/// each other only the first ones are in the grid. Each chain comes with the numbers of these: copies are covered by copies.
+pub(crate) fn cover(
+    here: (&[Chain], &[usize]),
+    there: (&[Chain], &[usize]),
+    grid: &SegmentCells,
+    groups: &Groups,
+) -> Vec<Cover> {
+    let first = |index: usize| here.1.get(index).copied().unwrap_or(index);
+    let of_firsts: Vec<Option<Cover>> = here
+        .0
+        .par_iter()
+        .enumerate()
+        .map_init(Scratch::default, |scratch, (index, chain)| {
+            (first(index) == index).then(|| one(chain, there.0, grid, groups, scratch))
+        })
+        .collect();
+    // Of a line that thousands cross, each of thousands of copies would have all these pieces.
+    let mut copies = vec![0usize; here.0.len()];
+    (0..copies.len()).for_each(|index| copies[first(index)] += 1);
+    let plainer = |(index, cover): (usize, Option<Cover>)| {
+        cover.map(|cover| match cover.runs.len().saturating_mul(copies[index] - 1) > MOST_PIECES {
+            true => cover.without_crossings(),
+            false => cover,
+        })
+    };
+    let of_firsts: Vec<Option<Cover>> = of_firsts.into_iter().enumerate().map(plainer).collect();
+    let copy = |index: usize| {
+        let mut cover = of_firsts.get(first(index)).cloned().flatten().unwrap_or_default();
+        let rank = index - first(index);
+        let like = |partner: u32| {
+            let copy = partner as usize + rank;
+            if there.1.get(copy) == Some(&(partner as usize)) { copy as u32 } else { partner }
+        };
+        cover.runs.iter_mut().for_each(|run| run.partner = like(run.partner));
+        cover.partners.iter_mut().for_each(|(partner, ..)| *partner = like(*partner));
+        cover
+    };
+    (0..here.0.len()).map(copy).collect()
+}
+
+#[derive(Default)]
+struct Scratch {
+    near: Vec<u32>,
+    /// Likenesses to groups that are near.
+    likeness: Vec<(usize, Option<Likeness>)>,
+    intervals: Vec<Interval>,
+}
+
+/// A segment of a chain, which begins `at` px along it.
+struct Here {
+    from: Point,
+    to: Point,
+    at: f64,
+    length: f64,
+    tolerance: f64,
+}
+
+impl Scratch {
+    /// Keeps what another segment covers of this one, and tells which share it is.
+    fn see(
+        &mut self,
+        here: &Here,
+        chain: &Chain,
+        others: &[Chain],
+        grid: &SegmentCells,
+        groups: &Groups,
+        item: u32,
+    ) -> Option<(Likeness, (f64, f64))> {
+        let segment = grid.segments.get(item as usize)?;
+        let other = others.get(segment.chain as usize)?;
+        let known = self.likeness.iter().find(|(group, _)| *group == other.group);
+        let likeness = known.map_or_else(|| groups.likeness(chain.group, other.group), |(_, known)| *known);
+        if known.is_none() {
+            self.likeness.push((other.group, likeness));
+        }
+        let likeness = likeness?;
+        let (start, end) = within(here.from, here.to, segment.from, segment.to, here.tolerance)?;
+        self.intervals.push(Interval {
+            from: here.at + start * here.length,
+            to: here.at + end * here.length,
+            likeness,
+            partner: segment.chain,
+        });
+        Some((likeness, (start, end)))
+    }
+}
+
+/// What of a segment is covered, where there are too many others to ask them all.
+#[derive(Default)]
+struct Crowd {
+    seen: usize,
+    /// Shares that lie apart, in order.
+    shares: Vec<(f64, f64)>,
+}
+
+impl Crowd {
+    /// Adds what a segment covers: what is as it was, and after so many whatever lies there.
+    fn add(&mut self, found: Option<(Likeness, (f64, f64))>) {
+        self.seen += 1;
+        let Some((likeness, (mut from, mut to))) = found else { return };
+        if likeness != Likeness::Same && self.seen < MOST_ASKED {
+            return;
+        }
+        let first = self.shares.partition_point(|share| share.1 < from);
+        let last = self.shares.partition_point(|share| share.0 <= to);
+        for share in self.shares.drain(first..last) {
+            (from, to) = (from.min(share.0), to.max(share.1));
+        }
+        self.shares.insert(first, (from, to));
+    }
+
+    fn covers(&self, (from, to): (f64, f64)) -> bool {
+        let at = self.shares.partition_point(|share| share.1 < to);
+        self.shares.get(at).is_some_and(|share| share.0 <= from)
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Interval {
+    from: f64,
+    to: f64,
+    likeness: Likeness,
+    partner: u32,
+}
+
+fn one(
+    chain: &Chain,
+    others: &[Chain],
+    grid: &SegmentCells,
+    groups: &Groups,
+    scratch: &mut Scratch,
+) -> Cover {
+    let tolerance = groups.groups.get(chain.group).map_or(0.01, |group| group.tolerance);
+    let mut cover = Cover { length: chain.length(), ..Cover::default() };
+    cover.dot = cover.length == 0.0;
+    let mut at = 0.0;
+    scratch.likeness.clear();
+    for (from, to) in chain.segments() {
+        let length = from.distance(to);
+        scratch.intervals.clear();
+        let here = Here { from, to, at, length, tolerance };
+        let crowd = !grid.near(from, to, tolerance, &mut scratch.near);
+        let near = std::mem::take(&mut scratch.near);
+        if crowd {
+            let mut all = Crowd::default();
+            grid.bundles().search(|met| match met {
+                Met::Bundle { from, to, radius } => {
+                    within(here.from, here.to, from, to, (tolerance + radius) * (1.0 + 1e-9))
+                        .is_some_and(|share| !all.covers(share))
+                }
+                Met::One(item) => {
+                    let found = scratch.see(&here, chain, others, grid, groups, item);
+                    all.add(found);
+                    all.covers((0.0, 1.0))
+                }
+            });
+        }
+        for item in near.iter().filter(|_| !crowd) {
+            let found = scratch.see(&here, chain, others, grid, groups, *item);
+            // Of what is alike the first one counts.
+            if found.is_some_and(|(likeness, share)| likeness == Likeness::Same && share == (0.0, 1.0)) {
+                break;
+            }
+        }
+        scratch.near = near;
+        runs(at, at + length, &mut scratch.intervals, &mut cover.runs);
+        at += length;
+    }
+    merge(&mut cover.runs);
+    let most = CROSSING * tolerance;
+    // Crossings in bare stretches first: what is left of them may then part others.
+    absorb(&mut cover.runs, most, |run, around| around.likeness.is_none() && run.likeness.is_some());
+    absorb(&mut cover.runs, most, |run, around| {
+        run.likeness.is_some() && around.likeness.is_some() && run.likeness != around.likeness
+    });
+    cover.sum_up();
+    cover
+}
+
+/// Runs from `start` to `end`: at every place the best of the intervals that cover it.
+fn runs(start: f64, end: f64, intervals: &mut [Interval], out: &mut Vec<Stretch>) {
+    if start == end {
+        // A dot is covered or not.
+        let best = intervals.iter().min_by_key(|i| (i.likeness, i.partner));
+        out.push(Stretch {
+            from: start,
+            to: end,
+            likeness: best.map(|best| best.likeness),
+            partner: best.map_or(0, |best| best.partner),
+        });
+        return;
+    }
+    intervals.sort_by(|a, b| {
+        (a.likeness, a.partner).cmp(&(b.likeness, b.partner)).then(a.from.total_cmp(&b.from))
+    });
+    let mut free = vec![(start, end)];
+    let first = out.len();
+    for interval in intervals.iter() {
+        if free.is_empty() {
+            break;
+        }
+        let mut rest = Vec::with_capacity(free.len() + 1);
+        for (from, to) in free.drain(..) {
+            let (low, high) = (interval.from.max(from), interval.to.min(to));
+            if high - low <= 0.0 {
+                rest.push((from, to));
+                continue;
+            }
+            out.push(Stretch {
+                from: low,
+                to: high,
+                likeness: Some(interval.likeness),
+                partner: interval.partner,
+            });
+            rest.extend([(from, low), (high, to)].into_iter().filter(|(a, b)| b - a > ROUNDING_PX));
+        }
+        free = rest;
+    }
+    out.extend(free.into_iter().map(|(from, to)| Stretch { from, to, likeness: None, partner: 0 }));
+    out[first..].sort_by(|a, b| a.from.total_cmp(&b.from));
+}
+
+/// Joins neighbours of one likeness and one partner.
+fn merge(runs: &mut Vec<Stretch>) {
+    runs.dedup_by(|next, run| {
+        let alike = next.likeness == run.likeness && (next.partner == run.partner || run.likeness.is_none());
+        if alike {
+            run.to = next.to;
+        }
+        alike
+    });
+}
+
+/// Gives short runs between two of one likeness to these.
+fn absorb(runs: &mut Vec<Stretch>, most: f64, gives: impl Fn(&Stretch, &Stretch) -> bool) {
+    let mut index = 1;
+    while index + 1 < runs.len() {
+        let (before, run, after) = (runs[index - 1], runs[index], runs[index + 1]);
+        if before.likeness == after.likeness && run.length() <= most && gives(&run, &before) {
+            runs[index].likeness = before.likeness;
+            runs[index].partner = before.partner;
+        }
+        index += 1;
+    }
+    merge(runs);
+}
+
+/// The share of the segment from `p` to `q` that is within `r` of the segment from `a` to `b`.
+fn within(p: Point, q: Point, a: Point, b: Point, r: f64) -> Option<(f64, f64)> {
+    let along = q - p;
+    let mut found: Option<(f64, f64)> = None;
+    let mut add = |from: f64, to: f64| {
+        let (from, to) = (from.max(0.0), to.min(1.0));
+        if from <= to {
+            found = Some(found.map_or((from, to), |(low, high)| (low.min(from), high.max(to))));
+        }
+    };
+    let length2 = along.hypot2();
+    for centre in [a, b] {
+        let offset = p - centre;
+        if length2 == 0.0 {
+            if offset.hypot2() <= r * r {
+                add(0.0, 1.0);
+            }
+            continue;
+        }
+        let half = along.dot(offset);
+        let root2 = half * half - length2 * (offset.hypot2() - r * r);
+        if root2 >= 0.0 {
+            let root = root2.sqrt();
+            add((-half - root) / length2, (-half + root) / length2);
+        }
+    }
+    // The strip between the two discs: inside in two directions.
+    let axis = b - a;
+    let size = axis.hypot();
+    if size > 0.0 {
+        let unit = axis / size;
+        let offset = p - a;
+        let across = clip(offset.cross(unit), along.cross(unit), -r, r);
+        let lengthwise = clip(offset.dot(unit), along.dot(unit), 0.0, size);
+        if let Some(((f0, t0), (f1, t1))) = across.zip(lengthwise)
+            && f0.max(f1) <= t0.min(t1)
+        {
+            add(f0.max(f1), t0.min(t1));
+        }
+    }
+    found
+}
+
+/// Where `start + t * rate` lies between two bounds.
+fn clip(start: f64, rate: f64, low: f64, high: f64) -> Option<(f64, f64)> {
+    if rate == 0.0 {
+        return (low..=high).contains(&start).then_some((f64::NEG_INFINITY, f64::INFINITY));
+    }
+    let (t0, t1) = ((low - start) / rate, (high - start) / rate);
+    Some((t0.min(t1), t0.max(t1)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::diff::curves::segment::nearest_on;
+
+    #[test]
+    fn the_interval_is_that_of_sampling() {
+        let mut state = 5u64;
+        let mut next = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 40) as f64 / f64::from(1u32 << 24)
+        };
+        let mut hits = 0;
+        for _ in 0..2000 {
+            let mut point = || Point::new(next() * 4.0, next() * 4.0);
+            let (p, q, a, b) = (point(), point(), point(), point());
+            let inside = |t: f64| {
+                let at = p.lerp(q, t);
+                at.distance(nearest_on(a, b, at)) <= 0.5
+            };
+            let sampled: Vec<f64> =
+                (0..=1000).map(|i| f64::from(i) / 1000.0).filter(|t| inside(*t)).collect();
+            match (within(p, q, a, b, 0.5), sampled.first().zip(sampled.last())) {
+                (Some((from, to)), Some((first, last))) => {
+                    hits += 1;
+                    assert!(
+                        (from - first).abs() <= 1.1e-3 && (to - last).abs() <= 1.1e-3,
+                        "{from} {first} {to} {last}"
+                    );
+                }
+                (Some((from, to)), None) => assert!(to - from <= 1.1e-3),
+                (None, Some(_)) => panic!("an interval was not found"),
+                (None, None) => {}
+            }
+        }
+        assert!(hits > 300);
+    }
+}

@@ -1,0 +1,87 @@
+//! [`Canvas`]: a drawing that is rasterised, whole or a spot of it.
+
+use resvg::tiny_skia::{Pixmap, PremultipliedColorU8, Rect, Transform};
+
+use crate::diff::shapes::ignore_options::Ignore;
+use crate::diff::shapes::picture::Picture;
+use crate::export::raster::tree_painter::{Look, Painter};
+
+/// A drawing, and what of it does not count.
+pub(crate) struct Canvas<'a> {
+    picture: &'a Picture,
+    ignore: Ignore,
+}
+
+/// A square of a drawing.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Spot {
+    /// Its upper left corner, px.
+    pub x: f64,
+    pub y: f64,
+    /// Pixels of a side.
+    pub size: usize,
+    /// Pixels to a px.
+    pub scale: f64,
+}
+
+impl<'a> Canvas<'a> {
+    pub fn new(picture: &'a Picture, ignore: Ignore) -> Self {
+        Self { picture, ignore }
+    }
+
+    /// The whole drawing, with smooth edges.
+    pub fn coarse(&self, columns: usize, rows: usize, scale: f64) -> Option<Vec<PremultipliedColorU8>> {
+        let mut pixmap = Pixmap::new(u32::try_from(columns).ok()?, u32::try_from(rows).ok()?)?;
+        let to = Transform::from_scale(scale as f32, scale as f32);
+        self.paint(
+            Painter { precise: true, ..Painter::default() },
+            self.picture.drawn.smooth(),
+            to,
+            &mut pixmap,
+        );
+        Some(pixmap.pixels().to_vec())
+    }
+
+    /// A spot of it, whose pixels are covered in whole or not at all.
+    pub fn spot(&self, spot: Spot) -> Option<Vec<PremultipliedColorU8>> {
+        let size = u32::try_from(spot.size).ok()?;
+        let mut pixmap = Pixmap::new(size, size)?;
+        let side = spot.size as f64 / spot.scale;
+        // Nodes are left out by boxes in single precision.
+        let slack = 2.0 / spot.scale + (spot.x.abs() + spot.y.abs() + side) * f64::from(f32::EPSILON) * 4.0;
+        let window = Rect::from_ltrb(
+            (spot.x - slack) as f32,
+            (spot.y - slack) as f32,
+            (spot.x + side + slack) as f32,
+            (spot.y + side + slack) as f32,
+        )?;
+        let painter = Painter { window: Some(window), crisp: true, ..Painter::default() };
+        let scale = spot.scale as f32;
+        let to = Transform::from_row(
+            scale,
+            0.0,
+            0.0,
+            scale,
+            (-spot.x * spot.scale) as f32,
+            (-spot.y * spot.scale) as f32,
+        );
+        self.paint(painter, self.picture.drawn.crisp(), to, &mut pixmap);
+        Some(pixmap.pixels().to_vec())
+    }
+
+    fn paint(&self, painter: Painter, tree: &usvg::Tree, to: Transform, pixmap: &mut Pixmap) {
+        let Ignore { colours, widths, text, .. } = self.ignore;
+        if !(colours || widths || text) {
+            painter.nodes(tree.root(), to, &mut pixmap.as_mut());
+            return;
+        }
+        let look = |path: &usvg::Path| match self.picture.drawn.stand_in(path.id()) {
+            Some(is_text) if is_text && text => Look::Absent,
+            Some(_) => Look::Own,
+            None if colours || widths => Look::Plain { black: colours, thin: widths },
+            None => Look::Own,
+        };
+        let painter = Painter { look: Some(&look), plain: colours, ..painter };
+        painter.nodes(tree.root(), to, &mut pixmap.as_mut());
+    }
+}

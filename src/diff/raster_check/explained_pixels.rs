@@ -1,0 +1,231 @@
+//! [`Places`]: which pixels lie near a finding of geometry, and findings about those that do not.
+
+use kurbo::{BezPath, ParamCurve as _, ParamCurveArclen as _, Rect, Shape as _};
+use resvg::tiny_skia::PremultipliedColorU8 as Pixel;
+use rustc_hash::FxHashMap;
+
+use super::invisible_findings::is_seen;
+use super::pixel_comparison::{ALIKE, Coarse};
+use crate::colour::srgb::Colour;
+use crate::diff::findings::finding::{Change, Finding, Place, Verdict};
+use crate::diff::shapes::label::Label;
+use crate::diff::shapes::picture::{Picture, ShapeKind};
+
+/// Pixels of a side of a tile.
+const TILE: usize = 16;
+/// Pixels of a tile that are looked at closely, at most: the most different ones.
+const MAX_PIXELS: usize = 4;
+/// What lies this near to a mark that differs is explained by it, px: borders are smooth, and drawn at whole pixels.
+const NEAR_PX: f64 = 2.0;
+/// Long segments are taken in pieces of this length, px, of which there are at most so many.
+const PIECE_PX: f64 = 12.0;
+const MAX_PIECES: usize = 400_000;
+/// Marks of another colour that are looked at, at most: the first one that is seen ends the search.
+const MAX_RECOLOURED: usize = 1000;
+
+/// A square of pixels that has candidates.
+#[derive(Debug)]
+pub(crate) struct Tile {
+    column: usize,
+    row: usize,
+    /// The candidates, the most different first.
+    pub pixels: Vec<[usize; 2]>,
+    /// How different the first one is, and how many candidates there are.
+    most: u8,
+    count: usize,
+    /// The box of all candidates: from, to.
+    bounds: [usize; 4],
+}
+
+/// Which pixels are explained.
+pub(crate) struct Places {
+    columns: usize,
+    rows: usize,
+    scale: f64,
+    explained: Vec<bool>,
+    claims: bool,
+}
+
+impl Places {
+    pub fn new(
+        findings: &[Finding],
+        pictures: [&Picture; 2],
+        columns: usize,
+        rows: usize,
+        scale: f64,
+    ) -> Self {
+        let mut places = Self { columns, rows, scale, explained: vec![false; columns * rows], claims: false };
+        let mut widths: FxHashMap<&Label, f64> = FxHashMap::default();
+        for shape in pictures.iter().flat_map(|picture| picture.shapes.iter()) {
+            let width = widths.entry(&*shape.label).or_default();
+            *width = width.max(shape.ink.width);
+        }
+        let mut pieces = 0;
+        for finding in findings.iter().filter(|finding| is_seen(finding)) {
+            places.claims = true;
+            // A corner may reach as far as two widths.
+            let near = NEAR_PX + 2.0 * widths.get(&finding.label).copied().unwrap_or_default();
+            let lines = finding.kind == ShapeKind::Line
+                && [&finding.gone, &finding.new].iter().any(|path| !path.elements().is_empty());
+            if lines && pieces < MAX_PIECES {
+                pieces += places.along(&finding.gone, near) + places.along(&finding.new, near);
+            } else {
+                let Place { x, y, width, height } = finding.place;
+                places.mark(Rect::new(x, y, x + width, y + height).inflate(near, near));
+            }
+        }
+        places
+    }
+
+    /// Whether geometry has found anything that could be seen.
+    pub fn has_claims(&self) -> bool {
+        self.claims
+    }
+
+    /// Marks what is near a path, and returns in how many pieces.
+    fn along(&mut self, path: &BezPath, near: f64) -> usize {
+        let mut pieces = 0;
+        for segment in path.segments() {
+            let count = (segment.arclen(0.5) / PIECE_PX).ceil().clamp(1.0, 10_000.0) as usize;
+            for piece in 0..count {
+                let at = |index: usize| index as f64 / count as f64;
+                let part = segment.subsegment(at(piece)..at(piece + 1));
+                self.mark(part.bounding_box().inflate(near, near));
+            }
+            pieces += count;
+        }
+        pieces
+    }
+
+    fn mark(&mut self, rect: Rect) {
+        let to = |value: f64, count: usize| (value * self.scale).clamp(0.0, count as f64) as usize;
+        let (left, right) = (to(rect.x0, self.columns), to(rect.x1 + 1.0 / self.scale, self.columns));
+        for row in to(rect.y0, self.rows)..to(rect.y1 + 1.0 / self.scale, self.rows) {
+            if let Some(pixels) =
+                self.explained.get_mut(row * self.columns + left..row * self.columns + right)
+            {
+                pixels.fill(true);
+            }
+        }
+    }
+
+    /// Tiles with pixels that differ and are not explained, or with any that differ; the most different first.
+    pub fn candidates(&self, coarse: &Coarse, any: bool) -> Vec<Tile> {
+        let across = self.columns.div_ceil(TILE);
+        let mut tiles: Vec<Vec<(u8, usize)>> = Vec::new();
+        tiles.resize_with(across * self.rows.div_ceil(TILE), Vec::new);
+        for index in 0..self.explained.len() {
+            let value = match any {
+                true if coarse.difference[index] > ALIKE => coarse.difference[index],
+                false if !self.explained[index] => coarse.excess[index],
+                _ => 0,
+            };
+            if value > 0 {
+                let (column, row) = (index % self.columns, index / self.columns);
+                tiles[row / TILE * across + column / TILE].push((value, index));
+            }
+        }
+        let mut found: Vec<Tile> = Vec::new();
+        for (number, mut pixels) in tiles.into_iter().enumerate() {
+            pixels.sort_unstable_by_key(|(value, index)| (std::cmp::Reverse(*value), *index));
+            let Some((most, _)) = pixels.first().copied() else { continue };
+            let at = |(_, index): &(u8, usize)| [index % self.columns, index / self.columns];
+            let mut bounds = [usize::MAX, usize::MAX, 0, 0];
+            for [x, y] in pixels.iter().map(at) {
+                bounds = [bounds[0].min(x), bounds[1].min(y), bounds[2].max(x + 1), bounds[3].max(y + 1)];
+            }
+            found.push(Tile {
+                column: number % across,
+                row: number / across,
+                pixels: pixels.iter().take(MAX_PIXELS).map(at).collect(),
+                most,
+                count: pixels.len(),
+                bounds,
+            });
+        }
+        found.sort_by_key(|tile| std::cmp::Reverse(tile.most));
+        found
+    }
+
+    /// One finding for tiles that are neighbours.
+    pub fn findings(&self, tiles: &[Tile], pictures: [&[Pixel]; 2]) -> Vec<Finding> {
+        let by_place: FxHashMap<[usize; 2], usize> =
+            tiles.iter().enumerate().map(|(index, tile)| ([tile.column, tile.row], index)).collect();
+        let mut taken = vec![false; tiles.len()];
+        let mut found = Vec::new();
+        for first in 0..tiles.len() {
+            if std::mem::replace(&mut taken[first], true) {
+                continue;
+            }
+            let (mut group, mut next) = (vec![first], 0);
+            while let Some(tile) = group.get(next).map(|index| &tiles[*index]) {
+                for (dx, dy) in (0..9).map(|k| (k % 3, k / 3)) {
+                    let neighbour = [(tile.column + dx).wrapping_sub(1), (tile.row + dy).wrapping_sub(1)];
+                    let index = by_place.get(&neighbour).copied();
+                    group.extend(index.filter(|index| !std::mem::replace(&mut taken[*index], true)));
+                }
+                next += 1;
+            }
+            found.push(self.finding(&group, tiles, pictures));
+        }
+        found
+    }
+
+    fn finding(&self, group: &[usize], tiles: &[Tile], pictures: [&[Pixel]; 2]) -> Finding {
+        let tiles = || group.iter().map(|index| &tiles[*index]);
+        let [x0, y0, x1, y1] = tiles().fold([usize::MAX, usize::MAX, 0, 0], |all, tile| {
+            let own = tile.bounds;
+            [all[0].min(own[0]), all[1].min(own[1]), all[2].max(own[2]), all[3].max(own[3])]
+        });
+        let px = |pixel: usize| pixel as f64 / self.scale;
+        let place = Rect::new(px(x0), px(y0), px(x1), px(y1));
+        // Tiles come the most different first.
+        let [column, row] = tiles().next().and_then(|tile| tile.pixels.first().copied()).unwrap_or_default();
+        let colour = |side: usize| {
+            pictures[side].get(row * self.columns + column).map_or_else(String::new, |pixel| in_words(*pixel))
+        };
+        let change = Change { what: "colour".to_owned(), old: colour(0), new: colour(1) };
+        let pixels: usize = tiles().map(|tile| tile.count).sum();
+        Finding {
+            size: pixels as f64 / (self.scale * self.scale),
+            new: place.to_path(0.1),
+            ..Finding::in_place(
+                Verdict::Picture,
+                ShapeKind::Region,
+                Label::default(),
+                vec![change],
+                Place::of(place),
+            )
+        }
+    }
+}
+
+/// Whether a mark that has another flat colour is seen: some pixel of its place differs at all.
+pub(crate) fn is_recoloured(findings: &[Finding], coarse: &Coarse, columns: usize, scale: f64) -> bool {
+    let is_flat = |colour: &str| colour.starts_with('#') && !colour.contains(' ');
+    let recoloured = findings.iter().filter(|finding| {
+        let flat = |change: &Change| change.what == "colour" && is_flat(&change.old) && is_flat(&change.new);
+        finding.verdict == Verdict::Restyled && finding.changes.iter().any(flat)
+    });
+    let rows = coarse.difference.len() / columns.max(1);
+    let pixel = |value: f64, count: usize| (value * scale).clamp(0.0, count as f64) as usize;
+    recoloured.take(MAX_RECOLOURED).any(|finding| {
+        let Place { x, y, width, height } = finding.place;
+        let [left, right] = [x, x + width + 1.0 / scale].map(|value| pixel(value, columns));
+        (pixel(y, rows)..pixel(y + height + 1.0 / scale, rows)).any(|row| {
+            let line = coarse.difference.get(row * columns + left..row * columns + right);
+            line.is_some_and(|line| line.iter().any(|difference| *difference > 0))
+        })
+    })
+}
+
+/// A colour of a picture: `#cc3333`, `#cc3333 at 40 %`, `nothing`.
+fn in_words(pixel: Pixel) -> String {
+    let plain = pixel.demultiply();
+    let hex = Colour::rgb(plain.red(), plain.green(), plain.blue()).hex();
+    match plain.alpha() {
+        0 => "nothing".to_owned(),
+        255 => hex,
+        alpha => format!("{hex} at {:.0} %", f64::from(alpha) / 2.55),
+    }
+}

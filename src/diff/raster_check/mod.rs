@@ -1,0 +1,140 @@
+//! Comparison of two drawings by their pixels.
+//!
+//! 1. [`raster_cost`] chooses a scale that keeps the work within bounds.
+//! 2. [`canvas`] rasterises both drawings with exact coverage, without the aspects to be ignored.
+//! 3. [`pixel_comparison`] compares each pixel. The threshold is the colour that an edge shifted by less than
+//!    the tolerance adds to a pixel.
+//! 4. [`explained_pixels`] marks the pixels near findings of geometry. The other pixels that differ are
+//!    candidates.
+//! 5. Each candidate is rasterised again without anti-aliasing, at four pixels per tolerance. It differs if a
+//!    spot as wide as the tolerance has no pixel of similar colour within the tolerance in the other drawing.
+//! 6. Candidates that differ become findings with place, area and colours.
+//! 7. Without such candidates, the pixels near findings are checked the same way. If none differs, the
+//!    drawings look the same, and only findings that no picture shows are kept ([`invisible_findings`]).
+//!
+//! [`window_extremes`] computes sliding minima and maxima in linear time.
+
+mod canvas;
+mod explained_pixels;
+mod invisible_findings;
+mod pixel_comparison;
+mod raster_cost;
+mod window_extremes;
+
+use self::canvas::{Canvas, Spot};
+use self::explained_pixels::Places;
+pub(crate) use self::invisible_findings::without_picture;
+use self::pixel_comparison::Fine;
+use crate::diff::findings::finding::Finding;
+pub(crate) use crate::diff::read::unsupported_features::unread;
+use crate::diff::shapes::ignore_options::Ignore;
+use crate::diff::shapes::mark_groups::Groups;
+use crate::diff::shapes::picture::Picture;
+pub(crate) use crate::diff::shapes::render_tree::Drawn;
+use crate::geometry::numbers::tolerance::{COARSEST_VETO_PX, FINEST_SEEN_PX};
+
+/// Pixels that are rasterised anew to look closely, at most, for each of both questions.
+const MAX_CLOSE_PIXELS: usize = 64_000_000;
+/// Spots that were found to differ before the other candidates are believed.
+const MAX_PROOFS: usize = 48;
+
+/// What the pictures say.
+pub(crate) enum Decision {
+    /// They look the same.
+    Same,
+    /// They differ; with findings about what geometry has not explained.
+    Differs(Vec<Finding>),
+    /// They cannot be compared: one of them takes too long to rasterise.
+    Unknown,
+}
+
+/// Compares the pictures of two drawings, given what geometry found.
+pub(crate) fn decide(
+    pictures: [&Picture; 2],
+    findings: &[Finding],
+    groups: &Groups,
+    ignore: Ignore,
+) -> Decision {
+    let [width, height] =
+        [pictures[0].width.min(pictures[1].width), pictures[0].height.min(pictures[1].height)];
+    let outlined = pictures.iter().any(|picture| picture.shapes.iter().any(|shape| shape.ink.outlined));
+    if ignore.widths && outlined {
+        // Lines of varying width have no other picture than with their width.
+        return Decision::Unknown;
+    }
+    let Some(scale) = raster_cost::scale(pictures, [width, height]) else { return Decision::Unknown };
+    let canvases = pictures.map(|picture| Canvas::new(picture, ignore));
+    let (columns, rows) = ((width * scale).ceil() as usize, (height * scale).ceil() as usize);
+    let (a, b) = crate::parallel::join(
+        || canvases[0].coarse(columns, rows, scale),
+        || canvases[1].coarse(columns, rows, scale),
+    );
+    let (Some(a), Some(b)) = (a, b) else { return Decision::Unknown };
+    // Marks with tolerances of their own may have gone as far as the widest of these.
+    let tolerances = || groups.groups.iter().map(|group| group.tolerance);
+    let widest = tolerances().fold(FINEST_SEEN_PX, f64::max);
+    let finest = tolerances().fold(COARSEST_VETO_PX, f64::min);
+    let coarse = pixel_comparison::coarse([&a, &b], columns, widest * scale);
+    // A colour of another number is another colour, however little it differs.
+    let faint = explained_pixels::is_recoloured(findings, &coarse, columns, scale);
+    if !coarse.has_any() {
+        return if faint { Decision::Differs(Vec::new()) } else { Decision::Same };
+    }
+    let places = Places::new(findings, pictures, columns, rows, scale);
+    let mut unexplained = Vec::new();
+    let mut close = Close { canvases: &canvases, scale, pixels: 0 };
+    for tile in places.candidates(&coarse, false) {
+        let believed = unexplained.len() >= MAX_PROOFS;
+        if believed || tile.pixels.iter().any(|at| close.differs(*at, widest, true).unwrap_or(true)) {
+            unexplained.push(tile);
+        }
+    }
+    if !unexplained.is_empty() {
+        return Decision::Differs(places.findings(&unexplained, [&a, &b]));
+    }
+    if faint {
+        return Decision::Differs(Vec::new());
+    }
+    if !places.has_claims() {
+        return Decision::Same;
+    }
+    close.pixels = 0;
+    let claimed = places.candidates(&coarse, true);
+    let differs = |tile: &explained_pixels::Tile, close: &mut Close| {
+        tile.pixels.iter().any(|at| close.differs(*at, finest, false).unwrap_or(true))
+    };
+    match claimed.iter().any(|tile| differs(tile, &mut close)) {
+        true => Decision::Differs(Vec::new()),
+        false => Decision::Same,
+    }
+}
+
+/// Looks closely at pixels of the coarse pictures.
+struct Close<'a> {
+    canvases: &'a [Canvas<'a>; 2],
+    scale: f64,
+    /// Pixels that were rasterised so far.
+    pixels: usize,
+}
+
+impl Close<'_> {
+    /// Whether a pixel differs; `None` if too many were looked at. `spots`: whether only spots as wide as the tolerance count.
+    fn differs(&mut self, [column, row]: [usize; 2], tolerance: f64, spots: bool) -> Option<bool> {
+        let fine = Fine::new(self.scale, tolerance);
+        let size = fine.core + 2 * fine.reach;
+        self.pixels += size * size * 2;
+        if self.pixels > MAX_CLOSE_PIXELS {
+            return None;
+        }
+        let margin = fine.reach as f64 / fine.scale;
+        let spot = Spot {
+            x: column as f64 / self.scale - margin,
+            y: row as f64 / self.scale - margin,
+            size,
+            scale: fine.scale,
+        };
+        let [a, b] = [0, 1].map(|side: usize| self.canvases[side].spot(spot));
+        let (a, b) = (a?, b?);
+        Some(fine.differs([&a, &b], spots))
+    }
+}

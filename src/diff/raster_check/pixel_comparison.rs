@@ -1,0 +1,216 @@
+//! Whether pixels look alike: of whole pictures with smooth edges, and of spots without.
+
+use resvg::tiny_skia::PremultipliedColorU8 as Pixel;
+
+use super::window_extremes::squares;
+
+/// Channels that differ by no more than this are alike: opacities and blends are rounded more than once on their way.
+/// Of pairs that are one picture written in two ways none differs by more, see `tests/library/diff_pictures.rs`.
+pub(crate) const ALIKE: u8 = 2;
+/// Pixels to the tolerance, where a spot is looked at closely.
+const PIXELS_OF_TOLERANCE: f64 = 4.0;
+/// A spot has at least this many pixels to a px, so that thin lines are seen, and at most this many in all on a side.
+const MIN_FINE_SCALE: f64 = 4.0;
+const MAX_CORE: f64 = 256.0;
+/// Extremes within this are sought pixel by pixel.
+const MAX_SMALL: usize = 2;
+/// Pixels within more than this are sought by their extremes, not one by one.
+const MAX_DISC: usize = 6;
+/// How much more of a pixel an edge covers that went by one pixel: both sides of a thin line, along a diagonal.
+const EDGE: f64 = 2.0 * std::f64::consts::SQRT_2;
+
+fn channels(pixel: Pixel) -> [u8; 4] {
+    [pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()]
+}
+
+/// The largest difference of a channel.
+fn difference(a: Pixel, b: Pixel) -> u8 {
+    let (a, b) = (channels(a), channels(b));
+    a.iter().zip(&b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
+}
+
+/// Two pictures with smooth edges, pixel by pixel.
+pub(crate) struct Coarse {
+    /// The largest difference of a channel.
+    pub difference: Vec<u8>,
+    /// By how much that is more than an edge within tolerance accounts for.
+    pub excess: Vec<u8>,
+}
+
+impl Coarse {
+    /// Whether some pixel looks different at all.
+    pub fn has_any(&self) -> bool {
+        self.difference.iter().any(|difference| *difference > ALIKE)
+    }
+}
+
+/// Compares two pictures; `reach`: the tolerance in pixels.
+pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> Coarse {
+    let of = |(a, b): (&Pixel, &Pixel)| if a == b { 0 } else { difference(*a, *b) };
+    let differences: Vec<u8> = a.iter().zip(b).map(of).collect();
+    let mut excess = vec![0u8; differences.len()];
+    if differences.iter().all(|difference| *difference <= ALIKE) {
+        return Coarse { difference: differences, excess };
+    }
+    // A whole pixel or more: any colour between those that are near is like.
+    let radius = (reach.ceil() as usize).max(1);
+    let share = if EDGE * reach < 1.0 { EDGE * reach } else { 1.0 };
+    let beyond = |value: u8, there: u8, least: u8, most: u8| {
+        if value.abs_diff(there) <= ALIKE {
+            return 0;
+        }
+        let beyond = match share < 1.0 {
+            true => f64::from(value.abs_diff(there)) - share * f64::from(most - least),
+            false => f64::from(value.saturating_sub(most).max(least.saturating_sub(value))),
+        };
+        (beyond - f64::from(ALIKE)).clamp(0.0, 255.0).ceil() as u8
+    };
+    if radius <= MAX_SMALL {
+        // Few pixels differ.
+        let rows = differences.len() / columns.max(1);
+        for index in (0..differences.len()).filter(|index| differences[*index] > ALIKE) {
+            let (column, row) = (index % columns, index / columns);
+            let xs = column.saturating_sub(radius)..=(column + radius).min(columns - 1);
+            let ys = row.saturating_sub(radius)..=(row + radius).min(rows - 1);
+            for (own, other) in [(a, b), (b, a)] {
+                let (mut least, mut most) = ([255u8; 4], [0u8; 4]);
+                for y in ys.clone() {
+                    for pixel in &other[y * columns + xs.start()..=y * columns + xs.end()] {
+                        for (k, value) in channels(*pixel).into_iter().enumerate() {
+                            least[k] = least[k].min(value);
+                            most[k] = most[k].max(value);
+                        }
+                    }
+                }
+                let (values, there) = (channels(own[index]), channels(other[index]));
+                let own = (0..4).map(|k| beyond(values[k], there[k], least[k], most[k])).max();
+                excess[index] = excess[index].max(own.unwrap_or(0));
+            }
+        }
+    } else {
+        for channel in 0..4 {
+            let [a, b] =
+                [a, b].map(|picture| picture.iter().map(|p| channels(*p)[channel]).collect::<Vec<u8>>());
+            for (own, other) in [(&a, &b), (&b, &a)] {
+                let least = squares(other, columns, radius, u8::min);
+                let most = squares(other, columns, radius, u8::max);
+                for (index, excess) in excess.iter_mut().enumerate() {
+                    *excess = (*excess).max(beyond(own[index], other[index], least[index], most[index]));
+                }
+            }
+        }
+    }
+    // A gap or an overlap narrower than the tolerance, where two fills meet, is a thin line: around it nothing differs.
+    let gap = (255.0 * std::f64::consts::SQRT_2 * reach.min(1.0)).min(255.0) as u8;
+    let is_alone = |index: usize| {
+        let row = |at: usize| differences.get(at.saturating_sub(1)..=at + 1).unwrap_or_default();
+        [index.checked_sub(columns), Some(index), Some(index + columns)]
+            .into_iter()
+            .flatten()
+            .any(|at| row(at).iter().any(|difference| *difference <= ALIKE))
+    };
+    for index in 0..excess.len() {
+        if excess[index] > 0 && differences[index] <= gap && is_alone(index) {
+            excess[index] = 0;
+        }
+    }
+    Coarse { difference: differences, excess }
+}
+
+/// How closely one pixel of a coarse picture is looked at.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fine {
+    /// Pixels to a px.
+    pub scale: f64,
+    /// Pixels of a side of what is looked at.
+    pub core: usize,
+    /// The tolerance in pixels, and how far is seen round it.
+    pub reach: usize,
+}
+
+impl Fine {
+    /// For a pixel of a picture with `coarse` pixels to a px.
+    pub fn new(coarse: f64, tolerance: f64) -> Self {
+        let scale = (PIXELS_OF_TOLERANCE / tolerance.max(1e-9)).max(MIN_FINE_SCALE).max(coarse);
+        let scale = scale.min(MAX_CORE * coarse);
+        let reach = (tolerance * scale).ceil().clamp(1.0, 4.0 * MAX_CORE) as usize;
+        Self { scale, core: (scale / coarse).ceil() as usize, reach }
+    }
+
+    /// Whether something of the core differs: any pixel, or a spot as wide as the tolerance.
+    pub fn differs(self, pictures: [&[Pixel]; 2], spots: bool) -> bool {
+        let size = self.core + 2 * self.reach;
+        let [a, b] = pictures;
+        if a.len() != size * size || b.len() != a.len() {
+            return true;
+        }
+        if a == b {
+            return false;
+        }
+        let unlike = match self.reach <= MAX_DISC {
+            true => self.by_disc(pictures, size),
+            false => self.by_extremes(pictures, size),
+        };
+        if !spots {
+            return unlike.iter().any(|unlike| *unlike);
+        }
+        // The widest square of unlike pixels that ends at each.
+        let mut above = vec![0usize; self.core];
+        for row in unlike.chunks(self.core) {
+            let (mut left, mut corner) = (0, 0);
+            for (unlike, above) in row.iter().zip(&mut above) {
+                let side = if *unlike { 1 + left.min(corner).min(*above) } else { 0 };
+                if side >= self.reach {
+                    return true;
+                }
+                (corner, left) = (*above, side);
+                *above = side;
+            }
+        }
+        false
+    }
+
+    /// Pixels of the core without a like within the reach in the other picture.
+    fn by_disc(self, [a, b]: [&[Pixel]; 2], size: usize) -> Vec<bool> {
+        let reach = self.reach as isize;
+        let mut disc: Vec<[isize; 2]> = (-reach..=reach)
+            .flat_map(|y| (-reach..=reach).map(move |x| [x, y]))
+            .filter(|[x, y]| x * x + y * y <= reach * reach)
+            .collect();
+        disc.sort_by_key(|[x, y]| x * x + y * y);
+        let lacks = |own: Pixel, other: &[Pixel], x: usize, y: usize| {
+            !disc.iter().any(|[dx, dy]| {
+                let (x, y) = (x.wrapping_add_signed(*dx), y.wrapping_add_signed(*dy));
+                other.get(y * size + x).is_some_and(|other| difference(own, *other) <= ALIKE)
+            })
+        };
+        self.core_pixels(size, |x, y| {
+            let (p, q) = (a[y * size + x], b[y * size + x]);
+            difference(p, q) > ALIKE && (lacks(p, b, x, y) || lacks(q, a, x, y))
+        })
+    }
+
+    /// The same, where any colour between those within the reach is like.
+    fn by_extremes(self, pictures: [&[Pixel]; 2], size: usize) -> Vec<bool> {
+        let mut lacks = vec![false; size * size];
+        for channel in 0..4 {
+            let [a, b] =
+                pictures.map(|picture| picture.iter().map(|p| channels(*p)[channel]).collect::<Vec<u8>>());
+            for (own, other) in [(&a, &b), (&b, &a)] {
+                let least = squares(other, size, self.reach, u8::min);
+                let most = squares(other, size, self.reach, u8::max);
+                for (index, lacks) in lacks.iter_mut().enumerate() {
+                    let value = own[index];
+                    *lacks |= value > most[index].saturating_add(ALIKE)
+                        || value < least[index].saturating_sub(ALIKE);
+                }
+            }
+        }
+        self.core_pixels(size, |x, y| lacks[y * size + x])
+    }
+
+    fn core_pixels(self, size: usize, is: impl Fn(usize, usize) -> bool) -> Vec<bool> {
+        let inner = self.reach..size - self.reach;
+        inner.clone().flat_map(|y| inner.clone().map(move |x| (x, y))).map(|(x, y)| is(x, y)).collect()
+    }
+}

@@ -1,0 +1,78 @@
+//! Extremes of squares round each pixel, in time that does not grow with the square.
+
+/// For each item of a list the extreme of those at most `reach` places away, by `pick`.
+///
+/// Source: van Herk 1992, Gil and Werman 1993: two running extremes within blocks as long as the window.
+fn along(values: &[u8], reach: usize, pick: fn(u8, u8) -> u8) -> Vec<u8> {
+    let window = 2 * reach + 1;
+    let count = values.len();
+    let mut forth = values.to_vec();
+    let mut back = values.to_vec();
+    for index in 1..count {
+        if index % window != 0 {
+            forth[index] = pick(forth[index - 1], values[index]);
+        }
+        let mirrored = count - 1 - index;
+        if !(mirrored + 1).is_multiple_of(window) {
+            back[mirrored] = pick(back[mirrored + 1], values[mirrored]);
+        }
+    }
+    (0..count)
+        .map(|index| {
+            let (first, last) = (index.saturating_sub(reach), (index + reach).min(count - 1));
+            if last - first + 1 == window {
+                return pick(back[first], forth[last]);
+            }
+            // At the ends of the list the window is shorter, and may lie in one block.
+            match (first / window == last / window, first) {
+                (true, 0) => forth[last],
+                (true, _) => back[first],
+                (false, _) => pick(back[first], forth[last]),
+            }
+        })
+        .collect()
+}
+
+/// For each pixel of a picture the extreme of the square round it.
+pub(crate) fn squares(values: &[u8], columns: usize, reach: usize, pick: fn(u8, u8) -> u8) -> Vec<u8> {
+    if reach == 0 || columns == 0 {
+        return values.to_vec();
+    }
+    let mut rows: Vec<u8> = values.chunks(columns).flat_map(|row| along(row, reach, pick)).collect();
+    let count = rows.len() / columns;
+    let mut column = vec![0; count];
+    for x in 0..columns {
+        for (y, value) in column.iter_mut().enumerate() {
+            *value = rows[y * columns + x];
+        }
+        for (y, value) in along(&column, reach, pick).into_iter().enumerate() {
+            rows[y * columns + x] = value;
+        }
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extremes_are_those_of_brute_force() {
+        let (columns, rows) = (23, 17);
+        let values: Vec<u8> = (0..columns * rows).map(|i| (i * 7919 % 251) as u8).collect();
+        for reach in [0, 1, 2, 5, 11, 40] {
+            let found = squares(&values, columns, reach, u8::max);
+            for y in 0..rows {
+                for x in 0..columns {
+                    let (ys, xs) = (
+                        y.saturating_sub(reach)..=(y + reach).min(rows - 1),
+                        x.saturating_sub(reach)..=(x + reach).min(columns - 1),
+                    );
+                    let all = ys.flat_map(|y| xs.clone().map(move |x| (x, y)));
+                    let wanted = all.map(|(x, y)| values[y * columns + x]).max().unwrap_or(0);
+                    assert_eq!(found[y * columns + x], wanted, "{x} {y} {reach}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,15 @@
+//! SVG files to shapes in px, with usvg.
+//!
+//! 1. `markup` parses the file and checks its limits.
+//! 2. [`tagged_svg`] writes the file again: each shape gets an id, styles move to their elements, and texts
+//!    and pictures become rectangles with their description.
+//! 3. usvg resolves transforms, units, references and styles.
+//! 4. [`svg_reader`] turns the tree into shapes, and finds each shape's label by its id.
+//!
+//! Also: [`paint_description`] gradients and patterns as text; [`unsupported_features`] contents of a file
+//! that are not compared.
+
+mod paint_description;
+mod svg_reader;
+mod tagged_svg;
+pub(crate) mod unsupported_features;

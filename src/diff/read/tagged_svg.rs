@@ -1,0 +1,387 @@
+//! A file's XML written anew for the reader: every shape has an id by which it is known again, and what the reader
+//! would leave out or look for on the disk stands for itself as a rectangle.
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
+use usvg::roxmltree::{Document, Node};
+
+use crate::diff::markup::cascade::Cascade;
+use crate::diff::markup::inline_style::said;
+use crate::diff::markup::number_scan;
+use crate::diff::markup::style_sheet::{self, Declaration};
+use crate::diff::shapes::label::Label;
+use crate::diff::shapes::placeholder::{self, Details, Props};
+use crate::drawing::{LayerKind, Unit};
+use crate::error::Error;
+
+/// Elements that draw.
+const SHAPES: [&str; 8] = ["path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "use"];
+/// Attributes that say where something is.
+const PLACES: [&str; 16] = [
+    "d",
+    "points",
+    "x",
+    "y",
+    "x1",
+    "y1",
+    "x2",
+    "y2",
+    "cx",
+    "cy",
+    "r",
+    "rx",
+    "ry",
+    "width",
+    "height",
+    "data-axis",
+];
+/// Attributes whose numbers may not be too large either.
+const MEASURES: [&str; 4] = ["transform", "viewBox", "stroke-width", "stroke-dasharray"];
+/// The attributes that the rectangle in place of a text or a picture takes over: its place and its visibility.
+const BOX: [&str; 6] = ["id", "x", "y", "width", "height", "transform"];
+const OF_BOX: [&str; 8] =
+    ["display", "visibility", "opacity", "clip-path", "mask", "filter", "mix-blend-mode", "isolation"];
+/// The layers that drawings of this program have.
+const LAYERS: [LayerKind; 9] = [
+    LayerKind::Paper,
+    LayerKind::Fills,
+    LayerKind::Shadows,
+    LayerKind::Hatching,
+    LayerKind::Motion,
+    LayerKind::HiddenLines,
+    LayerKind::Lines,
+    LayerKind::Tooth,
+    LayerKind::Callouts,
+];
+
+/// What the file says of a shape beside its geometry and paint.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Origin {
+    pub label: Arc<Label>,
+    pub tone: Option<u16>,
+    pub invisibility: u16,
+    /// The middle of a line that is drawn as an outline, as path data, and its mean width.
+    pub axis: Option<(String, f64)>,
+    /// Words that stand for a text or a picture.
+    pub words: Option<Arc<str>>,
+    /// The properties that change the look of a text or a picture.
+    pub details: Details,
+    /// The material of the model.
+    pub material: Option<Arc<str>>,
+}
+
+/// A file that is ready for the reader.
+#[derive(Debug, Default)]
+pub(crate) struct Markup {
+    pub svg: String,
+    pub origins: FxHashMap<String, Origin>,
+    /// Most decimals of a coordinate.
+    pub decimals: u8,
+    /// Whether some path has arcs.
+    pub arcs: bool,
+    pub unit: Unit,
+    /// Whether style sheets have rules that are not applied.
+    pub has_more: bool,
+    /// Gradients of what stands for texts and pictures.
+    gradients: String,
+    /// Whether the file has texts or pictures.
+    has_stand_ins: bool,
+}
+
+/// Writes a document anew.
+pub(crate) fn rewrite(document: &Document) -> Result<Markup, Error> {
+    let mut markup = Markup::default();
+    let root = document.root_element();
+    if root.attribute("width").is_some_and(|width| width.trim_end().ends_with("mm")) {
+        markup.unit = Unit::Mm;
+    }
+    markup.has_stand_ins =
+        document.descendants().any(|node| matches!(node.tag_name().name(), "text" | "image"));
+    let mut cascade = Cascade::of(document);
+    markup.has_more = cascade.has_more;
+    markup.element(root, &Around::default(), &mut cascade)?;
+    Ok(markup)
+}
+
+/// What elements inherit from those around them.
+#[derive(Debug, Clone, Default)]
+struct Around {
+    layer: Arc<str>,
+    drawing: Option<Arc<str>>,
+    part: Option<Arc<str>>,
+    /// Properties of texts and pictures.
+    props: Arc<Props>,
+}
+
+impl Markup {
+    fn element(&mut self, node: Node, around: &Around, cascade: &mut Cascade) -> Result<(), Error> {
+        let declared = cascade.enter(node)?;
+        let name = node.tag_name().name();
+        let is_svg = matches!(node.tag_name().namespace(), None | Some("http://www.w3.org/2000/svg"));
+        match name {
+            // What it says is written at the elements that it speaks of.
+            "style" => {}
+            "text" | "image" if is_svg => self.stand_in(node, around, &declared, cascade)?,
+            _ if is_svg => self.plain(node, around, &declared, cascade)?,
+            _ => {}
+        }
+        cascade.leave();
+        Ok(())
+    }
+
+    /// An element that the reader knows, with all that is in it.
+    fn plain(
+        &mut self,
+        node: Node,
+        around: &Around,
+        declared: &[Declaration],
+        cascade: &mut Cascade,
+    ) -> Result<(), Error> {
+        let name = node.tag_name().name();
+        let mut around = inside(node, around);
+        if self.has_stand_ins {
+            around.props = placeholder::inherit(&around.props, node, declared);
+        }
+        self.svg.push('<');
+        self.svg.push_str(name);
+        if node.parent_element().is_none() {
+            self.svg.push_str(
+                " xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\"",
+            );
+        }
+        if SHAPES.contains(&name) {
+            self.shape(node, &around);
+        }
+        for attribute in node.attributes() {
+            let (name, value) = (attribute.name(), attribute.value());
+            self.check(node, name, value)?;
+            match attribute.namespace() {
+                None if name == "style" => continue,
+                None => {
+                    let _ = write!(self.svg, " {name}=\"");
+                }
+                Some("http://www.w3.org/1999/xlink") => {
+                    let _ = write!(self.svg, " xlink:{name}=\"");
+                }
+                Some("http://www.w3.org/XML/1998/namespace") => {
+                    let _ = write!(self.svg, " xml:{name}=\"");
+                }
+                Some(_) => continue,
+            }
+            escape(&mut self.svg, value);
+            self.svg.push('"');
+        }
+        self.style(node, declared)?;
+        self.svg.push('>');
+        for child in node.children() {
+            if child.is_element() {
+                self.element(child, &around, cascade)?;
+            } else if let Some(text) = child.text().filter(|_| child.is_text()) {
+                escape(&mut self.svg, text);
+            }
+        }
+        if node.parent_element().is_none() {
+            let _ = write!(self.svg, "<defs>{}</defs>", self.gradients);
+        }
+        let _ = write!(self.svg, "</{name}>");
+        Ok(())
+    }
+
+    /// Writes what style sheets say of an element, and then what it says of itself: what comes later wins.
+    fn style(&mut self, node: Node, declared: &[Declaration]) -> Result<(), Error> {
+        let own = node.attribute("style").unwrap_or_default();
+        if declared.is_empty() && own.is_empty() {
+            return Ok(());
+        }
+        let _ = write!(self.svg, " style=\"{}\"", said(declared, own)?);
+        Ok(())
+    }
+
+    /// Remembers what a shape is, and writes an id for it unless it has one.
+    fn shape(&mut self, node: Node, around: &Around) {
+        let mut classes: Vec<Arc<str>> = Vec::new();
+        let mut tone = node.attribute("data-tone").and_then(|tone| tone.parse().ok());
+        for class in node.attribute("class").unwrap_or_default().split_ascii_whitespace() {
+            match class.strip_prefix("tone-").and_then(|tone| tone.parse().ok()) {
+                Some(number) => tone = Some(number),
+                None => classes.push(Arc::from(class)),
+            }
+        }
+        classes.sort_unstable();
+        let Around { layer, drawing, part, .. } = around.clone();
+        let label = Label { layer, drawing, classes, part };
+        let number = |name| node.attribute(name).and_then(|text| text.parse().ok());
+        let axis = node.attribute("data-axis").zip(number("data-width"));
+        let origin = Origin {
+            label: Arc::new(label),
+            tone,
+            invisibility: node.attribute("data-invisibility").and_then(|text| text.parse().ok()).unwrap_or(0),
+            axis: axis.map(|(axis, width)| (axis.to_owned(), width)),
+            words: None,
+            details: Details::new(),
+            material: node.attribute("data-material").map(Arc::from),
+        };
+        self.remember(node, origin);
+    }
+
+    fn remember(&mut self, node: Node, origin: Origin) {
+        let id = match node.attribute("id") {
+            Some(id) => id.to_owned(),
+            None => {
+                // No id that is written by hand begins so.
+                let id = format!("\u{b7}{}", self.origins.len());
+                let _ = write!(self.svg, " id=\"{id}\"");
+                id
+            }
+        };
+        self.origins.insert(id, origin);
+    }
+
+    /// A rectangle in place of a text or a picture, of colours that stand for its words and its look.
+    fn stand_in(
+        &mut self,
+        node: Node,
+        around: &Around,
+        declared: &[Declaration],
+        cascade: &mut Cascade,
+    ) -> Result<(), Error> {
+        let around = inside(node, around);
+        let is_text = node.tag_name().name() == "text";
+        let said = match is_text {
+            true => Some(placeholder::text(node, &around.props, declared, cascade)?),
+            false => placeholder::picture(node, &around.props, declared),
+        };
+        // A picture without a target draws nothing.
+        let Some(said) = said else { return Ok(()) };
+        self.svg.push_str("<rect");
+        let [first, last] = said.colours();
+        let number = self.origins.len();
+        let _ = write!(
+            self.gradients,
+            "<linearGradient id=\"ligne.stand-in.{number}\" x2=\"1\" y2=\"1\"><stop stop-color=\"{first}\"/>\
+             <stop offset=\"1\" stop-color=\"{last}\"/></linearGradient>"
+        );
+        let Around { layer, drawing, part, .. } = around;
+        let label = Label { layer, drawing, classes: Vec::new(), part };
+        let origin = Origin {
+            label: Arc::new(label),
+            words: Some(Arc::from(said.words)),
+            details: said.details,
+            ..Origin::default()
+        };
+        self.remember(node, origin);
+        let mut sized = false;
+        for attribute in node.attributes().filter(|a| a.namespace().is_none()) {
+            let (name, value) = (attribute.name(), attribute.value());
+            self.check(node, name, value)?;
+            if BOX.contains(&name) || OF_BOX.contains(&name) {
+                // A text may have a place for every letter.
+                let first =
+                    if name.len() == 1 { value.split([' ', ',']).next().unwrap_or("0") } else { value };
+                let _ = write!(self.svg, " {name}=\"");
+                escape(&mut self.svg, first);
+                self.svg.push('"');
+                sized |= name == "width";
+            }
+        }
+        // Whether it is seen at all may be said by a style.
+        let own = style_sheet::declarations(node.attribute("style").unwrap_or_default()).unwrap_or_default();
+        let style = declared.iter().chain(&own).filter(|declaration| OF_BOX.contains(&declaration.name));
+        self.svg.push_str(" style=\"");
+        for Declaration { name, value, .. } in style {
+            let _ = write!(self.svg, "{name}:");
+            escape(&mut self.svg, value);
+            self.svg.push(';');
+        }
+        let size = match (sized, is_text) {
+            (true, _) => "",
+            // As large as a letter or two.
+            (_, true) => " width=\"24\" height=\"12\"",
+            (_, false) => " width=\"1\" height=\"1\"",
+        };
+        let _ = write!(self.svg, "\"{size} stroke=\"none\" fill=\"url(#ligne.stand-in.{number})\"/>");
+        Ok(())
+    }
+
+    /// Refuses numbers out of range, and notes how finely coordinates are written.
+    fn check(&mut self, node: Node, name: &str, value: &str) -> Result<(), Error> {
+        let place = PLACES.contains(&name);
+        if !place && !MEASURES.contains(&name) {
+            return Ok(());
+        }
+        let numbers = number_scan::scan(value);
+        if let Some(at) = numbers.too_large {
+            let start: String = value[at..].chars().take(12).collect();
+            let line = node.document().text_pos_at(node.range().start);
+            return Err(Error::new(format!("`{name}` has the number {start}, which is out of range"))
+                .at(format!("line {}, column {}", line.row, line.col))
+                .remedy("keep coordinates below a hundred million"));
+        }
+        if matches!(name, "d" | "points" | "x1" | "y1" | "x2" | "y2" | "cx" | "cy") {
+            self.decimals = self.decimals.max(numbers.decimals);
+            self.arcs |= name == "d" && value.contains(['a', 'A']);
+        }
+        Ok(())
+    }
+}
+
+/// What the children of an element inherit, or the element itself.
+fn inside(node: Node, around: &Around) -> Around {
+    let mut inner = around.clone();
+    const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
+    if node.attribute((INKSCAPE, "groupmode")) == Some("layer") {
+        let id = node.attribute("id").unwrap_or_default();
+        let label = node.attribute((INKSCAPE, "label")).unwrap_or(id);
+        let known = known_layer(id).or(known_layer(label));
+        // A layer around those of a drawing is the drawing's own, on a page of several.
+        if known.is_some() && !around.layer.is_empty() && known_layer(&around.layer).is_none() {
+            inner.drawing = Some(Arc::clone(&around.layer));
+        }
+        inner.layer = Arc::from(known.unwrap_or(label));
+    }
+    if let Some(part) = node.attribute("data-part") {
+        inner.part = Some(Arc::from(part));
+    }
+    inner
+}
+
+/// The layer of this program that an id means: it may have a prefix, and the number of a pen.
+fn known_layer(id: &str) -> Option<&'static str> {
+    let stem = id.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('-');
+    // The paper's own colour lies below its grain.
+    let stem = stem.trim_end_matches("-colour");
+    let ends = |kind: &&LayerKind| {
+        stem.strip_suffix(kind.id()).is_some_and(|before| before.is_empty() || before.ends_with(['-', '_']))
+    };
+    // `hidden-lines` ends with `lines` as well.
+    LAYERS.iter().filter(ends).map(|kind| kind.id()).max_by_key(|id| id.len())
+}
+
+fn escape(out: &mut String, text: &str) {
+    for c in text.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            _ => out.push(c),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::known_layer;
+
+    #[test]
+    fn layers_are_known_by_prefix_and_pen() {
+        assert_eq!(known_layer("lines"), Some("lines"));
+        assert_eq!(known_layer("hidden-lines"), Some("hidden-lines"));
+        assert_eq!(known_layer("page2-hidden-lines-3"), Some("hidden-lines"));
+        assert_eq!(known_layer("paper-colour"), Some("paper"));
+        assert_eq!(known_layer("outlines"), None);
+        assert_eq!(known_layer("sketch"), None);
+    }
+}

@@ -1,0 +1,156 @@
+//! [`unread`]: what a file holds that the renderer does not read: said in a note, because nothing of it is compared.
+
+use std::collections::BTreeSet;
+
+use usvg::roxmltree::{Document, Node};
+
+/// Elements that are not read, and what is said of them.
+const ELEMENTS: [(&str, &str); 14] = [
+    ("foreignObject", "what is in a foreignObject"),
+    ("animate", "animations"),
+    ("animateMotion", "animations"),
+    ("animateTransform", "animations"),
+    ("animateColor", "animations"),
+    ("set", "animations"),
+    ("script", "scripts"),
+    ("meshgradient", "mesh gradients"),
+    ("mesh", "mesh gradients"),
+    ("hatch", "hatches"),
+    ("video", "videos"),
+    ("audio", "sounds"),
+    ("canvas", "a canvas"),
+    ("iframe", "other pages"),
+];
+/// What is not read of values, by a word of theirs.
+const VALUES: [(&str, &str); 14] = [
+    ("var(", "var()"),
+    ("calc(", "calc()"),
+    ("env(", "env()"),
+    ("attr(", "attr()"),
+    ("color-mix(", "color-mix()"),
+    ("light-dark(", "light-dark()"),
+    ("oklch(", "oklch()"),
+    ("oklab(", "oklab()"),
+    ("lab(", "lab()"),
+    ("lch(", "lch()"),
+    ("polygon(", "shapes of CSS"),
+    ("inset(", "shapes of CSS"),
+    ("BackgroundImage", "BackgroundImage in filters"),
+    ("BackgroundAlpha", "BackgroundAlpha in filters"),
+];
+/// What is not read of style sheets, by a word of theirs.
+const SHEETS: [(&str, &str); 14] = [
+    ("@media", "@media"),
+    ("@font-face", "@font-face"),
+    ("@import", "@import"),
+    ("@keyframes", "animations"),
+    ("@supports", "@supports"),
+    ("@container", "@container"),
+    ("@layer", "@layer"),
+    (":not(", ":not()"),
+    (":is(", ":is()"),
+    (":where(", ":where()"),
+    (":has(", ":has()"),
+    (":nth-", ":nth-child()"),
+    (":last-", ":last-child"),
+    (":hover", ":hover"),
+];
+/// Properties that are not read, unless they have this value.
+const PROPERTIES: [(&str, &str); 12] = [
+    ("pathLength", ""),
+    ("vector-effect", "none"),
+    ("transform-box", "view-box"),
+    ("offset-path", "none"),
+    ("animation", "none"),
+    ("animation-name", "none"),
+    ("transition", "none"),
+    ("color-interpolation", "sRGB"),
+    ("mask-image", "none"),
+    ("mask-border", "none"),
+    ("backdrop-filter", "none"),
+    ("clip", "auto"),
+];
+
+/// What is not read of a file; `more`: whether its style sheets have rules that are not applied.
+pub(crate) fn unread(document: &Document, more: bool) -> BTreeSet<&'static str> {
+    let mut found = BTreeSet::new();
+    for node in document.descendants() {
+        if node.is_element() {
+            element(node, &mut found);
+        } else if node.pi().is_some_and(|pi| pi.target == "xml-stylesheet") {
+            found.insert("style sheets in other files");
+        }
+    }
+    if more {
+        let before = found.len();
+        for sheet in document.descendants().filter(|node| node.has_tag_name("style")) {
+            let text = sheet.text().unwrap_or_default();
+            found.extend(SHEETS.iter().filter(|(word, _)| text.contains(word)).map(|(_, name)| *name));
+        }
+        if found.len() == before {
+            found.insert("some style rules");
+        }
+    }
+    found
+}
+
+fn element(node: Node, found: &mut BTreeSet<&'static str>) {
+    let name = node.tag_name().name();
+    found.extend(ELEMENTS.iter().filter(|(known, _)| *known == name).map(|(_, words)| *words));
+    if name == "text" {
+        found.insert("fonts (texts are compared by their words and properties)");
+    }
+    if name == "style" {
+        let text = node.text().unwrap_or_default();
+        found.extend(VALUES.iter().filter(|(word, _)| text.contains(word)).map(|(_, name)| *name));
+        let properties = PROPERTIES.iter().filter(|(known, _)| known.contains('-') || *known == "animation");
+        found.extend(properties.filter(|(known, _)| text.contains(known)).map(|(known, _)| *known));
+    }
+    for attribute in node.attributes() {
+        let (name, value) = (attribute.name(), attribute.value());
+        if name == "href" {
+            let elsewhere = !value.trim().starts_with('#') && !value.trim().is_empty();
+            if elsewhere
+                && matches!(
+                    node.tag_name().name(),
+                    "use" | "feImage" | "linearGradient" | "radialGradient" | "pattern" | "textPath"
+                )
+            {
+                found.insert("elements of other files");
+            }
+            continue;
+        }
+        if value.contains("url(")
+            && value
+                .split("url(")
+                .skip(1)
+                .any(|rest| !rest.trim_start_matches(['"', '\'', ' ']).starts_with('#'))
+        {
+            found.insert("elements of other files");
+        }
+        // Numbers are most of a file.
+        if name == "d" || name == "points" || name.starts_with("data-") {
+            continue;
+        }
+        if value.contains('(') || name.starts_with("in") {
+            found.extend(VALUES.iter().filter(|(word, _)| is_in(value, word)).map(|(_, name)| *name));
+        }
+        let other = |(known, initial): &&(&str, &str)| *known == name && value.trim() != *initial;
+        found.extend(PROPERTIES.iter().filter(other).map(|(known, _)| *known));
+        if name == "style" {
+            let said = |(known, initial): &&(&str, &str)| {
+                let named = value.split(';').filter_map(|piece| piece.split_once(':'));
+                named.clone().any(|(name, value)| name.trim() == *known && value.trim() != *initial)
+            };
+            found.extend(PROPERTIES.iter().filter(said).map(|(known, _)| *known));
+        }
+    }
+}
+
+/// Whether a function is in a value: `lab(` is not in `oklab(`.
+fn is_in(value: &str, word: &str) -> bool {
+    let start = |at: usize| {
+        value.get(..at).is_none_or(|before| !before.ends_with(|c: char| c.is_ascii_alphanumeric()))
+    };
+    value.match_indices(word).any(|(at, _)| start(at))
+}

@@ -1,0 +1,67 @@
+//! A [`Diff`] as Markdown: the summary of a pull request.
+
+use std::fmt::Write as _;
+
+use crate::diff::findings::finding::Diff;
+use crate::diff::findings::ink_totals::Measure;
+
+/// Rows of a table, at most.
+const MOST_ROWS: usize = 40;
+
+impl Diff {
+    /// What differs as Markdown, under a heading.
+    #[must_use]
+    pub fn to_markdown(&self, title: &str) -> String {
+        let mut out = format!("### {}\n\n{}\n", escape(title), escape(&self.summary()));
+        let told = self.told();
+        if !told.is_empty() {
+            out.push_str("\n| | marks | |\n| --- | ---: | --- |\n");
+            for row in told.iter().take(MOST_ROWS) {
+                let detail = row.line.split_once(' ').map_or("", |(_, rest)| rest.trim_start());
+                let _ = writeln!(out, "| {} | {} | {} |", row.verdict.name(), row.count, escape(detail));
+            }
+            if told.len() > MOST_ROWS {
+                let _ = writeln!(out, "| | | and {} more |", told.len() - MOST_ROWS);
+            }
+        }
+        let changed: Vec<(&String, &Measure)> =
+            self.totals.parts.iter().filter(|(_, measure)| is_changed(measure)).collect();
+        if !self.is_same() && !changed.is_empty() {
+            out.push_str("\n| part | marks | length | area |\n| --- | ---: | ---: | ---: |\n");
+            let unit = self.unit();
+            for (part, measure) in changed.iter().take(MOST_ROWS) {
+                let name = if part.is_empty() { "no part" } else { part };
+                let _ = writeln!(
+                    out,
+                    "| {} | {} → {} | {} → {} | {} → {} |",
+                    escape(name),
+                    measure.marks[0],
+                    measure.marks[1],
+                    unit.length(measure.length[0]),
+                    unit.length(measure.length[1]),
+                    unit.area(measure.area[0]),
+                    unit.area(measure.area[1]),
+                );
+            }
+        }
+        out
+    }
+}
+
+fn is_changed(measure: &Measure) -> bool {
+    let differs = |[a, b]: [f64; 2]| (a - b).abs() > 0.5;
+    measure.marks[0] != measure.marks[1] || differs(measure.length) || differs(measure.area)
+}
+
+/// Text that Markdown shows as it is, but for the names between backticks.
+fn escape(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            '\n' | '\r' => out.push(' '),
+            '|' | '*' | '_' | '<' | '[' | ']' | '\\' => out.extend(['\\', c]),
+            _ => out.push(c),
+        }
+    }
+    out
+}

@@ -1,0 +1,283 @@
+//! A [`Diff`] as a picture: what stayed in grey, what is gone in red, what is new in green.
+
+use std::sync::Arc;
+
+use kurbo::{Affine, BezPath, PathEl, Point, Rect, Shape as _, Size};
+
+use super::legend;
+use super::text_report::line;
+use crate::colour::srgb::Colour;
+use crate::diff::curves::chain;
+use crate::diff::curves::segment::nearest_on;
+use crate::diff::findings::finding::{Diff, Finding, Verdict};
+use crate::diff::shapes::ink::Paint as Ink;
+use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
+use crate::drawing::{
+    Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
+};
+
+/// What stayed: lines, and the darkest and lightest fill.
+const KEPT: Colour = Colour::rgb(0xb4, 0xb4, 0xb4);
+const KEPT_DARK: Colour = Colour::rgb(0xdc, 0xdc, 0xdc);
+const KEPT_LIGHT: Colour = Colour::rgb(0xfa, 0xfa, 0xfa);
+const GONE: Colour = Colour::rgb(0xd1, 0x24, 0x2f);
+const NEW: Colour = Colour::rgb(0x1a, 0x7f, 0x37);
+const WAY: Colour = Colour::rgb(0x09, 0x69, 0xda);
+const RESTYLED: Colour = Colour::rgb(0xc4, 0x7f, 0x00);
+const RELABELLED: Colour = Colour::rgb(0x82, 0x50, 0xdf);
+/// Opacity of fills that are gone or new.
+const VEIL: u8 = 70;
+/// Lines that are gone are so much wider where others nearly cover them.
+const UNDER: f64 = 2.5;
+/// Between two pages side by side, as a part of their width.
+const GAP: f64 = 0.03;
+/// Places of a mark that a line leads from, old to new.
+const WAYS: usize = 3;
+
+/// How a diff is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum View {
+    /// The new drawing in grey, with what is gone over it in red and what is new in green; lines lead from where
+    /// marks were to where they are.
+    #[default]
+    Over,
+    /// Both drawings as they are, with red and green over them.
+    SideBySide,
+}
+
+impl Diff {
+    /// The difference as a drawing in px. Each mark of it has what it shows as its title.
+    #[must_use]
+    pub fn picture(&self, view: View) -> Drawing {
+        let (before, after) = (&self.before, &self.after);
+        let (width, height) = (before.width.max(after.width), before.height.max(after.height));
+        // Lines that can be seen at the size a page is shown at.
+        let width_of_line = (width.max(height) / 500.0).max(0.5);
+        let mut layers = Layers::default();
+        let mut page = Page { width, height, unit: Unit::Px, background: Some(Colour::WHITE) };
+        match view {
+            View::Over => {
+                layers.picture(after, Affine::IDENTITY, grey);
+                for finding in &self.findings {
+                    let note: Arc<str> = Arc::from(line(finding, self.unit()));
+                    layers.taken(finding, Affine::IDENTITY, width_of_line, &note);
+                }
+                for finding in &self.findings {
+                    let note: Arc<str> = Arc::from(line(finding, self.unit()));
+                    layers.brought(finding, Affine::IDENTITY, width_of_line, &note);
+                    layers.way(finding, width_of_line * 0.6, &note);
+                }
+            }
+            View::SideBySide => {
+                let gap = width * GAP;
+                let beside = Affine::translate((width + gap, 0.0));
+                page.width = 2.0 * width + gap;
+                layers.picture(before, Affine::IDENTITY, own);
+                layers.picture(after, beside, own);
+                for finding in &self.findings {
+                    let note: Arc<str> = Arc::from(line(finding, self.unit()));
+                    layers.taken(finding, Affine::IDENTITY, width_of_line, &note);
+                    layers.brought(finding, beside, width_of_line, &note);
+                }
+            }
+        }
+        let marks = self.legend(view);
+        page.height += legend::height(width_of_line);
+        layers.findings.extend(
+            legend::marks(&marks, Size::new(page.width, height), width_of_line)
+                .into_iter()
+                .map(|(path, colour, width)| mark(path, stroke(colour, width, Vec::new()), None)),
+        );
+        Drawing::new("difference", page, layers.into_list())
+    }
+}
+
+impl Diff {
+    /// What the colours of the picture say, of those that are in it.
+    fn legend(&self, view: View) -> Vec<(&'static str, Colour)> {
+        let has = |is: &dyn Fn(&Finding) -> bool| self.findings.iter().any(is);
+        let ink = |path: &BezPath| !path.elements().is_empty();
+        let same_place =
+            |f: &Finding| matches!(f.verdict, Verdict::Restyled | Verdict::Restacked | Verdict::Picture);
+        let elsewhere =
+            |f: &Finding| !same_place(f) && !matches!(f.verdict, Verdict::Relabelled | Verdict::Page);
+        let rows: [(&str, Colour, bool); 5] = [
+            ("gone", GONE, has(&|f| elsewhere(f) && ink(&f.gone))),
+            ("new", NEW, has(&|f| elsewhere(f) && ink(&f.new))),
+            ("moved", WAY, view == View::Over && has(&|f| f.verdict == Verdict::Moved)),
+            ("repainted", RESTYLED, has(&same_place)),
+            ("relabelled", RELABELLED, has(&|f| f.verdict == Verdict::Relabelled)),
+        ];
+        rows.into_iter().filter(|(.., there)| *there).map(|(word, colour, _)| (word, colour)).collect()
+    }
+}
+
+/// The colour of a shape that is only shown for orientation.
+fn grey(shape: &Shape) -> Colour {
+    match (shape.kind, &shape.ink.paint) {
+        (ShapeKind::Line, _) => KEPT,
+        (_, Ink::Colour(colour)) => KEPT_DARK.mix(KEPT_LIGHT, colour.luma()),
+        (_, Ink::Other(_)) => KEPT_DARK.mix(KEPT_LIGHT, 0.5),
+    }
+}
+
+/// Its own colour; a middle grey for what is no colour.
+fn own(shape: &Shape) -> Colour {
+    match &shape.ink.paint {
+        Ink::Colour(colour) => *colour,
+        Ink::Other(_) => Colour::rgb(0x80, 0x80, 0x80),
+    }
+}
+
+#[derive(Default)]
+struct Layers {
+    drawings: Vec<Mark>,
+    findings: Vec<Mark>,
+}
+
+impl Layers {
+    fn into_list(self) -> Vec<Layer> {
+        let layer = |kind, marks: Vec<Mark>| Layer { kind, pen: None, ordered: false, marks };
+        let all = [layer(LayerKind::Fills, self.drawings), layer(LayerKind::Callouts, self.findings)];
+        all.into_iter().filter(|layer| !layer.marks.is_empty()).collect()
+    }
+
+    /// A whole picture.
+    fn picture(&mut self, picture: &Picture, to: Affine, colour: impl Fn(&Shape) -> Colour) {
+        for shape in picture.shapes.iter() {
+            let colour = colour(shape);
+            let (path, paint) = match (shape.kind, &shape.outline) {
+                (ShapeKind::Clip, _) => continue,
+                (_, Some(outline)) => (outline, Paint::Fill(colour)),
+                (ShapeKind::Region, None) => (&shape.path, Paint::Fill(colour)),
+                (ShapeKind::Line, None) => {
+                    (&shape.path, stroke(colour, shape.ink.width, shape.ink.dash.clone()))
+                }
+            };
+            let path = if shape.even_odd { unwound(path) } else { path.clone() };
+            self.drawings.push(mark(to * path, paint, None));
+        }
+    }
+
+    /// What a finding takes away.
+    fn taken(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
+        match finding.verdict {
+            Verdict::Page
+            | Verdict::Restyled
+            | Verdict::Restacked
+            | Verdict::Relabelled
+            | Verdict::Picture => {}
+            // What is new lies over it: where the way is short, red is seen on both sides of green.
+            _ => {
+                let hidden = finding.largest > 0.0 && finding.largest < 2.0 * width;
+                let width = if hidden { width * UNDER } else { width };
+                self.piece(finding, &finding.gone, GONE, to, width, note);
+            }
+        }
+    }
+
+    /// What a finding brings.
+    fn brought(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
+        let colour = match finding.verdict {
+            Verdict::Page => return,
+            Verdict::Restyled | Verdict::Restacked | Verdict::Picture => RESTYLED,
+            Verdict::Relabelled => RELABELLED,
+            _ => NEW,
+        };
+        self.piece(finding, &finding.new, colour, to, width, note);
+    }
+
+    fn piece(
+        &mut self,
+        finding: &Finding,
+        path: &BezPath,
+        colour: Colour,
+        to: Affine,
+        width: f64,
+        note: &Arc<str>,
+    ) {
+        if path.elements().is_empty() {
+            return;
+        }
+        let whole = matches!(finding.verdict, Verdict::Removed | Verdict::Added | Verdict::Restyled);
+        if finding.kind == ShapeKind::Region && whole {
+            let veil = Paint::Fill(Colour { a: VEIL, ..colour });
+            self.findings.push(mark(to * path.clone(), veil, None));
+        }
+        self.findings.push(mark(to * path.clone(), stroke(colour, width, Vec::new()), Some(note)));
+    }
+
+    /// Lines from where a mark was to where it is.
+    fn way(&mut self, finding: &Finding, width: f64, note: &Arc<str>) {
+        if finding.verdict != Verdict::Moved {
+            return;
+        }
+        let old = polylines(&finding.gone);
+        let new = polylines(&finding.new);
+        let mut path = BezPath::new();
+        for points in &old {
+            let step = (points.len().saturating_sub(1) / (WAYS - 1)).max(1);
+            for from in points.iter().step_by(step) {
+                let to = match finding.shift {
+                    Some([x, y]) => Some(Point::new(from.x + x, from.y + y)),
+                    None => nearest(&new, *from),
+                };
+                if let Some(to) = to {
+                    path.move_to(*from);
+                    path.line_to(to);
+                }
+            }
+        }
+        if !path.elements().is_empty() {
+            self.findings.push(mark(path, stroke(WAY, width, Vec::new()), Some(note)));
+        }
+    }
+}
+
+fn polylines(path: &BezPath) -> Vec<Vec<Point>> {
+    chain::flatten(path, 0.1, false).into_iter().map(|(points, _)| points).collect()
+}
+
+fn nearest(lines: &[Vec<Point>], p: Point) -> Option<Point> {
+    let on = lines.iter().flat_map(|points| points.windows(2)).map(|pair| nearest_on(pair[0], pair[1], p));
+    on.min_by(|a, b| a.distance_squared(p).total_cmp(&b.distance_squared(p)))
+}
+
+/// An even-odd region for a drawing whose regions are wound: rings inside an odd number of others are turned round.
+fn unwound(path: &BezPath) -> BezPath {
+    let mut rings: Vec<BezPath> = Vec::new();
+    for element in path.elements() {
+        match (element, rings.last_mut()) {
+            (PathEl::MoveTo(_), _) | (_, None) => rings.push([*element].into_iter().collect()),
+            (_, Some(ring)) => ring.push(*element),
+        }
+    }
+    if rings.len() < 2 || rings.len() > 200 {
+        return path.clone();
+    }
+    let boxes: Vec<Rect> = rings.iter().map(BezPath::bounding_box).collect();
+    let start = |ring: &BezPath| match ring.elements().first() {
+        Some(PathEl::MoveTo(p)) => *p,
+        _ => Point::ZERO,
+    };
+    let mut out = BezPath::new();
+    for (index, ring) in rings.iter().enumerate() {
+        let p = start(ring);
+        let around =
+            |other: &usize| *other != index && boxes[*other].contains(p) && rings[*other].contains(p);
+        let hole = (0..rings.len()).filter(around).count() % 2 == 1;
+        match hole == (ring.area() > 0.0) {
+            true => out.extend(ring.reverse_subpaths()),
+            false => out.extend(ring.iter()),
+        }
+    }
+    out
+}
+
+fn stroke(colour: Colour, width: f64, dash: Vec<f64>) -> Paint {
+    Paint::Stroke(StrokePaint { width, colour, cap: Cap::Round, join: Join::Round, dash, dash_offset: 0.0 })
+}
+
+fn mark(path: BezPath, paint: Paint, note: Option<&Arc<str>>) -> Mark {
+    Mark { path, paint, provenance: Provenance { note: note.map(Arc::clone), ..Provenance::default() } }
+}

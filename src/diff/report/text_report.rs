@@ -1,0 +1,280 @@
+//! A [`Diff`] in words: one line a finding, many findings that say the same in one line.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use kurbo::{Rect, Vec2};
+use rustc_hash::FxHashSet;
+
+use super::unit_format::Written;
+use crate::diff::findings::finding::{Cause, Change, Diff, Finding, Place, Stage, Verdict};
+use crate::diff::shapes::picture::ShapeKind;
+
+/// More findings than this that say the same of one part become one line.
+const FEW: usize = 3;
+
+impl Diff {
+    /// What differs in one line, such as `1 removed, 12 moved (up to 0.5 px)`.
+    #[must_use]
+    pub fn summary(&self) -> String {
+        let pixels = self.pixels.as_ref().map(|pixels| format!(", {}", pixels.words())).unwrap_or_default();
+        let unit = self.unit();
+        let same = match self.same_at {
+            Some(Stage::Bytes) => Some("the same bytes".to_owned()),
+            Some(Stage::Structure) => Some("the same marks".to_owned()),
+            Some(Stage::Picture) => {
+                Some(format!("the same picture within {}", unit.length(self.tolerance_px)))
+            }
+            Some(Stage::Geometry) => Some(format!("the same within {}", unit.length(self.tolerance_px))),
+            None if self.findings.is_empty() => {
+                Some(format!("the same marks within {}", unit.length(self.tolerance_px)))
+            }
+            None => None,
+        };
+        if let Some(same) = same {
+            return same + &pixels;
+        }
+        if self.is_brief {
+            return "the marks were not compared individually".to_owned() + &pixels;
+        }
+        let mut words = Vec::new();
+        for verdict in Verdict::ALL {
+            let count = self.of(verdict).count();
+            if count == 0 {
+                continue;
+            }
+            let largest = self.of(verdict).map(|finding| finding.largest).fold(0.0, f64::max);
+            words.push(match verdict {
+                Verdict::Page => "another page size".to_owned(),
+                Verdict::Picture if count == 1 => "1 place looks different".to_owned(),
+                Verdict::Picture => format!("{count} places look different"),
+                Verdict::Moved => format!("{count} moved (up to {})", unit.length(largest)),
+                _ => format!("{count} {}", verdict.name()),
+            });
+        }
+        words.join(", ") + &pixels
+    }
+
+    /// What differs, the gravest first: a line a finding, and one line for many findings that say the same.
+    #[must_use]
+    pub fn lines(&self) -> Vec<String> {
+        let lines = self.told().into_iter().map(|told| told.line);
+        let unused =
+            self.unused_tolerances.iter().map(|name| format!("note       no mark is called `{name}`"));
+        let linked = self.linked().map(|target| {
+            format!("note       the picture `{target}` is linked: compared by its target and its box, not by what is in it")
+        });
+        let unread = if self.same_at == Some(Stage::Bytes) { Vec::new() } else { self.unread() };
+        let unread = (!unread.is_empty())
+            .then(|| format!("note       not read, and not compared: {}", unread.join(", ")));
+        let unknown = self.pictures_unknown.then(|| {
+            "note       the pictures were not compared: they would take too long to rasterise".to_owned()
+        });
+        lines.chain(unused).chain(linked).chain(unread).chain(unknown).collect()
+    }
+
+    /// The targets of pictures that lie in files of their own.
+    fn linked(&self) -> impl Iterator<Item = &str> {
+        let shapes = self.before.shapes.iter().chain(self.after.shapes.iter());
+        let targets: BTreeSet<&str> = shapes.filter_map(|shape| shape.ink.paint.link()).collect();
+        targets.into_iter()
+    }
+
+    /// What either file holds that is not read.
+    pub(crate) fn unread(&self) -> Vec<&'static str> {
+        let all = self.before.unread.iter().chain(self.after.unread.iter());
+        let all: BTreeSet<&'static str> = all.copied().collect();
+        all.into_iter().collect()
+    }
+
+    /// A line for each finding.
+    #[must_use]
+    pub fn all_lines(&self) -> Vec<String> {
+        self.findings.iter().map(|finding| line(finding, self.unit())).collect()
+    }
+
+    /// What is told, and how many findings each line stands for.
+    pub(crate) fn told(&self) -> Vec<Told> {
+        let unit = self.unit();
+        let explained: FxHashSet<usize> =
+            self.causes.iter().flat_map(|cause| cause.findings.iter().copied()).collect();
+        let of_cause = |cause: &Cause| Told {
+            verdict: cause.verdict,
+            count: cause.findings.len(),
+            line: format!("{:<10} {}", cause.verdict.name(), cause.sentence),
+        };
+        let mut told: Vec<Told> = self.causes.iter().map(of_cause).collect();
+        let mut groups: BTreeMap<Alike, Vec<&Finding>> = BTreeMap::new();
+        for (_, finding) in self.findings.iter().enumerate().filter(|(index, _)| !explained.contains(index)) {
+            // Whole parts come and go with all that they have.
+            let alone = matches!(finding.verdict, Verdict::Removed | Verdict::Added);
+            let kind = !alone && finding.kind == ShapeKind::Line;
+            let changes: &[Change] = if matches!(finding.verdict, Verdict::Moved | Verdict::Picture) {
+                &[]
+            } else {
+                &finding.changes
+            };
+            groups
+                .entry((finding.verdict, finding.label.part.as_deref(), changes, kind))
+                .or_default()
+                .push(finding);
+        }
+        for ((verdict, part, changes, _), findings) in groups {
+            let whole =
+                part.and_then(|part| self.totals.parts.get(part)).is_some_and(|measure| match verdict {
+                    Verdict::Removed => measure.marks[1] == 0,
+                    Verdict::Added => measure.marks[0] == 0,
+                    _ => false,
+                });
+            if findings.len() <= FEW && !whole {
+                told.extend(findings.iter().map(|f| Told { verdict, count: 1, line: line(f, unit) }));
+                continue;
+            }
+            let count = findings.len();
+            let noun = if verdict == Verdict::Picture {
+                format!("{count} places look different")
+            } else if whole {
+                format!("part `{}`: all its {count} marks", part.unwrap_or_default())
+            } else {
+                match part {
+                    Some(part) => format!("{count} marks of `{part}`"),
+                    None => format!("{count} marks"),
+                }
+            };
+            let boxes = findings.iter().map(|finding| rect(&finding.place));
+            let place = Place::of(boxes.reduce(|a, b| a.union(b)).unwrap_or_default());
+            let detail = together(&findings, changes, unit);
+            let line = format!("{:<10} {noun} {}: {detail}", verdict.name(), unit.place(&place));
+            told.push(Told { verdict, count, line });
+        }
+        // Sorting keeps the order of what has one verdict.
+        told.sort_by_key(|told| told.verdict != Verdict::Page);
+        told
+    }
+}
+
+/// What findings that are told together have in common: verdict, part, changes, and whether they are lines.
+type Alike<'a> = (Verdict, Option<&'a str>, &'a [Change], bool);
+
+/// A line, and how many findings it stands for.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Told {
+    pub verdict: Verdict,
+    pub count: usize,
+    pub line: String,
+}
+
+fn rect(place: &Place) -> Rect {
+    Rect::new(place.x, place.y, place.x + place.width, place.y + place.height)
+}
+
+/// What many findings of one verdict have in common.
+fn together(findings: &[&Finding], changes: &[Change], unit: Written) -> String {
+    let largest = findings.iter().map(|f| f.largest).fold(0.0, f64::max);
+    let p95 = findings.iter().map(|f| f.p95).fold(0.0, f64::max);
+    let sum = |kind: ShapeKind| findings.iter().filter(|f| f.kind == kind).map(|f| f.size).sum::<f64>();
+    let (length, area) = (sum(ShapeKind::Line), sum(ShapeKind::Region));
+    let ink = || {
+        let lines = (length > 0.0).then(|| format!("{} of lines", unit.length(length)));
+        let fills = (area > 0.0).then(|| format!("{} of fills", unit.area(area)));
+        lines.into_iter().chain(fills).collect::<Vec<_>>().join(", ")
+    };
+    match findings.first().map(|f| f.verdict) {
+        Some(Verdict::Moved) => {
+            let first = findings.first().and_then(|f| f.shift);
+            let together = first.filter(|first| {
+                let way = |[x, y]: [f64; 2]| Vec2::new(x, y);
+                let near = |s: [f64; 2]| (way(s) - way(*first)).hypot() <= 0.02 * way(*first).hypot();
+                findings.iter().all(|f| f.shift.is_some_and(near))
+            });
+            match together {
+                Some(shift) => format!("all by {}", way(shift, unit)),
+                None => format!("by up to {}, 95 % within {}", unit.length(largest), unit.length(p95)),
+            }
+        }
+        Some(Verdict::Restacked) => changed(changes),
+        Some(Verdict::Restyled | Verdict::Relabelled) if changes.is_empty() => ink(),
+        Some(Verdict::Restyled | Verdict::Relabelled) => format!("{} ({})", changed(changes), ink()),
+        Some(Verdict::Reshaped) => {
+            let growth = findings.iter().map(|f| f.growth).sum::<f64>();
+            let lines = findings.iter().all(|f| f.kind == ShapeKind::Line);
+            let in_all =
+                grown(growth, lines, unit).map(|grown| format!(", {grown} in all")).unwrap_or_default();
+            format!("up to {} off{in_all}", unit.length(largest))
+        }
+        _ => ink(),
+    }
+}
+
+/// One finding in words.
+pub(crate) fn line(finding: &Finding, unit: Written) -> String {
+    let lines = finding.kind == ShapeKind::Line;
+    let size = || if lines { format!("{} long", unit.length(finding.size)) } else { unit.area(finding.size) };
+    let detail = match finding.verdict {
+        Verdict::Page | Verdict::Restacked => changed(&finding.changes),
+        Verdict::Removed | Verdict::Added => size(),
+        Verdict::Restyled | Verdict::Relabelled if finding.changes.is_empty() => size(),
+        Verdict::Restyled | Verdict::Relabelled => format!("{}, {}", changed(&finding.changes), size()),
+        Verdict::Picture => format!("{}, {}", changed(&finding.changes), size()),
+        Verdict::Moved => match finding.shift {
+            Some(shift) => format!("by {}", way(shift, unit)),
+            None => {
+                format!("by up to {}, 95 % within {}", unit.length(finding.largest), unit.length(finding.p95))
+            }
+        },
+        Verdict::Reshaped => {
+            // Where a whole border came or went, nothing is off.
+            let off = (unit.number(finding.largest) != "0")
+                .then(|| format!("up to {} off", unit.length(finding.largest)));
+            let told: Vec<String> = pieces(finding, lines, unit).into_iter().chain(off).collect();
+            if told.is_empty() { "a border more or less".to_owned() } else { told.join(", ") }
+        }
+    };
+    let also = match finding.verdict {
+        Verdict::Moved | Verdict::Reshaped if !finding.changes.is_empty() => {
+            format!("; {}", changed(&finding.changes))
+        }
+        _ => String::new(),
+    };
+    let noun = match (finding.verdict, finding.kind) {
+        (Verdict::Page, _) => "of the drawing".to_owned(),
+        (Verdict::Picture, _) => "looks different".to_owned(),
+        (_, ShapeKind::Region) => format!("fill {}", finding.label).replace("fill fills", "fill"),
+        (_, ShapeKind::Clip) => format!("clip {}", finding.label),
+        (_, ShapeKind::Line) => finding.label.to_string(),
+    };
+    format!("{:<10} {noun} {}: {detail}{also}", finding.verdict.name(), unit.place(&finding.place))
+}
+
+/// What is gone and what is new of a mark of another form, before its distance.
+fn pieces(finding: &Finding, lines: bool, unit: Written) -> Option<String> {
+    let [gone, new] = finding.pieces;
+    match lines {
+        true if gone > 0.0 && new > 0.0 => {
+            Some(format!("{} gone and {} new", unit.length(gone), unit.length(new)))
+        }
+        _ => grown(finding.growth, lines, unit),
+    }
+}
+
+/// How much more or less of it there is; nothing where that is told as nothing.
+fn grown(growth: f64, lines: bool, unit: Written) -> Option<String> {
+    let (amount, more, less) = match lines {
+        true => (unit.length(growth.abs()), "longer", "shorter"),
+        false => (unit.area(growth.abs()), "larger", "smaller"),
+    };
+    (!amount.starts_with("0 ")).then(|| format!("{amount} {}", if growth > 0.0 { more } else { less }))
+}
+
+fn way([x, y]: [f64; 2], unit: Written) -> String {
+    let side = |value: f64, plus: &str, minus: &str| match value {
+        v if unit.number(v.abs()) == "0" => None,
+        v => Some(format!("{} {}", unit.number(v.abs()), if v > 0.0 { plus } else { minus })),
+    };
+    let parts: Vec<String> = side(x, "right", "left").into_iter().chain(side(y, "down", "up")).collect();
+    format!("{} ({})", unit.length(Vec2::new(x, y).hypot()), parts.join(", "))
+}
+
+pub(crate) fn changed(changes: &[Change]) -> String {
+    let of = |change: &Change| format!("{} {} → {}", change.what, change.old, change.new);
+    changes.iter().map(of).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,195 @@
+//! [`Ink`]: how a shape is painted, in a form that can be compared.
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::sync::Arc;
+
+use super::placeholder::{Details, LINKED};
+use crate::colour::srgb::Colour;
+use crate::drawing::{Cap, Join};
+use crate::geometry::numbers::tolerance::{DASH_PX, WIDTH_PX};
+
+/// What a shape is painted with.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Paint {
+    /// One colour; the opacity of groups is in it.
+    Colour(Colour),
+    /// Anything else, in words that are equal where the paints are: gradients, patterns, pictures, texts.
+    Other(Arc<str>),
+}
+
+impl Paint {
+    /// Whether the eye sees no difference: opacities are rounded more than once on their way through a file.
+    fn is_like(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Colour(a), Self::Colour(b)) => {
+                (a.r, a.g, a.b) == (b.r, b.g, b.b) && a.a.abs_diff(b.a) <= 1
+            }
+            _ => self == other,
+        }
+    }
+}
+
+impl Paint {
+    /// The target, of a picture that is linked.
+    pub(crate) fn link(&self) -> Option<&str> {
+        match self {
+            Self::Other(words) => words.strip_prefix(LINKED)?.split('`').next(),
+            Self::Colour(_) => None,
+        }
+    }
+}
+
+impl fmt::Display for Paint {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Colour(colour) if colour.a == 255 => f.write_str(&colour.hex()),
+            Self::Colour(colour) => {
+                let opaque = Colour { a: 255, ..*colour }.hex();
+                write!(f, "{opaque} at {:.0} %", f64::from(colour.a) / 2.55)
+            }
+            Self::Other(text) => f.write_str(text),
+        }
+    }
+}
+
+/// How a shape is painted; lengths in px.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ink {
+    /// Colour, or what stands for it.
+    pub paint: Paint,
+    /// Width of a line; 0 for regions.
+    pub width: f64,
+    /// Dashes and gaps in turn; empty = solid.
+    pub dash: Vec<f64>,
+    /// Ends of a line.
+    pub cap: Cap,
+    /// Corners of a line.
+    pub join: Join,
+    /// Whether a line is drawn as the outline of its varying width.
+    pub outlined: bool,
+    /// The tone of a region, 0 the darkest.
+    pub tone: Option<u16>,
+    /// How many surfaces hide the line.
+    pub invisibility: u16,
+    /// Whether its edges are sharp on pixels (`shape-rendering`).
+    pub(crate) is_crisp: bool,
+    /// Properties of a text or a picture that change its look.
+    pub(crate) details: Option<Arc<Details>>,
+}
+
+/// Whether words stand for a text.
+pub(crate) fn is_text(words: &str) -> bool {
+    words.starts_with("the text ")
+}
+
+impl Ink {
+    /// A region of this paint.
+    #[must_use]
+    pub const fn region(paint: Paint, tone: Option<u16>) -> Self {
+        Self {
+            paint,
+            width: 0.0,
+            dash: Vec::new(),
+            cap: Cap::Butt,
+            join: Join::Miter,
+            outlined: false,
+            tone,
+            invisibility: 0,
+            is_crisp: false,
+            details: None,
+        }
+    }
+
+    /// Whether it stands for a text.
+    pub(crate) fn is_text(&self) -> bool {
+        matches!(&self.paint, Paint::Other(words) if is_text(words))
+    }
+
+    /// Whether it stands for a text or a picture.
+    pub(crate) fn is_stand_in(&self) -> bool {
+        matches!(&self.paint, Paint::Other(words) if words.starts_with("the "))
+    }
+
+    /// Whether a person would say that both look alike.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        self.paint.is_like(&other.paint)
+            && (self.width - other.width).abs() <= WIDTH_PX
+            && same_dash(&self.dash, &other.dash)
+            && (self.cap, self.join, self.outlined) == (other.cap, other.join, other.outlined)
+            && (self.tone, self.invisibility, self.is_crisp)
+                == (other.tone, other.invisibility, other.is_crisp)
+            && self.details == other.details
+    }
+
+    /// What is different, each as what it is, what it was and what it became.
+    pub(crate) fn changes(&self, other: &Self) -> Vec<(String, String, String)> {
+        let mut changes = Vec::new();
+        let mut note = |what: &str, differs: bool, word: &dyn Fn(&Self) -> String| {
+            if differs {
+                changes.push((what.to_owned(), word(self), word(other)));
+            }
+        };
+        note("colour", !self.paint.is_like(&other.paint), &|ink| ink.paint.to_string());
+        note("width", (self.width - other.width).abs() > WIDTH_PX, &|ink| {
+            format!("{} px", trimmed(ink.width))
+        });
+        note("dash", !same_dash(&self.dash, &other.dash), &|ink| match ink.dash.as_slice() {
+            [] => "solid".to_owned(),
+            dash => dash.iter().map(|length| trimmed(*length)).collect::<Vec<_>>().join(" "),
+        });
+        note("tone", self.tone != other.tone, &|ink| {
+            ink.tone.map_or_else(|| "none".to_owned(), |tone| tone.to_string())
+        });
+        note("ends", self.cap != other.cap, &|ink| cap(ink.cap).to_owned());
+        note("corners", self.join != other.join, &|ink| join(ink.join).to_owned());
+        note("drawn as", self.outlined != other.outlined, &|ink| {
+            if ink.outlined { "outline" } else { "stroke" }.to_owned()
+        });
+        note("edges", self.is_crisp != other.is_crisp, &|ink| {
+            if ink.is_crisp { "sharp" } else { "smooth" }.to_owned()
+        });
+        note("hidden by", self.invisibility != other.invisibility, &|ink| ink.invisibility.to_string());
+        let detail =
+            |ink: &Self, name: &str| ink.details.as_ref().and_then(|details| details.get(name).cloned());
+        let names = [self, other].into_iter().filter_map(|ink| ink.details.as_ref());
+        let names: BTreeSet<&String> = names.flat_map(|details| details.keys()).collect();
+        for name in names {
+            let [was, is] = [self, other].map(|ink| detail(ink, name));
+            if was != is {
+                let word = |value: Option<String>| value.unwrap_or_else(|| "not set".to_owned());
+                changes.push((name.clone(), word(was), word(is)));
+            }
+        }
+        changes
+    }
+}
+
+fn same_dash(a: &[f64], b: &[f64]) -> bool {
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= DASH_PX)
+}
+
+fn cap(cap: Cap) -> &'static str {
+    match cap {
+        Cap::Butt => "butt",
+        Cap::Round => "round",
+        Cap::Square => "square",
+    }
+}
+
+fn join(join: Join) -> &'static str {
+    match join {
+        Join::Miter => "miter",
+        Join::Round => "round",
+        Join::Bevel => "bevel",
+    }
+}
+
+/// A number of at most three decimals, without needless zeros.
+pub(crate) fn trimmed(number: f64) -> String {
+    let text = format!("{number:.3}");
+    match text.trim_end_matches('0').trim_end_matches('.') {
+        "" | "-0" => "0".to_owned(),
+        short => short.to_owned(),
+    }
+}

@@ -1,0 +1,106 @@
+//! Labels and inks by number, so that they are compared once and not for every pair of segments.
+
+use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
+
+use super::ignore_options::Ignore;
+use super::ink::Ink;
+use super::label::Label;
+use super::picture::{Picture, Shape, ShapeKind};
+use super::tolerances::{Tolerances, default_px};
+
+/// In what two chains differ beside geometry; in order of how much it says.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Likeness {
+    /// Same label, same ink.
+    Same,
+    /// Painted differently.
+    Ink,
+    /// Another part or class.
+    Label,
+    /// Both.
+    Both,
+}
+
+/// What shapes of one label and one ink have in common.
+#[derive(Debug, Clone)]
+pub(crate) struct Group {
+    pub kind: ShapeKind,
+    /// The part of the model.
+    part: Option<Arc<str>>,
+    label: usize,
+    ink: Ink,
+    /// How far ink may lie from where it lay, in px.
+    pub tolerance: f64,
+}
+
+/// The groups of two pictures.
+#[derive(Debug)]
+pub(crate) struct Groups {
+    pub groups: Vec<Group>,
+    /// Group of each shape of either picture.
+    pub of_shape: [Vec<usize>; 2],
+}
+
+impl Groups {
+    /// Numbers the labels and inks of two pictures.
+    pub(crate) fn new(pictures: [&Picture; 2], tolerances: &Tolerances, ignore: Ignore) -> Self {
+        let fallback = default_px(pictures[0], pictures[1]);
+        // Drawings grouped by part have no layers: they say nothing then.
+        let layered = pictures.map(|p| p.shapes.iter().any(|shape| !shape.label.layer.is_empty()));
+        let by_layer = layered[0] == layered[1];
+        let mut labels: FxHashMap<Label, usize> = FxHashMap::default();
+        let mut known: FxHashMap<(usize, ShapeKind, InkKey), usize> = FxHashMap::default();
+        let mut groups = Vec::new();
+        let mut group_of = |shape: &Shape| {
+            let mut label = ignore.label(&shape.label);
+            let ink = ignore.ink(&shape.ink);
+            if !by_layer {
+                label.layer = "".into();
+            }
+            let count = labels.len();
+            let label = *labels.entry(label).or_insert(count);
+            *known.entry((label, shape.kind, key(&ink))).or_insert_with(|| {
+                let tolerance = tolerances.px(&shape.label, shape.ink.tone, shape.kind, fallback);
+                let part = shape.label.part.clone().filter(|_| !ignore.labels);
+                groups.push(Group { kind: shape.kind, part, label, ink, tolerance });
+                groups.len() - 1
+            })
+        };
+        let of_shape = pictures.map(|picture| picture.shapes.iter().map(&mut group_of).collect());
+        Self { groups, of_shape }
+    }
+
+    /// Whether two groups are of one part.
+    pub(crate) fn same_part(&self, a: usize, b: usize) -> bool {
+        self.groups.get(a).map(|group| &group.part) == self.groups.get(b).map(|group| &group.part)
+    }
+
+    /// In what two groups differ; `None` where the one is a line and the other a region.
+    pub(crate) fn likeness(&self, a: usize, b: usize) -> Option<Likeness> {
+        if a == b {
+            return Some(Likeness::Same);
+        }
+        let (a, b) = (self.groups.get(a)?, self.groups.get(b)?);
+        if a.kind != b.kind {
+            return None;
+        }
+        Some(match (a.label == b.label, a.ink.is_like(&b.ink)) {
+            (true, true) => Likeness::Same,
+            (true, false) => Likeness::Ink,
+            (false, true) => Likeness::Label,
+            (false, false) => Likeness::Both,
+        })
+    }
+}
+
+/// An ink as a key: its numbers by their bits.
+type InkKey =
+    (super::ink::Paint, u64, Vec<u64>, [u8; 4], Option<u16>, u16, Option<Arc<super::placeholder::Details>>);
+
+fn key(ink: &Ink) -> InkKey {
+    let dash = ink.dash.iter().map(|length| length.to_bits()).collect();
+    let forms = [ink.cap as u8, ink.join as u8, u8::from(ink.outlined), u8::from(ink.is_crisp)];
+    (ink.paint.clone(), ink.width.to_bits(), dash, forms, ink.tone, ink.invisibility, ink.details.clone())
+}

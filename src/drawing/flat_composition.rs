@@ -1,0 +1,132 @@
+//! A page of several drawings as one: for files that know no frames, such as DXF.
+
+use std::collections::BTreeMap;
+
+use kurbo::BezPath;
+
+use super::region_clip::Region;
+use super::{Composition, Drawing, Item, Layer, LayerKind, Mark, Paint, Unit};
+
+/// How far polygons may be from curves that are cut off at a frame.
+const TOLERANCE_PX: f64 = 0.05;
+const TOLERANCE_MM: f64 = 0.01;
+
+impl Composition {
+    /// The page as one drawing: the marks of all drawings, each in its place, cut off at its frame, in the layers of their kinds.
+    ///
+    /// Areas are cut at frames without hollows only, pictures nowhere. What lies on other drawings does not hide them, but for what is
+    /// painted.
+    #[must_use]
+    pub fn flattened(&self) -> Drawing {
+        let tolerance = match self.page.unit {
+            Unit::Px => TOLERANCE_PX,
+            Unit::Mm => TOLERANCE_MM,
+        };
+        let mut layers: BTreeMap<LayerKind, Vec<Mark>> = BTreeMap::new();
+        let mut warnings = Vec::new();
+        for Item { drawing, place, clip, .. } in &self.items {
+            let region = clip.as_ref().map(|clip| Region::new(clip, tolerance));
+            for layer in &drawing.layers {
+                let placed = layer.marks.iter().filter_map(|mark| {
+                    let mark = mark.clone().placed(*place);
+                    match &region {
+                        Some(region) => cut(mark, region, tolerance),
+                        None => Some(mark),
+                    }
+                });
+                layers.entry(layer.kind).or_default().extend(placed);
+            }
+            warnings.extend(drawing.warnings.iter().cloned());
+        }
+        let layers = layers.into_iter().filter(|(_, marks)| !marks.is_empty());
+        let layers = layers.map(|(kind, marks)| Layer { kind, pen: None, ordered: false, marks }).collect();
+        Drawing { warnings, ..Drawing::new(self.title.clone(), self.page, layers) }
+    }
+}
+
+impl Drawing {
+    /// Leaves the inside of a border without hollows: lines and areas end there. Dashes become lines where theirs is cut.
+    #[cfg(feature = "page")]
+    pub(crate) fn cut(&mut self, border: &BezPath, tolerance: f64) {
+        let region = Region::new(border, tolerance);
+        for layer in &mut self.layers {
+            layer.marks = std::mem::take(&mut layer.marks)
+                .into_iter()
+                .filter_map(|mut mark| {
+                    if let Paint::Stroke(stroke) = &mut mark.paint
+                        && !stroke.dash.is_empty()
+                        && region.line(&mark.path) != mark.path
+                    {
+                        let dash = std::mem::take(&mut stroke.dash);
+                        mark.path = kurbo::dash(mark.path.iter(), stroke.dash_offset, &dash).collect();
+                    }
+                    let picture = matches!(mark.paint, Paint::Image(_));
+                    if picture {
+                        mark.path = region.area(&mark.path, tolerance);
+                    }
+                    cut(mark, &region, tolerance)
+                })
+                .collect();
+        }
+    }
+}
+
+/// What a region shows of a mark.
+fn cut(mut mark: Mark, region: &Region, tolerance: f64) -> Option<Mark> {
+    let is_there = |path: &BezPath| path.elements().len() > 1;
+    match &mut mark.paint {
+        Paint::Stroke(_) => mark.path = region.line(&mark.path),
+        Paint::Fill(_) | Paint::Gradient(_) => mark.path = region.area(&mark.path, tolerance),
+        Paint::Outline(outline) => {
+            outline.axis = region.line(&outline.axis);
+            mark.path = region.area(&mark.path, tolerance);
+            return (is_there(&mark.path) && is_there(&outline.axis)).then_some(mark);
+        }
+        Paint::Image(_) => {}
+    }
+    is_there(&mark.path).then_some(mark)
+}
+
+#[cfg(test)]
+mod tests {
+    use kurbo::Affine;
+
+    use super::super::{Cap, Join, Page, Provenance, StrokePaint};
+    use super::*;
+    use crate::colour::srgb::Colour;
+
+    #[test]
+    fn lines_of_all_drawings_are_placed_and_cut() {
+        let page = |width| Page { width, height: 100.0, unit: Unit::Mm, background: None };
+        let stroke = StrokePaint {
+            width: 0.5,
+            colour: Colour::BLACK,
+            cap: Cap::Round,
+            join: Join::Round,
+            dash: vec![2.0, 1.0],
+            dash_offset: 0.5,
+        };
+        let path = BezPath::from_svg("M0 5H50").unwrap();
+        let mark = Mark { path, paint: Paint::Stroke(stroke), provenance: Provenance::default() };
+        let layer = Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks: vec![mark] };
+        let drawing = Drawing::new("a line", page(50.0), vec![layer]);
+        let item = |name: &str, x: f64, clip: Option<&str>| Item {
+            name: name.to_owned(),
+            drawing: drawing.clone(),
+            place: Affine::translate((x, 10.0)) * Affine::scale(2.0),
+            clip: clip.map(|data| BezPath::from_svg(data).unwrap()),
+        };
+        let items = vec![
+            item("a", 0.0, None),
+            item("b", 10.0, Some("M20 0H60V50H20Z")),
+            item("c", 0.0, Some("M0 50H9V60H0Z")),
+        ];
+        let flat = Composition::new("two", page(200.0), items).flattened();
+        let [layer] = flat.layers.as_slice() else { panic!("{flat:?}") };
+        let paths: Vec<String> = layer.marks.iter().map(|mark| mark.path.to_svg()).collect();
+        assert_eq!(paths, ["M0,20 L100,20", "M20,20 L60,20"]);
+        let Paint::Stroke(stroke) = &layer.marks[1].paint else { panic!() };
+        assert_eq!((stroke.width, stroke.dash_offset), (1.0, 1.0));
+        assert_eq!(stroke.dash, [4.0, 2.0]);
+    }
+}

@@ -1,0 +1,150 @@
+//! [`Level`]: some bodies seen along one axis, and which of them move as one.
+
+use std::sync::atomic::AtomicUsize;
+use std::sync::atomic::Ordering::Relaxed;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::assembly::{Assembly, frame};
+use super::axis_projection::{Meeting, Shadow};
+use super::body_axes;
+use super::stacking_order::{Meetings, Standing, Stretch, offsets, root, unite};
+
+/// Bodies seen along an axis.
+#[derive(Clone)]
+pub(crate) struct Level {
+    pub axis: DVec3,
+    /// The numbers of the bodies, ascending.
+    of: Vec<usize>,
+    stretches: Vec<Stretch>,
+    /// By place in `of`.
+    meetings: Meetings,
+}
+
+impl Level {
+    /// How some bodies stand to each other along an axis.
+    pub fn new(assembly: &Assembly, of: &[usize], axis: DVec3) -> Self {
+        let nothing = || Self { axis, of: of.to_vec(), stretches: Vec::new(), meetings: Meetings::new() };
+        Self::holding(assembly, of, axis, usize::MAX).unwrap_or_else(nothing)
+    }
+
+    /// The same if at most `most_held` pairs hold each other; the search ends as soon as there are more.
+    pub fn holding(assembly: &Assembly, of: &[usize], axis: DVec3, most_held: usize) -> Option<Self> {
+        let axes = frame(axis);
+        let shadows: Vec<Shadow> = of.par_iter().map(|k| Shadow::new(&assembly.bodies[*k], &axes)).collect();
+        let stretch = |(unit, shadow): (&usize, &Shadow)| Stretch {
+            low: shadow.low,
+            high: shadow.high,
+            size: shadow.area * (shadow.high - shadow.low),
+            order: assembly.orders[*unit],
+        };
+        let stretches: Vec<Stretch> = of.iter().zip(&shadows).map(stretch).collect();
+        let held = AtomicUsize::new(0);
+        let of_one = |a: usize| {
+            let meeting = |b: usize| ([a, b], shadows[a].meeting(&shadows[b], assembly.touch));
+            (0..a)
+                .map(meeting)
+                .filter(|(_, meeting)| meeting.standing() != Standing::Apart)
+                .collect::<Vec<_>>()
+        };
+        let meetings = (0..of.len()).into_par_iter().with_max_len(1).flat_map_iter(of_one).collect();
+        let is_known = held.load(Relaxed) <= most_held;
+        is_known.then(|| Self { axis, of: of.to_vec(), stretches, meetings })
+    }
+
+    /// The same of some of its bodies.
+    pub fn of_some(&self, of: &[usize]) -> Self {
+        let place: Vec<Option<usize>> = self.of.iter().map(|unit| of.binary_search(unit).ok()).collect();
+        let kept =
+            |(pair, meeting): (&[usize; 2], &Meeting)| Some(([place[pair[0]]?, place[pair[1]]?], *meeting));
+        let stretches = self.stretches.iter().zip(&place).filter(|(_, place)| place.is_some());
+        Self {
+            axis: self.axis,
+            of: of.to_vec(),
+            stretches: stretches.map(|(stretch, _)| *stretch).collect(),
+            meetings: self.meetings.iter().filter_map(kept).collect(),
+        }
+    }
+
+    fn standing(&self, [a, b]: [usize; 2]) -> Standing {
+        let met = self.meetings.get(&[a, b]).map_or(Standing::Apart, |meeting| meeting.standing());
+        self.stretches[a].told(&self.stretches[b]).unwrap_or(met)
+    }
+
+    fn pairs(&self) -> impl Iterator<Item = [usize; 2]> {
+        self.meetings.keys().copied()
+    }
+
+    /// How many pairs hold each other.
+    pub fn held_pairs(&self) -> usize {
+        self.pairs().filter(|pair| self.standing(*pair) == Standing::Held).count()
+    }
+
+    /// How many pairs can be put assembly.
+    pub fn parted(&self) -> usize {
+        self.meetings.len() - self.held_pairs()
+    }
+
+    /// Bodies that hold each other, together; each group by its least body.
+    pub fn held(&self) -> Vec<Vec<usize>> {
+        self.grouped((0..self.of.len()).collect())
+    }
+
+    /// The same, with sub-assemblies that stand askew together: bodies without an axis along this one. Two of them are joined if they share another axis
+    /// and meet along it.
+    pub fn groups(&self, assembly: &Assembly) -> Vec<Vec<usize>> {
+        let has = |k: usize, axis: DVec3| assembly.axes[k].iter().any(|own| body_axes::is_same(*own, axis));
+        let askew: Vec<usize> = self
+            .of
+            .iter()
+            .copied()
+            .filter(|k| !assembly.axes[*k].is_empty() && !has(*k, self.axis))
+            .collect();
+        let mut group: Vec<usize> = (0..self.of.len()).collect();
+        for axis in assembly.shared_axes(&askew) {
+            let of: Vec<usize> = askew.iter().copied().filter(|k| has(*k, axis)).collect();
+            let level = Self::new(assembly, &of, axis);
+            for pair in level.pairs() {
+                let [a, b] = pair.map(|k| self.of.binary_search(&level.of[k]).unwrap_or_default());
+                unite(&mut group, a, b);
+            }
+        }
+        self.grouped(group)
+    }
+
+    /// The groups that are given, with bodies that hold each other together.
+    fn grouped(&self, mut group: Vec<usize>) -> Vec<Vec<usize>> {
+        for [a, b] in self.pairs().filter(|pair| self.standing(*pair) == Standing::Held) {
+            unite(&mut group, a, b);
+        }
+        let mut groups: Vec<Vec<usize>> = vec![Vec::new(); group.len()];
+        for (k, unit) in self.of.iter().enumerate() {
+            groups[root(&group, k)].push(*unit);
+        }
+        groups.retain(|group| !group.is_empty());
+        groups
+    }
+
+    /// How far each group moves along the axis.
+    pub fn offsets(&self, assembly: &Assembly, groups: &[Vec<usize>]) -> Vec<f64> {
+        let place = |unit: &usize| self.of.binary_search(unit).ok();
+        let mut group_of = vec![0; self.of.len()];
+        for (number, group) in groups.iter().enumerate() {
+            group.iter().filter_map(place).for_each(|k| group_of[k] = number);
+        }
+        let mut meetings = Meetings::new();
+        for (&[a, b], meeting) in &self.meetings {
+            let [one, other] = [group_of[a], group_of[b]];
+            let (pair, meeting) =
+                if one > other { ([one, other], *meeting) } else { ([other, one], meeting.turned()) };
+            if one != other {
+                meetings.entry(pair).and_modify(|known| *known = known.or(meeting)).or_insert(meeting);
+            }
+        }
+        let joined =
+            |group: &Vec<usize>| Stretch::joined(group.iter().filter_map(place).map(|k| self.stretches[k]));
+        let stretches: Vec<Stretch> = groups.iter().map(joined).collect();
+        offsets(&stretches, &meetings, assembly.gap)
+    }
+}

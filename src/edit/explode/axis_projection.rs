@@ -1,0 +1,274 @@
+//! [`Shadow`]: a body seen along an axis, as triangles in the plane with heights along the axis.
+//!
+//! Whether one body blocks another is computed from pairs of triangles, one of each body:
+//!
+//! 1. Two triangles have a convex polygon in common in the plane, or none.
+//! 2. A face of one body that looks up blocks its way up where a face of the other that looks down stands above it, and the other way
+//!    round. In the polygon the difference of their heights is linear, so the part of it where this holds is a polygon again.
+//! 3. The areas of these polygons are added. A part that passes through the other body already is not in the way.
+//! 4. Where bodies pass through each other along the axis, and the other stands out on one side only, it blocks the way to that side: a
+//!    thread does so across its axis. A body that stands out on both sides, like the ground around a bolt, does not.
+
+use glam::{DVec2, DVec3};
+use kurbo::Point;
+
+use super::bodies::Body;
+use super::box_tree::{Boxes, EMPTY, Rect, overlap, union};
+use super::polygon_overlap::{area, common, cut};
+use crate::geometry::numbers::portable_math::atan2;
+use crate::geometry::plane::convex_hull::hull;
+
+/// Bodies that overlap on less than this share of the smaller one's area only graze each other: facets of a shaft and its bore do.
+const GRAZE: f64 = 0.02;
+
+/// Faces whose area in the plane is below this share of their full area are parallel to the axis.
+const UPRIGHT: f64 = 1e-9;
+
+/// A body seen along an axis.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Shadow {
+    triangles: Vec<Flat>,
+    tree: Boxes,
+    /// The box around it in the plane.
+    bounds: Rect,
+    /// Least and greatest height along the axis.
+    pub low: f64,
+    pub high: f64,
+    /// Area in the plane of its upper or lower side; surfaces behind each other count each.
+    pub area: f64,
+}
+
+/// A triangle in the plane, counter-clockwise.
+#[derive(Debug, Clone, Copy)]
+struct Flat {
+    at: [DVec2; 3],
+    height: [f64; 3],
+    /// Twice its area.
+    area: f64,
+    /// Whether it looks up or down the axis; faces of open surfaces do both.
+    is_up: bool,
+    is_down: bool,
+}
+
+/// How two bodies stand to each other along an axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct Meeting {
+    /// Whether they overlap in the plane.
+    pub meets: bool,
+    /// Whether the other is in the way when the first moves up.
+    pub blocks_up: bool,
+    /// Whether the other is in the way when the first moves down.
+    pub blocks_down: bool,
+    /// Whether one is surrounded by the other in the plane, and does not overlap it.
+    pub is_within: bool,
+}
+
+impl Meeting {
+    /// The same from the side of the other.
+    pub fn turned(self) -> Self {
+        Self { blocks_up: self.blocks_down, blocks_down: self.blocks_up, ..self }
+    }
+
+    /// The union of two meetings.
+    pub fn or(self, other: Self) -> Self {
+        Self {
+            meets: self.meets | other.meets,
+            blocks_up: self.blocks_up | other.blocks_up,
+            blocks_down: self.blocks_down | other.blocks_down,
+            is_within: self.is_within | other.is_within,
+        }
+    }
+}
+
+impl Shadow {
+    /// A body seen along the third of three axes at right angles, which are right-handed.
+    pub fn new(body: &Body, axes: &[DVec3; 3]) -> Self {
+        let mut shadow =
+            Self { bounds: EMPTY, low: f64::INFINITY, high: f64::NEG_INFINITY, ..Self::default() };
+        let mut boxes = Vec::new();
+        for corners in &body.triangles {
+            let placed = corners.map(|p| axes.map(|axis| p.dot(axis)));
+            let mut at = placed.map(|[x, y, _]| DVec2::new(x, y));
+            let mut height = placed.map(|[.., z]| z);
+            for z in height {
+                (shadow.low, shadow.high) = (shadow.low.min(z), shadow.high.max(z));
+            }
+            let own = at.iter().fold(EMPTY, |sum, p| union(sum, [p.x, p.y, p.x, p.y]));
+            shadow.bounds = union(shadow.bounds, own);
+            let area = (at[1] - at[0]).perp_dot(at[2] - at[0]);
+            let whole = (corners[1] - corners[0]).cross(corners[2] - corners[0]).length();
+            if area.abs() <= UPRIGHT * whole {
+                continue;
+            }
+            let looks_up = area > 0.0;
+            if !looks_up {
+                at.swap(1, 2);
+                height.swap(1, 2);
+            }
+            let (is_up, is_down) = (looks_up || body.is_open, !looks_up || body.is_open);
+            shadow.triangles.push(Flat { at, height, area: area.abs(), is_up, is_down });
+            shadow.area += area.abs() / 4.0;
+            boxes.push(own);
+        }
+        shadow.tree = Boxes::new(&boxes);
+        shadow
+    }
+
+    /// How this body stands to another one; surfaces within `touch` of each other touch.
+    pub fn meeting(&self, other: &Self, touch: f64) -> Meeting {
+        if !overlap(&self.bounds, &other.bounds) {
+            return Meeting::default();
+        }
+        let graze = GRAZE * self.area.min(other.area);
+        if self.triangles.len() > other.triangles.len() {
+            return other.areas(self, touch, graze).turned();
+        }
+        self.areas(other, touch, graze)
+    }
+
+    fn areas(&self, other: &Self, touch: f64, graze: f64) -> Meeting {
+        let (mut both, mut above, mut below) = (0.0, 0.0, 0.0);
+        // A body that stands wholly over the other is not in its way down, and the other way round.
+        let [may_be_above, may_be_below] = [other.high > self.low + touch, other.low < self.high - touch];
+        let is_open = |both: f64, above: f64, below: f64| {
+            both <= graze || may_be_above && above <= graze || may_be_below && below <= graze
+        };
+        for own in &self.triangles {
+            let bounds = own.at.iter().fold(EMPTY, |sum, p| union(sum, [p.x, p.y, p.x, p.y]));
+            let goes_on = other.tree.overlapping(&bounds, &mut |number| {
+                let its = &other.triangles[number as usize];
+                let counts = own.is_up && its.is_up;
+                let up = own.is_up && its.is_down && may_be_above && above <= graze;
+                let down = own.is_down && its.is_up && may_be_below && below <= graze;
+                if !(counts || up || down) {
+                    return true;
+                }
+                let common = common(&own.at, &its.at);
+                if common.len() < 3 {
+                    return true;
+                }
+                // The difference of heights at each corner of the common polygon.
+                let gap = |p: &DVec2| its.height_at(*p) - own.height_at(*p);
+                if up {
+                    above += area(&cut(&common, |p| gap(p) + touch));
+                }
+                if down {
+                    below += area(&cut(&common, |p| touch - gap(p)));
+                }
+                if counts {
+                    both += area(&common);
+                    if may_be_above && above <= graze {
+                        above += self.passing([own, its], other, &cut(&common, |p| gap(p) - touch));
+                    }
+                    if may_be_below && below <= graze {
+                        below += other.passing([its, own], self, &cut(&common, |p| -touch - gap(p)));
+                    }
+                }
+                is_open(both, above, below)
+            });
+            if !goes_on {
+                break;
+            }
+        }
+        let meets = both > graze;
+        let is_within = !meets && (self.lies_within(other) || other.lies_within(self));
+        let blocks_up = meets && may_be_above && above > graze;
+        let blocks_down = meets && may_be_below && below > graze;
+        Meeting { meets, blocks_up, blocks_down, is_within }
+    }
+
+    /// The area of a polygon in the plane if the other body begins inside of this one there, and ends above it. `tops` are the upper
+    /// ends of both. It is 0 if one of the bodies has no inside.
+    fn passing(&self, tops: [&Flat; 2], other: &Self, polygon: &[DVec2]) -> f64 {
+        if polygon.len() < 3 || tops.iter().any(|top| top.is_down) {
+            return 0.0;
+        }
+        let middle = polygon.iter().sum::<DVec2>() / polygon.len() as f64;
+        let [own_top, its_top] = tops.map(|top| top.height_at(middle));
+        let (own, its) = (self.floor(middle, own_top), other.floor(middle, its_top));
+        let begins_inside = own.zip(its).is_some_and(|(own, its)| own < its && its < own_top);
+        if begins_inside { area(polygon) } else { 0.0 }
+    }
+
+    /// The greatest height below `top` of a face that looks down, over a point.
+    fn floor(&self, point: DVec2, top: f64) -> Option<f64> {
+        let mut floor = None;
+        self.tree.overlapping(&[point.x, point.y, point.x, point.y], &mut |number| {
+            let triangle = &self.triangles[number as usize];
+            if triangle.is_down && triangle.holds(point) {
+                let height = triangle.height_at(point);
+                if height < top && floor.is_none_or(|known| height > known) {
+                    floor = Some(height);
+                }
+            }
+            true
+        });
+        floor
+    }
+
+    /// Whether the other surrounds it in the plane: from no corner of its convex hull a straight way leads out.
+    fn lies_within(&self, other: &Self) -> bool {
+        let [a, b] = [&self.bounds, &other.bounds];
+        if self.triangles.is_empty() || a[0] < b[0] || a[1] < b[1] || a[2] > b[2] || a[3] > b[3] {
+            return false;
+        }
+        let corners = self.triangles.iter().flat_map(|t| t.at).map(|p| Point::new(p.x, p.y)).collect();
+        hull(corners).iter().all(|p| other.surrounds(DVec2::new(p.x, p.y)))
+    }
+
+    /// Whether triangles stand in all directions of the plane around a point.
+    fn surrounds(&self, point: DVec2) -> bool {
+        let full = std::f64::consts::TAU;
+        let mut covered: Vec<[f64; 2]> = Vec::new();
+        for triangle in &self.triangles {
+            if triangle.holds(point) {
+                return true;
+            }
+            let ways = triangle.at.map(|p| p - point);
+            // Less than half a turn, from the corner that has all others to its left.
+            let angle = |way: DVec2| atan2(way.y, way.x);
+            let first = (0..3).find(|k| ways.iter().all(|way| ways[*k].perp_dot(*way) >= 0.0));
+            let Some(first) = first else { continue };
+            let from = angle(ways[first]);
+            let wide = |way: DVec2| (angle(way) - from).rem_euclid(full);
+            let widest = ways.map(wide).into_iter().filter(|w| *w < full / 2.0).fold(0.0, f64::max);
+            covered.push([from, from + widest]);
+            covered.push([from + full, from + full + widest]);
+        }
+        covered.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let Some(first) = covered.first() else { return false };
+        let mut until = first[1];
+        let end = first[0] + full;
+        for [from, to] in &covered {
+            if *from > until + ANGLE {
+                return false;
+            }
+            until = until.max(*to);
+        }
+        until >= end - ANGLE
+    }
+}
+
+/// Rounding of an angle.
+const ANGLE: f64 = 1e-9;
+
+impl Flat {
+    /// Whether a point lies in it.
+    fn holds(&self, point: DVec2) -> bool {
+        (0..3).all(|k| (self.at[k] - point).perp_dot(self.at[(k + 1) % 3] - point) >= 0.0)
+    }
+
+    /// The height of the triangle over a point of it.
+    fn height_at(&self, p: DVec2) -> f64 {
+        let [a, b, c] = self.at;
+        let weights = [(b, c), (c, a), (a, b)].map(|(p0, p1)| (p0 - p).perp_dot(p1 - p) / self.area);
+        let [low, high] = [
+            self.height.iter().copied().fold(f64::INFINITY, f64::min),
+            self.height.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        ];
+        weights.iter().zip(self.height).map(|(weight, height)| weight * height).sum::<f64>().clamp(low, high)
+    }
+}
+
+#[cfg(test)]
+mod tests;

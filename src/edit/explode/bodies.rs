@@ -1,0 +1,57 @@
+//! [`Body`]: the surface of a part as the mesh has it: its faces are turned outward, and all have an area.
+
+use glam::DVec3;
+
+use crate::mesh::{EdgeFaces, FaceId, Mesh};
+use crate::scene::Scene;
+
+/// The faces of a part, world space.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Body {
+    pub triangles: Vec<[DVec3; 3]>,
+    /// Whether some edge has a face on one side only. The inside is then unknown, and both sides of each face count as outside.
+    pub is_open: bool,
+}
+
+impl Body {
+    /// The least and the greatest corner of the box around it, world space; none if it has no faces.
+    pub fn bounds(&self) -> Option<[DVec3; 2]> {
+        let corners = self.triangles.as_flattened().iter();
+        let grow = |[low, high]: [DVec3; 2], p: &DVec3| [low.min(*p), high.max(*p)];
+        (!self.triangles.is_empty()).then(|| corners.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], grow))
+    }
+
+    fn add(&mut self, other: &Self) {
+        self.triangles.extend_from_slice(&other.triangles);
+        self.is_open |= other.is_open;
+    }
+}
+
+/// The bodies of all parts of a scene.
+pub(crate) fn bodies(scene: &Scene) -> Vec<Body> {
+    let mesh = Mesh::build(scene.to_soup());
+    let mut bodies = vec![Body::default(); scene.parts.len()];
+    for (face, part) in mesh.face_part.iter().enumerate() {
+        if let Some(body) = bodies.get_mut(part.index())
+            && !mesh.is_degenerate(FaceId::from(face))
+        {
+            body.triangles.push(mesh.triangles[face].map(|v| mesh.positions[v as usize] + mesh.origin));
+        }
+    }
+    for edge in 0..mesh.edges.vertices.len() {
+        if let EdgeFaces::One(face) = mesh.edges.faces(edge)
+            && let Some(body) = bodies.get_mut(mesh.face_part[face as usize].index())
+        {
+            body.is_open = true;
+        }
+    }
+    bodies
+}
+
+/// Several bodies as one.
+pub(crate) fn joined<'a>(bodies: impl Iterator<Item = &'a Body>) -> Body {
+    bodies.fold(Body::default(), |mut all, body| {
+        all.add(body);
+        all
+    })
+}

@@ -1,0 +1,79 @@
+//! [`axes_of`]: the directions along which a body may have been put together.
+//!
+//! 1. The faces of a body are grouped by their planes' directions.
+//! 2. The three directions with the largest area are axes of the body: a box has exactly three.
+//! 3. So is what is at right angles to two of these: the axis of a tube or a nut is at right angles to all its sides.
+
+use glam::DVec3;
+
+use super::bodies::Body;
+
+/// Sine of the angle below which two directions are one. Rounded to single precision, the faces of the test models turn by less.
+const SAME_SINE: f64 = 1e-3;
+
+/// The most directions of planes that are kept: those of the largest faces.
+const MOST_PLANES: usize = 64;
+
+/// Axes of one body.
+const OF_PLANES: usize = 3;
+
+/// Whether two unit vectors lie along one axis.
+pub(crate) fn is_same(a: DVec3, b: DVec3) -> bool {
+    a.cross(b).length_squared() <= SAME_SINE * SAME_SINE
+}
+
+/// The axes of a body, unit vectors, those of the largest faces first.
+pub(crate) fn axes_of(body: &Body) -> Vec<DVec3> {
+    let normal = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a);
+    let mut normals: Vec<DVec3> = body.triangles.iter().map(normal).collect();
+    normals.sort_by(|a, b| b.length_squared().total_cmp(&a.length_squared()));
+    let mut planes: Vec<(DVec3, f64)> = Vec::new();
+    for normal in normals {
+        let Some(direction) = normal.try_normalize() else { continue };
+        match planes.iter().position(|(known, _)| is_same(*known, direction)) {
+            Some(known) => planes[known].1 += normal.length(),
+            None if planes.len() < MOST_PLANES => planes.push((upward(direction), normal.length())),
+            None => {}
+        }
+    }
+    planes.sort_by(|a, b| b.1.total_cmp(&a.1));
+    planes.truncate(OF_PLANES);
+    let mut axes: Vec<DVec3> = planes.iter().map(|(direction, _)| *direction).collect();
+    for (k, (a, _)) in planes.iter().enumerate() {
+        for (b, _) in &planes[..k] {
+            let across = a.cross(*b).try_normalize().map(upward);
+            if let Some(across) = across.filter(|across| !axes.iter().any(|known| is_same(*known, *across))) {
+                axes.push(across);
+            }
+        }
+    }
+    axes
+}
+
+/// The one of two opposite directions whose largest coordinate is above 0.
+fn upward(direction: DVec3) -> DVec3 {
+    let largest =
+        direction.to_array().into_iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+    if largest < 0.0 { -direction } else { direction }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::numbers::portable_math::{cos, sin};
+
+    #[test]
+    fn a_turned_prism_has_its_axis() {
+        let turn = glam::DQuat::from_axis_angle(DVec3::new(0.6, 0.0, 0.8), 0.7);
+        for sides in [3, 4, 6, 24] {
+            let at = |k: usize, z: f64| {
+                let angle = std::f64::consts::TAU * k as f64 / sides as f64;
+                turn * DVec3::new(cos(angle), sin(angle), z)
+            };
+            let side = |k: usize| [at(k, 0.0), at(k + 1, 0.0), at(k + 1, 5.0)];
+            let body = Body { triangles: (0..sides).map(side).collect(), is_open: true };
+            let axes = axes_of(&body);
+            assert!(axes.iter().any(|axis| is_same(*axis, turn * DVec3::Z)), "{sides}: {axes:?}");
+        }
+    }
+}

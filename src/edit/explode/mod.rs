@@ -1,0 +1,204 @@
+//! Exploded views: moves the parts of an assembly apart until none hides another.
+//!
+//! 1. [`bodies`] takes the surface of each part from the mesh. [`part_rules`] joins parts of one group into a
+//!    unit.
+//! 2. [`body_axes`] finds the candidate axes. [`axis_blocking`] tests along an axis which bodies block each
+//!    other, with the projections of [`axis_projection`] (pairs from [`box_tree`], areas from
+//!    [`polygon_overlap`]).
+//! 3. Bodies that block each other in both directions move as one. Sub-assemblies at an angle to the axis do,
+//!    too.
+//! 4. [`stacking_order`] sorts the others along the axis and computes offsets with gaps between them.
+//! 5. Groups that move as one are separated the same way along the next best axis ([`assembly`]).
+//! 6. Rules for single parts come last: direction, distance, order, group. [`trail_lines`] draws the paths.
+//!
+//! Source: Li, Agrawala, Curless, Salesin, Automated generation of interactive 3D exploded view diagrams,
+//! 2008, section 3: blocking along axes, offsets without overlap, sub-assemblies. Deviation: all parts of one
+//! axis move at once.
+
+mod assembly;
+mod axis_blocking;
+mod axis_projection;
+mod bodies;
+mod body_axes;
+mod box_tree;
+mod part_rules;
+mod polygon_overlap;
+mod stacking_order;
+mod trail_lines;
+
+use glam::{DAffine3, DVec3};
+
+pub use part_rules::{PartExplosion, direction};
+pub use trail_lines::{TRAIL, with_trails};
+
+use crate::scene::Scene;
+use assembly::{Assembly, Moves};
+use axis_blocking::Level;
+use bodies::{Body, joined};
+
+/// How an assembly is taken apart.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Explosion {
+    /// The axis along which parts move first, world space; found if none is given.
+    pub axis: Option<DVec3>,
+    /// How far apart they come: 1 leaves a gap of 4 % of the model's diagonal.
+    pub factor: f64,
+    /// Settings of single parts. If several name one part, the last one that sets a value counts.
+    pub parts: Vec<PartExplosion>,
+}
+
+impl Default for Explosion {
+    fn default() -> Self {
+        Self { axis: None, factor: 1.0, parts: Vec::new() }
+    }
+}
+
+/// A gap between parts, as a share of the model's diagonal.
+const GAP: f64 = 0.04;
+
+/// Surfaces so near, as a share of the model's diagonal, touch.
+const TOUCH: f64 = 1e-5;
+
+/// How far the parts of a scene move, world units: zero for those that stay.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Ways {
+    /// The whole way of each part.
+    pub offsets: Vec<DVec3>,
+    /// The share of it that the part moves alone, and not with others that hold it.
+    pub alone: Vec<DVec3>,
+}
+
+/// How far each part moves.
+///
+/// Of the parts that hang together the largest stays. Where two parts overlap seen along the axis, one is before the other on it, but for
+/// parts that hold each other along all axes, which move as one.
+#[must_use]
+pub fn explode(scene: &Scene, explosion: &Explosion) -> Ways {
+    let count = scene.parts.len();
+    let mut ways = Ways { offsets: vec![DVec3::ZERO; count], alone: vec![DVec3::ZERO; count] };
+    let bodies = bodies::bodies(scene);
+    let Some((low, high)) = scene.bounds() else { return ways };
+    let diagonal = (high - low).length();
+    let units = part_rules::units(scene, &bodies, &explosion.parts);
+    if diagonal <= 0.0 {
+        return ways;
+    }
+    let unit_bodies: Vec<Body> =
+        units.iter().map(|unit| joined(unit.parts.iter().map(|part| &bodies[*part]))).collect();
+    let assembly = Assembly {
+        orders: units.iter().map(|unit| unit.told.order).collect(),
+        axes: unit_bodies.iter().map(body_axes::axes_of).collect(),
+        bodies: &unit_bodies,
+        gap: GAP * diagonal * explosion.factor.max(0.0),
+        touch: TOUCH * diagonal,
+    };
+    let mut moves = Moves { whole: vec![DVec3::ZERO; units.len()], alone: vec![DVec3::ZERO; units.len()] };
+    let own_way = |unit: &part_rules::Unit| unit.told.direction.is_some();
+    let others: Vec<usize> = (0..units.len()).filter(|k| !own_way(&units[*k])).collect();
+    let first = explosion.axis.and_then(DVec3::try_normalize);
+    let main = assembly.all(&others, first, &mut moves);
+    part_rules::move_told(&assembly, &units, main.or(first), &mut moves);
+    for (unit, (whole, alone)) in units.iter().zip(moves.whole.iter().zip(&moves.alone)) {
+        for part in &unit.parts {
+            ways.offsets[*part] = *whole;
+            ways.alone[*part] = *alone;
+        }
+    }
+    ways
+}
+
+impl Assembly<'_> {
+    /// Takes some bodies apart, first along a given axis, else along the best one; returns that axis.
+    fn all(&self, of: &[usize], told: Option<DVec3>, moves: &mut Moves) -> Option<DVec3> {
+        let mut known = Vec::new();
+        let level = match told {
+            Some(axis) => Level::new(self, of, axis),
+            None => self.best(of, &[], &mut known)?,
+        };
+        let mut groups = level.groups(self);
+        if groups.len() < 2 {
+            // All of it stands askew, or holds together.
+            groups = level.held();
+        }
+        self.along(&level, &groups, (&[level.axis], &known), moves);
+        Some(level.axis)
+    }
+
+    /// Puts groups apart along the axis of a level, then takes each apart. Along the axes `tried` the whole did not come apart;
+    /// `known` is how its bodies stand along some axes.
+    fn along(
+        &self,
+        level: &Level,
+        groups: &[Vec<usize>],
+        (tried, known): (&[DVec3], &[Level]),
+        moves: &mut Moves,
+    ) {
+        for (group, offset) in groups.iter().zip(level.offsets(self, groups)) {
+            let way = level.axis * offset;
+            for unit in group {
+                moves.whole[*unit] += way;
+                if offset != 0.0 {
+                    moves.alone[*unit] = way;
+                }
+            }
+            if group.len() < 2 {
+                continue;
+            }
+            group.iter().for_each(|unit| moves.alone[*unit] = DVec3::ZERO);
+            let tried = if groups.len() > 1 { &[level.axis] } else { tried };
+            let mut known: Vec<Level> = known.iter().map(|level| level.of_some(group)).collect();
+            if let Some(next) = self.best(group, tried, &mut known) {
+                let all: Vec<DVec3> = tried.iter().copied().chain([next.axis]).collect();
+                let held = next.held();
+                self.along(&next, &held, (&all, &known), moves);
+            }
+        }
+    }
+
+    /// The axis along which fewest of some bodies hold each other; of equals the one along which more are put apart, then the first.
+    /// None if nothing can be put apart. Axes of bodies are tried where some hold each other along those of the world. What is found
+    /// of axes is added to what is `known`.
+    fn best(&self, of: &[usize], but: &[DVec3], known: &mut Vec<Level>) -> Option<Level> {
+        let mut axes: Vec<DVec3> = vec![DVec3::X, DVec3::Y, DVec3::Z];
+        let mut best: Option<((usize, usize), Level)> = None;
+        for own in [false, true] {
+            if own {
+                axes = self.shared_axes(of);
+                axes.retain(|axis| !DVec3::AXES.iter().any(|known| body_axes::is_same(*known, *axis)));
+                axes.truncate(MOST_AXES);
+            }
+            for axis in axes.iter().filter(|axis| !but.iter().any(|tried| body_axes::is_same(*tried, **axis)))
+            {
+                let found = known.iter().find(|level| level.axis == *axis).cloned();
+                let most_held = best.as_ref().map_or(usize::MAX, |((held, _), _)| *held);
+                let search = || {
+                    let level = Level::holding(self, of, *axis, most_held)?;
+                    known.push(level.clone());
+                    Some(level)
+                };
+                let Some(level) = found.or_else(search) else { continue };
+                let rank = (level.held_pairs(), usize::MAX - level.parted());
+                let is_better = best.as_ref().is_none_or(|(least, _)| rank < *least);
+                if is_better && level.parted() > 0 && level.held().len() > 1 {
+                    best = Some((rank, level));
+                }
+            }
+            if best.as_ref().is_some_and(|((held, _), _)| *held == 0) {
+                break;
+            }
+        }
+        best.map(|(_, level)| level)
+    }
+}
+
+/// Axes of bodies that are tried for one group.
+const MOST_AXES: usize = 3;
+
+/// The scene with its parts moved so.
+#[must_use]
+pub fn moved(mut scene: Scene, ways: &Ways) -> Scene {
+    for (part, way) in scene.parts.iter_mut().zip(&ways.offsets) {
+        part.world_from_part = DAffine3::from_translation(*way) * part.world_from_part;
+    }
+    scene
+}

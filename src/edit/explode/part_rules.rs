@@ -1,0 +1,144 @@
+//! Settings of single parts: direction, distance, place in the order, group.
+
+use glam::DVec3;
+
+use super::assembly::{Assembly, Moves, frame};
+use super::axis_projection::{Meeting, Shadow};
+use super::bodies::{Body, joined};
+use super::stacking_order::{Meetings, Stretch, offsets};
+use crate::geometry::names::glob::Glob;
+use crate::scene::Scene;
+
+/// Settings of the parts whose names match. Values that are not set are found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartExplosion {
+    /// The pattern for their names.
+    pub name: Glob,
+    /// The direction of their way from where they stand in the model: world space, of any length above 0.
+    pub direction: Option<DVec3>,
+    /// How far they move, world units; 0 has them stay.
+    pub distance: Option<f64>,
+    /// Their place: of two parts that have one and overlap, that with the greater one comes to stand farther along the axis.
+    pub order: Option<f64>,
+    /// Parts of one group move as one and stay together.
+    pub group: Option<String>,
+}
+
+impl PartExplosion {
+    /// No settings for the parts whose names match a pattern.
+    #[must_use]
+    pub fn new(name: impl Into<String>) -> Self {
+        Self { name: Glob::new(name), direction: None, distance: None, order: None, group: None }
+    }
+}
+
+/// The direction that `x`, `-y` or `1,0,-1` names; none if it names none.
+#[must_use]
+pub fn direction(text: &str) -> Option<DVec3> {
+    let (sign, axis) = match text.trim() {
+        text if text.starts_with('-') && text.len() == 2 => (-1.0, &text[1..]),
+        text => (1.0, text.strip_prefix('+').unwrap_or(text)),
+    };
+    let named = match axis {
+        "x" | "X" => Some(DVec3::X),
+        "y" | "Y" => Some(DVec3::Y),
+        "z" | "Z" => Some(DVec3::Z),
+        _ => None,
+    };
+    if let Some(named) = named {
+        return Some(named * sign);
+    }
+    let numbers: Vec<f64> =
+        text.split(',').map(|number| number.trim().parse().ok()).collect::<Option<_>>()?;
+    let direction = DVec3::from_array(numbers.try_into().ok()?);
+    direction.try_normalize().map(|_| direction)
+}
+
+/// Parts that move as one, and their settings.
+pub(crate) struct Unit {
+    pub parts: Vec<usize>,
+    pub told: PartExplosion,
+}
+
+/// The units of a scene in the order of their first parts; parts without faces are in none.
+pub(crate) fn units(scene: &Scene, bodies: &[Body], told: &[PartExplosion]) -> Vec<Unit> {
+    let mut units: Vec<Unit> = Vec::new();
+    for (number, part) in scene.parts.iter().enumerate().filter(|(k, _)| !bodies[*k].triangles.is_empty()) {
+        let mut own = PartExplosion::new(part.name.as_str());
+        for rule in told.iter().filter(|rule| rule.name.matches(&part.name)) {
+            own.direction = rule.direction.or(own.direction);
+            own.distance = rule.distance.or(own.distance);
+            own.order = rule.order.or(own.order);
+            own.group = rule.group.clone().or(own.group);
+        }
+        let group = units.iter_mut().find(|unit| own.group.is_some() && unit.told.group == own.group);
+        match group {
+            Some(Unit { parts, told }) => {
+                parts.push(number);
+                told.direction = told.direction.or(own.direction);
+                told.distance = told.distance.or(own.distance);
+                told.order = told.order.or(own.order);
+            }
+            None => units.push(Unit { parts: vec![number], told: own }),
+        }
+    }
+    units
+}
+
+/// Moves the units with a given direction or distance; `main` is the axis along which the others came apart.
+pub(crate) fn move_told(assembly: &Assembly, units: &[Unit], main: Option<DVec3>, moves: &mut Moves) {
+    let direction = |k: usize| units[k].told.direction.and_then(DVec3::try_normalize);
+    let mut left: Vec<usize> = (0..units.len()).filter(|k| direction(*k).is_some()).collect();
+    while let Some(way) = left.first().and_then(|k| direction(*k)) {
+        let (own, others): (Vec<usize>, Vec<usize>) =
+            left.into_iter().partition(|k| direction(*k).is_some_and(|own| own.dot(way) > SAME_WAY));
+        left = others;
+        for (unit, offset) in own.iter().zip(offsets_along(assembly, &own, way)) {
+            moves.whole[*unit] = way * offset;
+            moves.alone[*unit] = moves.whole[*unit];
+        }
+    }
+    for (k, unit) in units.iter().enumerate() {
+        if let Some(distance) = unit.told.distance {
+            let way = direction(k).or(moves.whole[k].try_normalize()).or(main).unwrap_or_default();
+            moves.whole[k] = way * distance;
+            moves.alone[k] = moves.whole[k];
+        }
+    }
+}
+
+/// Cosine of the angle below which two directions are one: a tenth of a degree.
+const SAME_WAY: f64 = 0.999_998_5;
+
+/// How far some units move along a direction so that they are past all others, in an order that lets each be taken off.
+fn offsets_along(assembly: &Assembly, own: &[usize], way: DVec3) -> Vec<f64> {
+    let axes = frame(way);
+    let others = (0..assembly.bodies.len()).filter(|k| !own.contains(k)).map(|k| &assembly.bodies[k]);
+    let others = Shadow::new(&joined(others), &axes);
+    let shadows: Vec<Shadow> = own.iter().map(|k| Shadow::new(&assembly.bodies[*k], &axes)).collect();
+    // The others come last, and stay.
+    let last = own.len();
+    let stretch =
+        |shadow: &Shadow, size: f64, order| Stretch { low: shadow.low, high: shadow.high, size, order };
+    let mut stretches: Vec<Stretch> =
+        shadows.iter().zip(own).map(|(shadow, k)| stretch(shadow, 0.0, assembly.orders[*k])).collect();
+    stretches.push(stretch(&others, f64::INFINITY, None));
+    let mut meetings = Meetings::new();
+    for a in 0..last {
+        for b in 0..a {
+            meetings.insert([a, b], shadows[a].meeting(&shadows[b], assembly.touch));
+        }
+        let past = others.meeting(&shadows[a], assembly.touch);
+        if past.meets || past.is_within {
+            // The others are in its way down, and it is in theirs up.
+            meetings.insert(
+                [last, a],
+                Meeting { meets: true, blocks_up: true, blocks_down: false, is_within: false },
+            );
+        }
+    }
+    let mut found = offsets(&stretches, &meetings, assembly.gap);
+    found.truncate(last);
+    // A unit with nothing in its way moves by the gap, since a direction was given.
+    found.iter().map(|offset| offset.max(assembly.gap)).collect()
+}

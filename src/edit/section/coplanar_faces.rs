@@ -1,0 +1,110 @@
+//! [`FlatFaces`], [`Kept`]: the remains of faces of the model that lie in the plane of a section and are not cut.
+
+use glam::DVec2;
+use robust::{Coord, orient2d};
+use spade::Triangulation as _;
+
+use super::cut_outlines::{Faces, Outlines, Owner};
+use super::outline_gaps::closed;
+use super::plane::Plane;
+use super::plane_clip::Clipped;
+
+/// The faces of a solid that lie in the plane and look to the front.
+pub(crate) struct FlatFaces {
+    /// Which triangle of the shape each is, and its corners counter-clockwise, by the least x.
+    list: Vec<(usize, [DVec2; 3])>,
+    /// The greatest extent along x.
+    widest: f64,
+    /// Whether the solid is open, so that its outlines do not tell what lies behind the plane.
+    is_open: bool,
+}
+
+impl FlatFaces {
+    pub fn new(cut: &Clipped, plane: &Plane) -> Self {
+        let place = |node: u32| plane.flat(cut.geometry.positions[cut.nodes[node as usize] as usize]);
+        let faces = cut.flat.iter().map(|flat| (flat.triangle, flat.nodes.map(place)));
+        let mut list: Vec<_> = faces.filter(|(_, [a, b, c])| turn(*a, *b, *c) > 0.0).collect();
+        let low = |corners: &[DVec2; 3]| corners[0].min(corners[1]).min(corners[2]).x;
+        let high = |corners: &[DVec2; 3]| corners[0].max(corners[1]).max(corners[2]).x;
+        list.sort_by(|a, b| low(&a.1).total_cmp(&low(&b.1)).then(a.0.cmp(&b.0)));
+        let widest = list.iter().map(|(_, corners)| high(corners) - low(corners)).fold(0.0, f64::max);
+        Self { list, widest, is_open: closed(cut).1 > 0 }
+    }
+
+    /// Which triangle of the shape a face is.
+    pub fn triangle(&self, face: usize) -> usize {
+        self.list[face].0
+    }
+
+    /// The faces around a point.
+    fn around(&self, p: DVec2) -> impl Iterator<Item = usize> {
+        let left = |corners: &[DVec2; 3]| corners[0].min(corners[1]).min(corners[2]).x;
+        let first = self.list.partition_point(|(_, corners)| left(corners) < p.x - self.widest);
+        let near = self.list[first..].iter().take_while(move |(_, corners)| left(corners) <= p.x);
+        let is_inside =
+            move |corners: &[DVec2; 3]| (0..3).all(|k| turn(corners[k], corners[(k + 1) % 3], p) >= 0.0);
+        near.enumerate().filter(move |(_, (_, corners))| is_inside(corners)).map(move |(k, _)| first + k)
+    }
+}
+
+/// Positive where three points turn counter-clockwise, exactly.
+fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    let [a, b, c] = [a, b, c].map(|p| Coord { x: p.x, y: p.y });
+    orient2d(a, b, c)
+}
+
+/// Which triangles of the plane are pieces of faces of the model.
+pub(crate) struct Kept {
+    /// For each triangle the solid and its face.
+    of: Vec<Option<[usize; 2]>>,
+    /// For each face of each solid whether it is left as a whole; `None` where it covers nothing.
+    whole: Vec<Vec<Option<bool>>>,
+}
+
+impl Kept {
+    pub fn new(faces: &Faces, outlines: &Outlines, owner: &[Option<Owner>], flats: &[FlatFaces]) -> Self {
+        let mut of = vec![None; owner.len()];
+        let mut whole: Vec<Vec<Option<bool>>> = flats.iter().map(|own| vec![None; own.list.len()]).collect();
+        for face in faces.inner_faces() {
+            let index = face.fix().index();
+            let [a, b, c] = face.vertices().map(|corner| outlines.at(corner.fix().index() as u32));
+            let middle = (a + b + c) / 3.0;
+            for (solid, flats) in flats.iter().enumerate() {
+                let is_kept = match owner[index] {
+                    Some(owner) => owner.solid as usize == solid && !owner.is_cut,
+                    None => flats.is_open,
+                };
+                for flat in flats.around(middle) {
+                    let is_first = is_kept && of[index].is_none();
+                    if is_first {
+                        of[index] = Some([solid, flat]);
+                    }
+                    let whole = &mut whole[solid][flat];
+                    *whole = Some(whole.unwrap_or(true) && is_first);
+                }
+            }
+        }
+        Self { of, whole }
+    }
+
+    /// The solid and its face that a triangle is a piece of.
+    pub fn of(&self, triangle: usize) -> Option<[usize; 2]> {
+        self.of[triangle]
+    }
+
+    /// Whether a face of a solid is left as a whole.
+    pub fn is_whole(&self, [solid, face]: [usize; 2]) -> bool {
+        self.whole[solid][face] == Some(true)
+    }
+
+    /// For each solid the triangles of its shape that are left as a whole, ascending.
+    pub fn whole(&self, flats: &[FlatFaces]) -> Vec<Vec<usize>> {
+        let of_solid = |(solid, flats): (usize, &FlatFaces)| {
+            let faces = (0..flats.list.len()).filter(|face| self.is_whole([solid, *face]));
+            let mut triangles: Vec<usize> = faces.map(|face| flats.triangle(face)).collect();
+            triangles.sort_unstable();
+            triangles
+        };
+        flats.iter().enumerate().map(of_solid).collect()
+    }
+}

@@ -1,0 +1,262 @@
+//! Section of a scene: removes everything in front of a plane and closes the solids that the plane cuts open.
+//!
+//! 1. [`plane_spec`] reads the [`plane`] from an option such as `y=12.5`.
+//! 2. [`void_winding`] orients each surface so that winding numbers separate material from voids.
+//! 3. [`plane_clip`] clips each part at the plane and lists the open edges along it. [`cut_tolerances`] gives
+//!    the distances within which points coincide. [`outline_gaps`] closes small gaps between open edges.
+//! 4. [`section_caps`] triangulates the plane between the outlines ([`cut_outlines`]) and assigns each
+//!    triangle to a solid by winding number. [`coplanar_faces`] keeps faces of the model that lie in the
+//!    plane.
+//! 5. [`seam_division`] splits the clipped triangles where the caps have vertices.
+//! 6. [`neighbour_kinds`] numbers the cut parts so that touching ones differ.
+//!
+//! ```
+//! use ligne::Scene;
+//! use ligne::glam::DVec3;
+//! use ligne::edit::section::{Plane, cut};
+//!
+//! let scene = Scene::open("examples/models/pump.glb")?;
+//! let (low, high) = scene.bounds().unwrap_or_default();
+//! if let Some(plane) = Plane::new((low + high) / 2.0, DVec3::Z) {
+//!     let section = cut(scene, &plane, &[]);
+//!     assert!(section.faces.iter().all(|face| face.area > 0.0));
+//! }
+//! # Ok::<(), ligne::Error>(())
+//! ```
+
+mod coplanar_faces;
+mod cut_outlines;
+mod cut_tolerances;
+mod neighbour_kinds;
+mod outline_gaps;
+pub mod plane;
+mod plane_clip;
+pub mod plane_spec;
+mod seam_division;
+mod section_caps;
+mod void_winding;
+
+use glam::{DAffine3, DVec2};
+
+pub(crate) use neighbour_kinds::are_neighbours;
+pub use plane::Plane;
+pub use plane_spec::CutPlane;
+
+use crate::geometry::names::glob::Glob;
+use crate::mesh::weld::nearby_vertices;
+use crate::mesh::{EdgeMark, Groups};
+use crate::scene::{Alpha, Geometry, Material, Part, Scene};
+use cut_tolerances::Reach;
+use plane_clip::Clipped;
+use section_caps::{Cap, Opened};
+
+/// A scene that is cut open.
+#[derive(Debug, Clone, Default)]
+pub struct Section {
+    /// What lies behind the plane.
+    pub scene: Scene,
+    /// The faces along the plane: one entry a part that has any, in the order of parts.
+    pub faces: Vec<CutFaces>,
+}
+
+/// The faces of a part along the plane that cuts it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CutFaces {
+    /// The part, an index into the parts of the scene that is left.
+    pub part: usize,
+    /// Their material, an index into [`Scene::materials`], which nothing else has: it looks like the part's.
+    pub material: u32,
+    /// Their area, units of the model squared.
+    pub area: f64,
+    /// The box around them along the axes of the plane: least and greatest coordinates.
+    pub bounds: [DVec2; 2],
+    /// A small number that parts whose faces touch have different ones of.
+    pub kind: usize,
+}
+
+/// The name of the material of cut faces, by the number that tells neighbours apart.
+#[must_use]
+pub fn material_name(kind: usize) -> String {
+    format!("cut {}", kind + 1)
+}
+
+/// Cuts a scene along a plane, and leaves what lies behind it.
+///
+/// Cut faces belong to the part that is cut, with a material of their own that is called `cut 1`, `cut 2` and so on and has the colour of
+/// the part. They cover what the part's outlines in the plane go round, by number of turns. A closed surface inside another one bounds a
+/// void if the file winds it the other way round, and is a solid otherwise; apart from that the winding does not matter. What lies within
+/// several parts has the one of the least volume. Outlines
+/// of open surfaces are closed over gaps of up to a ten-thousandth of the part; others are left open and counted in the warnings of the
+/// scene. Of parts whose name fits `uncut` nothing is cut off where the plane goes through them.
+#[must_use]
+pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
+    let mut keep = vec![true; scene.parts.len()];
+    // What has no material looks like the one after the last, which is another one when there are more.
+    let plain = scene.materials.len() as u32;
+    scene.materials.push(Material::default());
+    let mut numbers = Vec::new();
+    let mut opened: Vec<Opened> = Vec::new();
+    // Of each of these whether nothing of it lies in front of the plane.
+    let mut only_ends = Vec::new();
+    let mut unclosed = 0;
+    for (number, keep) in keep.iter_mut().enumerate() {
+        let part = &scene.parts[number];
+        let stays = uncut.iter().any(|glob| glob.matches(&part.name));
+        let Some(shape) = scene.geometry_of(part) else { continue };
+        let place = part.world_from_part;
+        let reach = Reach::of(shape, &place);
+        let (behind, before) = plane_clip::reaches(shape, &place, plane, reach.plane);
+        *keep = behind || !before;
+        // What only ends in the plane may lie within what is cut.
+        if behind && !stays && (before || plane_clip::has_flat(shape, &place, plane, reach.plane)) {
+            let shape = void_winding::wound_right(shape, &plane_clip::by_place(&shape.positions));
+            let cut = clipped(&shape, &place, (plane, reach));
+            if before {
+                unclosed += outline_gaps::closed(&cut).1;
+            }
+            only_ends.push(!before);
+            numbers.push(number);
+            opened.push(Opened { cut, volume: volume(&shape, &place), reach });
+        }
+    }
+    let made = capped(&mut opened, plane);
+    let mut faces_of = Vec::new();
+    for (((number, Opened { cut, .. }), cap), only_ends) in
+        numbers.into_iter().zip(opened).zip(made).zip(only_ends)
+    {
+        let Clipped { mut geometry, flat, .. } = cut;
+        if only_ends && cap.triangles.is_empty() && cap.pieces.is_empty() && cap.whole.len() == flat.len() {
+            continue;
+        }
+        let part = &scene.parts[number];
+        let looks = scene.geometry_of(part).and_then(|shape| shape.material_of(0)).unwrap_or(plain);
+        let count = geometry.triangles.len();
+        seam_division::sew(&mut geometry, count, &cap.seams);
+        if let Some(shape) = scene.geometry_of(part) {
+            let turned = part.world_from_part.matrix3.determinant() < 0.0;
+            for triangle in &cap.whole {
+                plane_clip::add_flat(&mut geometry, shape, *triangle, None, turned);
+            }
+            for (triangle, corners, marks) in &cap.pieces {
+                plane_clip::add_flat(&mut geometry, shape, *triangle, Some((*corners, *marks)), turned);
+            }
+        }
+        keep[number] =
+            !(geometry.triangles.is_empty() && geometry.wires.is_empty() && cap.triangles.is_empty());
+        if let Some(bounds) = cap.bounds {
+            let material = scene.materials.len() as u32;
+            scene.materials.push(cut_material(scene.materials.get(looks as usize)));
+            close(&mut geometry, &cap, material, looks);
+            faces_of.push(CutFaces { part: number, material, area: cap.area, bounds, kind: 0 });
+        }
+        let Part { geometry: of, world_from_part, .. } = &mut scene.parts[number];
+        (*of, *world_from_part) = (scene.geometries.len(), DAffine3::IDENTITY);
+        scene.geometries.push(geometry);
+    }
+    neighbour_kinds::number(&mut faces_of);
+    let names: Vec<usize> = scene.retain_parts(&keep);
+    for faces in &mut faces_of {
+        faces.part = names[faces.part];
+        scene.materials[faces.material as usize].name = material_name(faces.kind);
+    }
+    scene.warnings.count("outlines of cut surfaces that do not close, and are left open", unclosed);
+    Section { scene, faces: faces_of }
+}
+
+/// The volume that a shape encloses, world.
+fn volume(shape: &Geometry, place: &DAffine3) -> f64 {
+    let corner = |v: u32| shape.positions.get(v as usize).copied().unwrap_or_default();
+    let from = shape.triangles.first().map(|t| corner(t[0])).unwrap_or_default();
+    let of = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|v| corner(v) - from);
+        a.dot(b.cross(c))
+    };
+    (shape.triangles.iter().map(of).sum::<f64>() / 6.0 * place.matrix3.determinant()).abs()
+}
+
+/// The cut faces of solids, one entry each: those whose places in the plane may overlap are closed together.
+fn capped(opened: &mut [Opened], plane: &Plane) -> Vec<Cap> {
+    let bounds: Vec<_> = opened.iter().map(|own| own.bounds(plane)).collect();
+    let groups = Groups::new(opened.len(), |join| {
+        for (a, own) in bounds.iter().enumerate() {
+            for (b, other) in bounds[..a].iter().enumerate() {
+                let (Some([low, high]), Some([from, to])) = (own, other) else { continue };
+                if low.cmple(*to).all() && from.cmple(*high).all() {
+                    join(a as u32, b as u32);
+                }
+            }
+        }
+    });
+    let mut made: Vec<Cap> = opened.iter().map(|_| Cap::default()).collect();
+    for first in 0..opened.len() as u32 {
+        let is_in = |k: usize| groups.of(k as u32) == groups.of(first);
+        if (0..first as usize).any(is_in) {
+            continue;
+        }
+        let together: Vec<usize> = (0..opened.len()).filter(|k| is_in(*k)).collect();
+        let mut solids: Vec<&mut Opened> =
+            opened.iter_mut().enumerate().filter(|(k, _)| is_in(*k)).map(|(_, own)| own).collect();
+        for (k, cap) in together.into_iter().zip(section_caps::caps(&mut solids, plane)) {
+            made[k] = cap;
+        }
+    }
+    made
+}
+
+/// What is left of a shape; where its outlines do not close, vertices that nearly meet are joined as the mesh does it, and gaps closed that
+/// the mesh would sew.
+fn clipped(shape: &Geometry, place: &DAffine3, (plane, own): (&Plane, Reach)) -> Clipped {
+    let mut cut = plane_clip::clip(shape, place, (plane, own.plane), None);
+    let (_, unclosed) = outline_gaps::closed(&cut);
+    if unclosed == 0 {
+        return cut;
+    }
+    let world: Vec<_> =
+        shape.positions.iter().map(|p| place.transform_point3(*p) + glam::DVec3::ZERO).collect();
+    let mut used: Vec<u32> = shape.triangles.as_flattened().to_vec();
+    used.sort_unstable();
+    used.dedup();
+    let reaches = vec![own.points; used.len()];
+    if let Some(joined) = nearby_vertices::near(&world, &used, &reaches) {
+        let shape = void_winding::wound_right(shape, &joined);
+        let again = plane_clip::clip(&shape, place, (plane, own.plane), Some(&joined));
+        if outline_gaps::closed(&again).1 < unclosed {
+            cut = again;
+        }
+    }
+    outline_gaps::close(&mut cut, own.gap);
+    cut
+}
+
+/// The material of cut faces of a part that looks so.
+fn cut_material(of: Option<&Material>) -> Material {
+    let own = of.cloned().unwrap_or_default();
+    Material {
+        name: String::new(),
+        texture: None,
+        picture: None,
+        opacity_map: None,
+        alpha: Alpha::Opaque,
+        transmission: 0.0,
+        gloss: None,
+        ..own
+    }
+}
+
+/// Adds the cut faces to what is left of a shape.
+fn close(shape: &mut Geometry, faces: &Cap, material: u32, looks: u32) {
+    let before = shape.triangles.len();
+    if shape.triangle_material.is_empty() {
+        shape.triangle_material.resize(before, looks);
+    }
+    shape.triangles.extend(&faces.triangles);
+    shape.triangle_material.resize(shape.triangles.len(), material);
+    if !shape.corner_normals.is_empty() {
+        shape.corner_normals.resize(shape.triangles.len(), [u32::MAX; 3]);
+    }
+    if !shape.corner_uvs.is_empty() {
+        shape.corner_uvs.resize(shape.triangles.len(), [u32::MAX; 3]);
+    }
+    shape.edge_marks.resize(before, [EdgeMark::Unmarked; 3]);
+    shape.edge_marks.extend(&faces.marks);
+}

@@ -1,0 +1,75 @@
+//! [`closed`], [`close`]: which outlines close; those that do not are closed over small gaps.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+use super::plane_clip::Clipped;
+
+/// The edges that run in closed ways, and the number of connected outlines that do not.
+pub(crate) fn closed(cut: &Clipped) -> (Vec<([u32; 2], i32)>, u64) {
+    let mut parent: Vec<u32> = (0..cut.nodes.len() as u32).collect();
+    let mut excess = vec![0_i64; cut.nodes.len()];
+    fn root(parent: &mut [u32], mut v: u32) -> u32 {
+        while parent[v as usize] != v {
+            parent[v as usize] = parent[parent[v as usize] as usize];
+            v = parent[v as usize];
+        }
+        v
+    }
+    for ([a, b], times) in &cut.open {
+        excess[*a as usize] += i64::from(*times);
+        excess[*b as usize] -= i64::from(*times);
+        let (a, b) = (root(&mut parent, *a), root(&mut parent, *b));
+        parent[a.max(b) as usize] = a.min(b);
+    }
+    let mut is_open = vec![false; cut.nodes.len()];
+    for v in 0..cut.nodes.len() as u32 {
+        if excess[v as usize] != 0 {
+            is_open[root(&mut parent, v) as usize] = true;
+        }
+    }
+    let unclosed = is_open.iter().filter(|open| **open).count() as u64;
+    let closes = |([a, _], _): &&([u32; 2], i32)| !is_open[root(&mut parent, *a) as usize];
+    (cut.open.iter().filter(closes).copied().collect(), unclosed)
+}
+
+/// Joins ends of outlines that lie within `reach` (world) of each other, the nearest first: an outline that ends goes on where
+/// another one begins.
+pub(crate) fn close(cut: &mut Clipped, reach: f64) {
+    let mut excess = vec![0_i64; cut.nodes.len()];
+    for ([a, b], times) in &cut.open {
+        excess[*a as usize] += i64::from(*times);
+        excess[*b as usize] -= i64::from(*times);
+    }
+    let place = |node: u32| cut.geometry.positions[cut.nodes[node as usize] as usize];
+    let key = |p: DVec3| (p / reach).floor().to_array().map(|x| x as i64);
+    let mut begins: FxHashMap<[i64; 3], Vec<u32>> = FxHashMap::default();
+    for node in (0..cut.nodes.len() as u32).filter(|node| excess[*node as usize] > 0) {
+        begins.entry(key(place(node))).or_default().push(node);
+    }
+    let mut pairs: Vec<(f64, u32, u32)> = Vec::new();
+    for end in (0..cut.nodes.len() as u32).filter(|node| excess[*node as usize] < 0) {
+        let [x, y, z] = key(place(end));
+        for k in 0..27_i64 {
+            let field =
+                [x.saturating_add(k % 3 - 1), y.saturating_add(k / 3 % 3 - 1), z.saturating_add(k / 9 - 1)];
+            let near = begins.get(&field).into_iter().flatten();
+            let distance = |begin: &u32| place(*begin).distance(place(end));
+            let near = near.map(|begin| (distance(begin), end, *begin)).filter(|(far, ..)| *far <= reach);
+            // Of very many ends in one place a few will do.
+            pairs.extend(near.take(MAX_PAIRS));
+        }
+    }
+    pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
+    for (_, end, begin) in pairs {
+        let times = excess[begin as usize].min(-excess[end as usize]);
+        if times > 0 {
+            excess[begin as usize] -= times;
+            excess[end as usize] += times;
+            cut.open.push(([end, begin], times as i32));
+        }
+    }
+}
+
+/// Ends in one field that are tried for each other one.
+const MAX_PAIRS: usize = 64;

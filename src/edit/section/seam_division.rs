@@ -1,0 +1,111 @@
+//! [`sew`]: the surfaces of a solid along the plane that cut them, divided where its cut faces are.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+use crate::mesh::EdgeMark;
+use crate::scene::Geometry;
+
+/// What became of an edge along which a solid was cut open, from its first end to the second.
+#[derive(Debug, Clone)]
+pub(crate) struct Seam {
+    /// Points between its ends.
+    pub through: Vec<DVec3>,
+    /// What its pieces are, one more than there are points.
+    pub marks: Vec<EdgeMark>,
+}
+
+/// Seams by the places of their ends.
+pub(crate) type Seams = FxHashMap<[[u64; 3]; 2], Seam>;
+
+/// The bits of a place, by which it is known.
+pub(crate) fn bits(p: DVec3) -> [u64; 3] {
+    (p + DVec3::ZERO).to_array().map(f64::to_bits)
+}
+
+/// Divides the first so many triangles of a shape at its seams, and marks their sides there.
+pub(crate) fn sew(shape: &mut Geometry, count: usize, seams: &Seams) {
+    if seams.is_empty() {
+        return;
+    }
+    shape.edge_marks.resize(shape.triangles.len(), [EdgeMark::Unmarked; 3]);
+    for triangle in 0..count.min(shape.triangles.len()) {
+        let corners = shape.triangles[triangle];
+        let seam = |side: usize| {
+            let [a, b] = [corners[side], corners[(side + 1) % 3]].map(|v| bits(shape.positions[v as usize]));
+            let turned = |seam: &Seam| Seam {
+                through: seam.through.iter().rev().copied().collect(),
+                marks: seam.marks.iter().rev().copied().collect(),
+            };
+            seams.get(&[a, b]).cloned().or_else(|| seams.get(&[b, a]).map(turned))
+        };
+        // A face that lies in the plane as a whole is left as it is.
+        let found: Vec<(usize, Seam)> = (0..3).filter_map(|side| Some((side, seam(side)?))).collect();
+        if let [(side, seam)] = found.as_slice() {
+            divide(shape, triangle, *side, seam);
+        }
+    }
+}
+
+/// Divides a triangle into a fan over one of its sides.
+fn divide(shape: &mut Geometry, triangle: usize, side: usize, seam: &Seam) {
+    let [a, b, c] = [0, 1, 2].map(|k| (side + k) % 3);
+    let corners = shape.triangles[triangle];
+    let marks = shape.edge_marks.get(triangle).copied().unwrap_or_default();
+    let [from, to] = [corners[a], corners[b]].map(|v| shape.positions[v as usize]);
+    let share = |p: DVec3| ((p - from).dot(to - from) / (to - from).length_squared()) as f32;
+    let mut chain = vec![corners[a]];
+    let mut normals = vec![shape.corner_normals.get(triangle).map(|own| own[a])];
+    let mut uvs = vec![shape.corner_uvs.get(triangle).map(|own| own[a])];
+    for p in &seam.through {
+        chain.push(shape.positions.len() as u32);
+        shape.positions.push(*p);
+        let t = share(*p);
+        if !shape.colours.is_empty() {
+            shape.colours.resize(shape.positions.len() - 1, [1.0; 4]);
+            let [one, other] = [corners[a], corners[b]].map(|v| shape.colours[v as usize]);
+            shape.colours.push(std::array::from_fn(|k| one[k] + (other[k] - one[k]) * t));
+        }
+        normals
+            .push(shape.corner_normals.get(triangle).map(|own| mixed(&mut shape.normals, own[a], own[b], t)));
+        uvs.push(shape.corner_uvs.get(triangle).map(|own| mixed(&mut shape.uvs, own[a], own[b], t)));
+    }
+    chain.push(corners[b]);
+    normals.push(shape.corner_normals.get(triangle).map(|own| own[b]));
+    uvs.push(shape.corner_uvs.get(triangle).map(|own| own[b]));
+    let last = seam.marks.len() - 1;
+    let apex = [&shape.corner_normals, &shape.corner_uvs].map(|own| own.get(triangle).map(|own| own[c]));
+    for (k, mark) in seam.marks.iter().enumerate() {
+        let new = if k == 0 { triangle } else { shape.triangles.len() };
+        put(&mut shape.triangles, new, [chain[k], chain[k + 1], corners[c]]);
+        let mark = if *mark == EdgeMark::Unmarked { marks[a] } else { *mark };
+        let after = if k == last { marks[b] } else { EdgeMark::Hidden };
+        let before = if k == 0 { marks[c] } else { EdgeMark::Hidden };
+        put(&mut shape.edge_marks, new, [mark, after, before]);
+        if let (Some(one), Some(next), Some(third)) = (normals[k], normals[k + 1], apex[0]) {
+            put(&mut shape.corner_normals, new, [one, next, third]);
+        }
+        if let (Some(one), Some(next), Some(third)) = (uvs[k], uvs[k + 1], apex[1]) {
+            put(&mut shape.corner_uvs, new, [one, next, third]);
+        }
+        if let Some(material) = shape.triangle_material.get(triangle).copied() {
+            put(&mut shape.triangle_material, new, material);
+        }
+    }
+}
+
+/// Writes an entry, or adds it.
+fn put<T>(to: &mut Vec<T>, at: usize, value: T) {
+    match to.get_mut(at) {
+        Some(place) => *place = value,
+        None => to.push(value),
+    }
+}
+
+/// Adds what is between two entries; `u32::MAX` where one of them is missing.
+fn mixed<const N: usize>(to: &mut Vec<[f32; N]>, from: u32, next: u32, t: f32) -> u32 {
+    let entry = |k: u32| to.get(k as usize).copied();
+    let (Some(a), Some(b)) = (entry(from), entry(next)) else { return u32::MAX };
+    to.push(std::array::from_fn(|k| a[k] + (b[k] - a[k]) * t));
+    to.len() as u32 - 1
+}

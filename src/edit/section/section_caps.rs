@@ -1,0 +1,249 @@
+//! [`caps`]: the faces that close solids where a plane has cut them open.
+//!
+//! 1. Between the outlines of all of them, and the sides of faces that lie in the plane, the plane is triangulated.
+//! 2. Just behind the plane a triangle is within a solid by the number of times that its outlines go round it, so that holes stay open, and
+//!    shells of one solid that overlap are one. Of a triangle within several solids the smallest one has it: a bolt in a plate, a pipe in a
+//!    block, where no hole was made for them.
+//! 3. Just in front of the plane that number differs by the faces in the plane: one less where they look to the front, one more where
+//!    they look back. Where nothing is in front, the plane cuts nothing: the surface is a face of the model itself, and stays one.
+
+use std::cmp::Ordering;
+
+use glam::DVec2;
+use rustc_hash::FxHashMap;
+use spade::Triangulation as _;
+
+use super::coplanar_faces::{FlatFaces, Kept};
+use super::cut_outlines::{Edge, Faces, Outlines, Owner};
+use super::cut_tolerances::Reach;
+use super::outline_gaps::closed;
+use super::plane::Plane;
+use super::plane_clip::Clipped;
+use super::seam_division::{Seam, Seams, bits};
+use crate::mesh::EdgeMark;
+
+/// Cut faces of a solid.
+#[derive(Debug, Default)]
+pub(crate) struct Cap {
+    /// Vertices of the solid's shape, counter-clockwise seen from the front.
+    pub triangles: Vec<[u32; 3]>,
+    /// What their sides are.
+    pub marks: Vec<[EdgeMark; 3]>,
+    /// Their area, in units of the world squared.
+    pub area: f64,
+    /// Least and greatest place along the axes of the plane.
+    pub bounds: Option<[DVec2; 2]>,
+    /// What became of the open edges.
+    pub seams: Seams,
+    /// Triangles of the solid's own shape that lie in the plane and stay unchanged.
+    pub whole: Vec<usize>,
+    /// Pieces of such triangles: of which one, the vertices, and what the sides are.
+    pub pieces: Vec<(usize, [u32; 3], [EdgeMark; 3])>,
+}
+
+/// A solid that was cut open.
+pub(crate) struct Opened {
+    pub cut: Clipped,
+    /// Its volume, world.
+    pub volume: f64,
+    pub reach: Reach,
+}
+
+impl Opened {
+    /// The box around what lies in the plane, along its axes.
+    pub fn bounds(&self, plane: &Plane) -> Option<[DVec2; 2]> {
+        let place = |node: &u32| plane.flat(self.cut.geometry.positions[*node as usize]);
+        let of = |p: DVec2| [p, p];
+        let nodes = self.cut.nodes.iter().map(|node| of(place(node)));
+        nodes.reduce(|[low, high], [p, q]| [low.min(p), high.max(q)])
+    }
+
+    /// Which of two solids has what lies in both.
+    fn precedence(&self, other: &Self, plane: &Plane) -> Ordering {
+        // Rounded, so that the order of triangles does not matter.
+        let by_volume = (self.volume as f32).total_cmp(&(other.volume as f32));
+        let corners = |of: &Self| of.bounds(plane).unwrap_or_default();
+        let (own, its) = (corners(self), corners(other));
+        let number = |bounds: [DVec2; 2]| bounds.map(|p| p.to_array());
+        let by_place = number(own)
+            .as_flattened()
+            .iter()
+            .zip(number(its).as_flattened())
+            .fold(Ordering::Equal, |order, (a, b)| order.then(a.total_cmp(b)));
+        by_volume.then(by_place)
+    }
+}
+
+/// The cut faces of solids that may overlap, one entry each; vertices where outlines cross are added to their shapes.
+pub(crate) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
+    let mut outlines = Outlines::new(solids.iter().map(|own| own.reach.points).fold(0.0, f64::max));
+    let mut vertices: Vec<FxHashMap<u32, u32>> = vec![FxHashMap::default(); solids.len()];
+    let mut open: Vec<Vec<[u32; 2]>> = Vec::with_capacity(solids.len());
+    for (number, solid) in solids.iter().enumerate() {
+        let (cut, own) = (&solid.cut, &mut vertices[number]);
+        let mut point = |node: u32| {
+            let vertex = cut.nodes[node as usize];
+            let place = cut.geometry.positions[vertex as usize];
+            // Nodes at one place of the plane are one point.
+            let point = outlines.point(plane.flat(place), place);
+            own.entry(point).or_insert(vertex);
+            point
+        };
+        let (edges, _) = closed(cut);
+        // The new faces run the other way along the edges.
+        let ends: Vec<_> = edges.iter().map(|([a, b], times)| ([point(*b), point(*a)], *times)).collect();
+        let flats: Vec<[u32; 3]> = cut.flat.iter().map(|flat| flat.nodes.map(&mut point)).collect();
+        for (of, (ends, times)) in ends.into_iter().enumerate().filter(|(_, ([a, b], _))| a != b) {
+            outlines.edges.push(Edge { ends, times, solid: number as u32, of: of as u32, flat: false });
+        }
+        for corners in flats {
+            for k in 0..3 {
+                let ends = [corners[k], corners[(k + 1) % 3]];
+                if ends[0] != ends[1] {
+                    outlines.edges.push(Edge { ends, times: 1, solid: number as u32, of: 0, flat: true });
+                }
+            }
+        }
+        open.push(edges.iter().map(|(ends, _)| ends.map(|node| cut.nodes[node as usize])).collect());
+    }
+    let mut made: Vec<Cap> = solids.iter().map(|_| Cap::default()).collect();
+    let Some(faces) = outlines.triangulated(plane) else { return made };
+    let mut ranked: Vec<usize> = (0..solids.len()).collect();
+    ranked.sort_by(|a, b| solids[*a].precedence(solids[*b], plane).then(a.cmp(b)));
+    let mut rank = vec![0; solids.len()];
+    ranked.iter().enumerate().for_each(|(k, solid)| rank[*solid] = k);
+    let owner = owners(&faces, &outlines, &rank);
+    let flats: Vec<FlatFaces> = solids.iter().map(|own| FlatFaces::new(&own.cut, plane)).collect();
+    let kept = Kept::new(&faces, &outlines, &owner, &flats);
+    for (own, flats) in made.iter_mut().zip(kept.whole(&flats)) {
+        own.whole = flats;
+    }
+
+    let mut vertex = |solid: usize, point: u32| {
+        *vertices[solid].entry(point).or_insert_with(|| {
+            let geometry = &mut solids[solid].cut.geometry;
+            geometry.positions.push(outlines.place(point));
+            if !geometry.colours.is_empty() {
+                geometry.colours.resize(geometry.positions.len(), [1.0; 4]);
+            }
+            geometry.positions.len() as u32 - 1
+        })
+    };
+    for face in faces.inner_faces() {
+        let index = face.fix().index();
+        let corners = face.vertices().map(|corner| corner.fix().index() as u32);
+        let beyond = face.adjacent_edges().map(|edge| edge.rev().face().fix().index());
+        if let Some(piece) = kept.of(index) {
+            if !kept.is_whole(piece) {
+                let [solid, flat] = piece;
+                let is_same = |beyond: usize| kept.of(beyond) == Some(piece);
+                let mark =
+                    |beyond: usize| if is_same(beyond) { EdgeMark::Hidden } else { EdgeMark::Unmarked };
+                let corners = corners.map(|corner| vertex(solid, corner));
+                made[solid].pieces.push((flats[solid].triangle(flat), corners, beyond.map(mark)));
+            }
+            continue;
+        }
+        let Some(Owner { solid, .. }) = owner[index] else { continue };
+        let own = &mut made[solid as usize];
+        let is_own = |beyond: usize| {
+            owner[beyond].is_some_and(|owner| owner.solid == solid) && kept.of(beyond).is_none()
+        };
+        let mark = |beyond: usize| if is_own(beyond) { EdgeMark::Hidden } else { EdgeMark::Cut };
+        own.marks.push(beyond.map(mark));
+        own.triangles.push(corners.map(|corner| vertex(solid as usize, corner)));
+        let [a, b, c] = corners.map(|corner| outlines.at(corner));
+        own.area += (b - a).perp_dot(c - a) / 2.0;
+        let [low, high] = own.bounds.unwrap_or([a, a]);
+        own.bounds = Some([low.min(a).min(b).min(c), high.max(a).max(b).max(c)]);
+    }
+    // What became of each open edge: along it faces of its solid end, or those of another one have taken their place.
+    let corners: Vec<_> = faces.fixed_vertices().collect();
+    let mut pieces: Vec<&Edge> = outlines.edges.iter().filter(|edge| !edge.flat).collect();
+    pieces.sort_by_key(|edge| (edge.solid, edge.of));
+    for own in pieces.chunk_by(|a, b| (a.solid, a.of) == (b.solid, b.of)) {
+        let (solid, of) = (own[0].solid, own[0].of as usize);
+        let place = |point: u32| outlines.place(point);
+        let [from, to] =
+            open[solid as usize][of].map(|v| solids[solid as usize].cut.geometry.positions[v as usize]);
+        let along = |point: u32| (place(point) - from).dot(to - from);
+        // Outlines run against the open edge.
+        let mut own: Vec<[u32; 2]> = own.iter().map(|edge| [edge.ends[1], edge.ends[0]]).collect();
+        own.sort_by(|a, b| along(a[0]).total_cmp(&along(b[0])));
+        let mark = |[a, b]: &[u32; 2]| {
+            let Some(edge) = faces.get_edge_from_neighbors(corners[*a as usize], corners[*b as usize]) else {
+                return EdgeMark::Unmarked;
+            };
+            let is_own = |face: usize| owner[face].is_some_and(|owner| owner.solid == solid);
+            let [left, right] = [edge.face().fix().index(), edge.rev().face().fix().index()];
+            if is_own(left) == is_own(right) { EdgeMark::Covered } else { EdgeMark::Unmarked }
+        };
+        let seam = Seam {
+            marks: own.iter().map(mark).collect(),
+            through: own.iter().skip(1).map(|[a, _]| place(*a)).collect(),
+        };
+        if seam.marks.as_slice() != [EdgeMark::Unmarked] {
+            made[solid as usize].seams.insert([bits(from), bits(to)], seam);
+        }
+    }
+    made
+}
+
+/// How often outlines of a solid go round a triangle: just behind the plane, and by how much less just in front of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Turns {
+    solid: u32,
+    behind: i32,
+    flat: i32,
+}
+
+/// For each face the solid that has it: of those whose outlines go round it the one of the least rank.
+fn owners(faces: &Faces, outlines: &Outlines, rank: &[usize]) -> Vec<Option<Owner>> {
+    let mut along: FxHashMap<[u32; 2], Vec<Turns>> = FxHashMap::default();
+    for edge in &outlines.edges {
+        let [a, b] = edge.ends;
+        let times = if a < b { edge.times } else { -edge.times };
+        let (behind, flat) = if edge.flat { (0, times) } else { (times, 0) };
+        add(along.entry([a.min(b), a.max(b)]).or_default(), Turns { solid: edge.solid, behind, flat });
+    }
+    let mut turns: Vec<Option<Vec<Turns>>> = vec![None; faces.num_all_faces()];
+    let outer = faces.outer_face();
+    turns[outer.fix().index()] = Some(Vec::new());
+    let mut waiting: Vec<_> = faces.convex_hull().map(|edge| (edge, Vec::new())).collect();
+    // The left side of an edge is gone round as often more than its right side as there are faces along it.
+    while let Some((edge, own)) = waiting.pop() {
+        let beyond = edge.rev();
+        let Some(next) = beyond.face().as_inner() else { continue };
+        if turns[next.fix().index()].is_some() {
+            continue;
+        }
+        let [from, to] = [beyond.from(), beyond.to()].map(|corner| corner.fix().index() as u32);
+        let mut found = own;
+        for turns in along.get(&[from.min(to), from.max(to)]).into_iter().flatten() {
+            let way = if from < to { 1 } else { -1 };
+            add(&mut found, Turns { solid: turns.solid, behind: turns.behind * way, flat: turns.flat * way });
+        }
+        waiting.extend(next.adjacent_edges().map(|edge| (edge, found.clone())));
+        turns[next.fix().index()] = Some(found);
+    }
+    let first = |turns: Vec<Turns>| {
+        let is_cut = turns.iter().any(|turns| turns.behind != turns.flat);
+        let within = turns.into_iter().filter(|turns| turns.behind != 0).map(|turns| turns.solid);
+        within.min_by_key(|solid| rank[*solid as usize]).map(|solid| Owner { solid, is_cut })
+    };
+    turns.into_iter().map(|turns| turns.and_then(first)).collect()
+}
+
+/// Adds to the numbers that stand for a solid.
+fn add(to: &mut Vec<Turns>, more: Turns) {
+    match to.iter().position(|known| known.solid == more.solid) {
+        None => to.push(more),
+        Some(k) => {
+            to[k].behind += more.behind;
+            to[k].flat += more.flat;
+            if to[k].behind == 0 && to[k].flat == 0 {
+                to.swap_remove(k);
+            }
+        }
+    }
+}

@@ -1,0 +1,320 @@
+//! [`wound_right`]: a shape whose surfaces are wound so that sums of turns tell material from voids.
+//!
+//! Each surface is turned to show its outside (see `mesh::orientation`). A closed surface inside others bounds a void if the file
+//! winds it against them: nothing else tells a void from a solid that lies within another one. It is inside if it is so just behind
+//! all its vertices. Surfaces that merely overlap are solids, however they are wound, and become one with their neighbours.
+
+use std::borrow::Cow;
+use std::cmp::Ordering;
+
+use glam::{DAffine3, DVec2, DVec3};
+use robust::{Coord, Coord3D, orient2d, orient3d};
+
+use super::cut_tolerances::Reach;
+use crate::geometry::numbers::portable_math::acos;
+use crate::mesh::Edges;
+use crate::mesh::components::orientation::{Surfaces, Triangles};
+use crate::scene::Geometry;
+
+/// Boxes and faces are compared at most this many times for each face there is; where that is not enough the shape stays as the
+/// file winds it.
+const PATIENCE: usize = 64;
+
+/// The shape, with faces turned where its surfaces are wound wrongly. Each vertex stands for all at its place in `one`.
+pub(crate) fn wound_right<'a>(shape: &'a Geometry, one: &[u32]) -> Cow<'a, Geometry> {
+    let corners = |t: &[u32; 3]| t.map(|v| one.get(v as usize).copied().unwrap_or(v));
+    let is_sound = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
+    let (faces, triangles): (Vec<usize>, Vec<[u32; 3]>) =
+        shape.triangles.iter().map(corners).enumerate().filter(|(_, t)| is_sound(t)).unzip();
+    let edges = Edges::build(shape.positions.len(), &triangles);
+    let mesh = Triangles { positions: &shape.positions, triangles: &triangles, parts: &[], edges: &edges };
+    let mut surfaces = Surfaces::new(&mesh);
+    let inset = Reach::of(shape, &DAffine3::IDENTITY).plane;
+    if turn_voids(&mesh, &mut surfaces, inset).is_none() || surfaces.turned.is_empty() {
+        return Cow::Borrowed(shape);
+    }
+    let mut shape = shape.clone();
+    for (face, _) in faces.into_iter().zip(&surfaces.turned).filter(|(_, turned)| **turned) {
+        shape.turn(face);
+    }
+    Cow::Owned(shape)
+}
+
+impl Geometry {
+    /// Turns a triangle, with all that is stored for its corners and sides.
+    fn turn(&mut self, triangle: usize) {
+        for list in [&mut self.triangles, &mut self.corner_normals, &mut self.corner_uvs] {
+            if let Some(own) = list.get_mut(triangle) {
+                own.swap(1, 2);
+            }
+        }
+        // The sides 0-1, 1-2, 2-0 become 0-2, 2-1, 1-0.
+        if let Some(marks) = self.edge_marks.get_mut(triangle) {
+            marks.swap(0, 2);
+        }
+    }
+}
+
+/// Turns closed surfaces that bound voids inside others; none if that takes too long. Surfaces nearer than `inset` may touch.
+fn turn_voids(mesh: &Triangles, surfaces: &mut Surfaces, inset: f64) -> Option<()> {
+    let mut budget = PATIENCE * mesh.triangles.len();
+    let mut is_void = in_boxes(mesh, surfaces, &mut budget)?;
+    if !is_void.contains(&true) {
+        return Some(());
+    }
+    let ways = ways(mesh, surfaces);
+    let mut rays = Rays::new(mesh, surfaces, (&is_void, inset));
+    rays.cross(mesh, surfaces, &ways, budget)?;
+    for ray in &rays.starts {
+        let surface = ray.surface as usize;
+        is_void[surface] &= ray.turns * ways[surface] < 0;
+    }
+    surfaces.turned.resize(mesh.triangles.len(), false);
+    for (turned, surface) in surfaces.turned.iter_mut().zip(&surfaces.of_face.of_face) {
+        *turned ^= is_void[*surface as usize];
+    }
+    if !surfaces.turned.contains(&true) {
+        surfaces.turned.clear();
+    }
+    Some(())
+}
+
+/// For each surface 1 if the file winds the larger part of it outward, and -1 if inward.
+fn ways(mesh: &Triangles, surfaces: &Surfaces) -> Vec<i32> {
+    let mut outward = vec![0.0; surfaces.is_closed.len()];
+    for (face, (corners, surface)) in mesh.triangles.iter().zip(&surfaces.of_face.of_face).enumerate() {
+        let [a, b, c] = corners.map(|v| mesh.positions[v as usize]);
+        let area = (b - a).cross(c - a).length();
+        outward[*surface as usize] += if is_turned(surfaces, face) { -area } else { area };
+    }
+    outward.into_iter().map(|area| if area < 0.0 { -1 } else { 1 }).collect()
+}
+
+fn is_turned(surfaces: &Surfaces, face: usize) -> bool {
+    surfaces.turned.get(face).copied().unwrap_or_default()
+}
+
+/// Which closed surfaces have their box in the box of another one, or at its sides.
+fn in_boxes(mesh: &Triangles, surfaces: &Surfaces, budget: &mut usize) -> Option<Vec<bool>> {
+    let count = surfaces.is_closed.len();
+    let mut boxes = vec![[DVec3::INFINITY, DVec3::NEG_INFINITY]; count];
+    for (corners, surface) in mesh.triangles.iter().zip(&surfaces.of_face.of_face) {
+        let [low, high] = &mut boxes[*surface as usize];
+        for p in corners.map(|v| mesh.positions[v as usize]) {
+            (*low, *high) = (low.min(p), high.max(p));
+        }
+    }
+    let mut closed: Vec<usize> = (0..count).filter(|surface| surfaces.is_closed[*surface]).collect();
+    // The larger of two boxes that begin at one x comes first.
+    let key = |surface: usize| {
+        let [low, high] = boxes[surface];
+        [low.x, low.y, low.z, -high.x, -high.y, -high.z]
+    };
+    closed.sort_by(|a, b| {
+        let pairs = key(*a).into_iter().zip(key(*b));
+        pairs.fold(Ordering::Equal, |order, (p, q)| order.then(p.total_cmp(&q))).then(a.cmp(b))
+    });
+    let mut inside = vec![false; count];
+    for (k, inner) in closed.iter().enumerate() {
+        let [low, high] = boxes[*inner];
+        // The box of an outer surface begins before.
+        for outer in closed[..k].iter().rev() {
+            *budget = budget.checked_sub(1)?;
+            let [from, to] = boxes[*outer];
+            if from.cmple(low).all() && to.cmpge(high).all() && [from, to] != [low, high] {
+                inside[*inner] = true;
+                break;
+            }
+        }
+    }
+    Some(inside)
+}
+
+/// A ray along x, and how often other surfaces go round its start, as the file winds them.
+struct Ray {
+    from: DVec3,
+    surface: u32,
+    turns: i32,
+}
+
+/// Rays in rows of about equal height along y, each by z, of where they start.
+struct Rays {
+    starts: Vec<Ray>,
+    /// Where each row begins, and the end of the last.
+    rows: Vec<usize>,
+    low: f64,
+    height: f64,
+}
+
+impl Rays {
+    /// Those just behind all vertices of some surfaces.
+    ///
+    /// Source: Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal", 2005: a point goes into the
+    /// solid against the normals of a vertex, each weighted by its angle.
+    fn new(mesh: &Triangles, surfaces: &Surfaces, (wanted, inset): (&[bool], f64)) -> Self {
+        let mut corners: Vec<((u32, u32), DVec3)> = Vec::new();
+        for (face, (t, surface)) in mesh.triangles.iter().zip(&surfaces.of_face.of_face).enumerate() {
+            if !wanted[*surface as usize] {
+                continue;
+            }
+            let place = |k: usize| mesh.positions[t[k % 3] as usize];
+            let normal = (place(1) - place(0)).cross(place(2) - place(0)).normalize_or_zero();
+            let outward = if is_turned(surfaces, face) { -normal } else { normal };
+            for (k, v) in t.iter().enumerate() {
+                let sides = [1, 2].map(|n| (place(k + n) - place(k)).normalize_or_zero());
+                let angle = acos(sides[0].dot(sides[1]).clamp(-1.0, 1.0));
+                corners.push(((*v, *surface), outward * angle));
+            }
+        }
+        // Stable, so that sums are taken in the order of faces.
+        corners.sort_by_key(|corner| corner.0);
+        let ray = |own: &[((u32, u32), DVec3)]| {
+            let ((v, surface), _) = own[0];
+            let outward = own.iter().map(|corner| corner.1).sum::<DVec3>().normalize_or_zero();
+            Ray { from: mesh.positions[v as usize] - outward * inset, surface, turns: 0 }
+        };
+        let mut starts: Vec<Ray> = corners.chunk_by(|a, b| a.0 == b.0).map(ray).collect();
+        let y = |ray: &Ray| ray.from.y;
+        let low = starts.iter().map(y).fold(f64::INFINITY, f64::min);
+        let high = starts.iter().map(y).fold(f64::NEG_INFINITY, f64::max);
+        let count = starts.len().isqrt().max(1);
+        let mut rays =
+            Self { starts: Vec::new(), rows: vec![0; count + 1], low, height: (high - low) / count as f64 };
+        starts.sort_by(|a, b| {
+            let rows = rays.row(a.from.y).cmp(&rays.row(b.from.y));
+            rows.then(a.from.z.total_cmp(&b.from.z))
+        });
+        rays.rows = (0..=count).map(|row| starts.partition_point(|ray| rays.row(ray.from.y) < row)).collect();
+        rays.starts = starts;
+        rays
+    }
+
+    /// The row of a height; what lies below the first is in the first, what lies above the last in the last.
+    fn row(&self, y: f64) -> usize {
+        (((y - self.low) / self.height).max(0.0) as usize).min(self.rows.len() - 2)
+    }
+
+    /// Counts crossings with closed surfaces other than the rays' own; none if that takes too long.
+    fn cross(
+        &mut self,
+        mesh: &Triangles,
+        surfaces: &Surfaces,
+        ways: &[i32],
+        mut budget: usize,
+    ) -> Option<()> {
+        for (face, (corners, surface)) in mesh.triangles.iter().zip(&surfaces.of_face.of_face).enumerate() {
+            if !surfaces.is_closed[*surface as usize] {
+                continue;
+            }
+            let corners = corners.map(|v| mesh.positions[v as usize]);
+            let way = ways[*surface as usize] * if is_turned(surfaces, face) { -1 } else { 1 };
+            let [a, b, c] = corners;
+            let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+            for row in self.row(low.y)..=self.row(high.y) {
+                budget = budget.checked_sub(1)?;
+                let own = &mut self.starts[self.rows[row]..self.rows[row + 1]];
+                let first = own.partition_point(|ray| ray.from.z < low.z);
+                for ray in own[first..].iter_mut().take_while(|ray| ray.from.z <= high.z) {
+                    budget = budget.checked_sub(1)?;
+                    if ray.surface != *surface && ray.from.x < high.x {
+                        ray.turns += way * crosses(corners, ray.from);
+                    }
+                }
+            }
+        }
+        Some(())
+    }
+}
+
+/// 1 if a ray from a point along x crosses a triangle from behind, -1 if from the front, and 0 if not at all. A ray through an edge
+/// crosses one of the two triangles there.
+///
+/// Source: crossing numbers of polygons, Haines, "Point in polygon strategies", Graphics Gems IV, 1994, with exact signs.
+fn crosses([a, b, c]: [DVec3; 3], p: DVec3) -> i32 {
+    let flat = |p: DVec3| DVec2::new(p.y, p.z);
+    let is_left = |q: DVec3, r: DVec3| {
+        let (q, r) = if q.z < r.z { (flat(q), flat(r)) } else { (flat(r), flat(q)) };
+        let coord = |p: DVec2| Coord { x: p.x, y: p.y };
+        (q.y > p.z) != (r.y > p.z) && orient2d(coord(q), coord(r), coord(flat(p))) > 0.0
+    };
+    let is_within = is_left(a, b) ^ is_left(b, c) ^ is_left(c, a);
+    let [ay, by, cy] = [a, b, c].map(|p| Coord { x: p.y, y: p.z });
+    let coord = |p: DVec3| Coord3D { x: p.x, y: p.y, z: p.z };
+    if !is_within {
+        return 0;
+    }
+    // The first is positive if the normal leads along x, the second if the point lies behind the triangle.
+    let (along, behind) = (orient2d(ay, by, cy), orient3d(coord(a), coord(b), coord(c), coord(p)));
+    if along > 0.0 && behind > 0.0 {
+        1
+    } else if along < 0.0 && behind < 0.0 {
+        -1
+    } else {
+        0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cubes with their half sides, of which some are wound inward.
+    fn cubes(of: &[(DVec3, f64, bool)]) -> Geometry {
+        let mut shape = Geometry::default();
+        for (middle, half, inward) in of {
+            let first = shape.positions.len() as u32;
+            let corner =
+                |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)) * 2.0 - 1.0;
+            shape.positions.extend((0..8).map(|k| *middle + corner(k) * *half));
+            let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+            for [a, b, c, d] in quads.map(|quad| quad.map(|v: u32| v + first)) {
+                let two = [[a, b, c], [a, c, d]];
+                shape.triangles.extend(two.map(|[a, b, c]| if *inward { [a, c, b] } else { [a, b, c] }));
+            }
+        }
+        shape
+    }
+
+    /// Whether each cube is wound inward afterwards.
+    fn inward(of: &[(DVec3, f64, bool)]) -> Vec<bool> {
+        let shape = cubes(of);
+        let one: Vec<u32> = (0..shape.positions.len() as u32).collect();
+        let right = wound_right(&shape, &one);
+        let outward = cubes(&of.iter().map(|(at, half, _)| (*at, *half, false)).collect::<Vec<_>>());
+        right
+            .triangles
+            .chunks(12)
+            .zip(outward.triangles.chunks(12))
+            .map(|(own, other)| own != other)
+            .collect()
+    }
+
+    #[test]
+    fn surfaces_inside_others_bound_voids_if_they_are_wound_against_them() {
+        let o = DVec3::ZERO;
+        for flags in 0..8_u32 {
+            let is = |k: u32| flags >> k & 1 == 1;
+            assert_eq!(inward(&[(o, 3.0, is(0)), (o, 2.0, is(1))]), [false, is(0) != is(1)]);
+            // A core in a void is a solid, and a void in a core is one again.
+            let core = [(o, 4.0, is(0)), (o, 3.0, !is(0)), (o, 2.0, is(1)), (o, 1.0, !is(0))];
+            assert_eq!(inward(&core), [false, true, false, is(0) == is(1)]);
+            // Inside, and at one side.
+            let at_side = [(o, 3.0, is(0)), (DVec3::X * 2.0, 1.0, is(1))];
+            assert_eq!(inward(&at_side), [false, is(0) != is(1)]);
+            // Next to each other, overlapping, one that sticks out of the other, and two that touch.
+            assert_eq!(inward(&[(o, 1.0, is(0)), (DVec3::X * 5.0, 1.0, is(1))]), [false; 2]);
+            assert_eq!(inward(&[(o, 1.0, is(0)), (DVec3::ONE, 1.0, is(1))]), [false; 2]);
+            assert_eq!(inward(&[(o, 2.0, is(0)), (DVec3::X * 2.0, 1.0, is(1))]), [false; 2]);
+            assert_eq!(inward(&[(o, 2.0, is(0)), (DVec3::X * 3.0, 1.0, is(1))]), [false; 2]);
+        }
+    }
+
+    #[test]
+    fn rays_cross_one_of_two_triangles_at_an_edge() {
+        let [a, b, c, d] =
+            [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[y, z]| DVec3::new(2.0, y, z));
+        for (p, wanted) in [(DVec3::new(0.0, 0.5, 0.5), 1), (DVec3::new(3.0, 0.5, 0.5), 0)] {
+            assert_eq!(crosses([a, b, c], p) + crosses([a, c, d], p), wanted);
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! Collapses in a file: which point falls onto which, in their order. All else follows from the model, which the file is
+//! bound to by a sum over it.
+//!
+//! The file is `ligne-lod`, a byte for its version, the sum of the model (8 bytes, as all numbers from the lowest byte),
+//! how many collapses there are, for each the point that falls and how far in number the other lies from it, and the
+//! sum of what is left. Numbers of any size are in groups of seven bits, the lowest first, with the eighth set but for
+//! the last; signs go into the lowest bit.
+
+use super::collapse_record::Record;
+use super::edge_collapse::{Collapser, SWEEP};
+use super::flat_surface::Flat;
+use crate::error::{Error, ErrorKind};
+use crate::scene::Scene;
+
+const MAGIC: &[u8] = b"ligne-lod";
+const VERSION: u8 = 1;
+
+/// The collapses of a scene as the bytes of a file.
+pub(crate) fn written(record: &Record, scene: &Scene) -> Vec<u8> {
+    let mut bytes = MAGIC.to_vec();
+    bytes.push(VERSION);
+    bytes.extend(sum_of(&Flat::of(scene)).to_le_bytes());
+    let steps = || record.steps.iter().filter(|step| step.from != SWEEP);
+    put(&mut bytes, steps().count() as u64);
+    for step in steps() {
+        put(&mut bytes, u64::from(step.from));
+        let far = i64::from(step.to) - i64::from(step.from);
+        put(&mut bytes, (far << 1 ^ far >> 63).cast_unsigned());
+    }
+    bytes.extend(sum_of_left(record).to_le_bytes());
+    bytes
+}
+
+/// The collapses of a scene from the bytes of a file.
+pub(crate) fn read(bytes: &[u8], scene: &Scene) -> Result<Record, Error> {
+    let rest =
+        bytes.strip_prefix(MAGIC).ok_or_else(|| Error::new("this is not a file of levels of detail"))?;
+    let (version, rest) = rest.split_first().ok_or_else(cut_off)?;
+    if *version != VERSION {
+        return Err(Error::new(format!("levels of detail of version {version} cannot be read"))
+            .of_kind(ErrorKind::Unsupported)
+            .remedy("write them again with ligne lod"));
+    }
+    let (sum, mut rest) = rest.split_first_chunk().ok_or_else(cut_off)?;
+    let flat = Flat::of(scene);
+    if u64::from_le_bytes(*sum) != sum_of(&flat) {
+        return Err(Error::new(
+            "these levels of detail belong to another model, or to an older version of it",
+        )
+        .remedy("write them again with ligne lod"));
+    }
+    let mut surface = Collapser::new(flat);
+    let points = surface.sites.len() as u64;
+    for step in 0..take(&mut rest)? {
+        let from = take(&mut rest)?;
+        let far = take(&mut rest)?;
+        let far = (far >> 1).cast_signed() ^ -(far & 1).cast_signed();
+        let to = from.checked_add_signed(far).filter(|to| from.max(*to) < points && *to != from);
+        // Points are counted in 32 bits.
+        let fits = to.is_some_and(|to| surface.replay(from as u32, to as u32));
+        if !fits {
+            return Err(Error::new("a collapse of two points without an edge").at(format!("collapse {step}")));
+        }
+    }
+    let sum: &[u8; 8] = rest.try_into().map_err(|_| cut_off())?;
+    if u64::from_le_bytes(*sum) != sum_of_left(&surface.record) {
+        return Err(Error::new("the collapses do not match the model; the file is damaged"));
+    }
+    Ok(surface.record)
+}
+
+fn cut_off() -> Error {
+    Error::new("the file ends too early or too late; it is damaged").remedy("write it again with ligne lod")
+}
+
+fn put(bytes: &mut Vec<u8>, mut number: u64) {
+    while number > 0x7f {
+        bytes.push(number as u8 | 0x80);
+        number >>= 7;
+    }
+    bytes.push(number as u8);
+}
+
+fn take(bytes: &mut &[u8]) -> Result<u64, Error> {
+    let mut number = 0;
+    for shift in (0..63).step_by(7) {
+        let (byte, rest) = bytes.split_first().ok_or_else(cut_off)?;
+        *bytes = rest;
+        number |= u64::from(byte & 0x7f) << shift;
+        if *byte < 0x80 {
+            return Ok(number);
+        }
+    }
+    Err(Error::new("a number is too large; the file is damaged"))
+}
+
+/// A sum over many words, in which each counts with its place.
+#[derive(Default)]
+struct Sum(u64);
+
+impl Sum {
+    fn add(&mut self, word: u64) {
+        self.0 = (self.0.rotate_left(29) ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+
+    fn add_all<T>(&mut self, values: impl ExactSizeIterator<Item = T>, word: impl Fn(T) -> u64) {
+        self.add(values.len() as u64);
+        values.for_each(|value| self.add(word(value)));
+    }
+
+    fn add_triples(&mut self, triples: &[[u32; 3]]) {
+        self.add_all(triples.as_flattened().iter(), |value| u64::from(*value));
+    }
+}
+
+/// The sum of all that the order of collapses rests on.
+fn sum_of(flat: &Flat) -> u64 {
+    let mut sum = Sum::default();
+    sum.add_all(flat.points.iter(), |p| {
+        let [x, y, z] = p.to_array().map(f64::to_bits);
+        x ^ y.rotate_left(21) ^ z.rotate_left(42)
+    });
+    sum.add_triples(&flat.faces);
+    sum.add_all(flat.wedges.iter(), |wedge| {
+        u64::from(wedge.vertex)
+            ^ u64::from(wedge.normal).rotate_left(21)
+            ^ u64::from(wedge.uv).rotate_left(42)
+    });
+    sum.add_all(flat.class.iter(), |class| u64::from(*class));
+    sum.add_all(flat.normals.as_flattened().iter(), |part| u64::from(part.to_bits()));
+    sum.add_all(flat.material.iter(), |material| u64::from(*material));
+    sum.add_all(flat.in_file.iter(), |face| u64::from(*face));
+    sum.add_all(flat.marked.as_flattened().iter(), |marked| u64::from(*marked));
+    sum.add_all(flat.ranges.iter(), |range| range.end as u64);
+    sum.add_all(flat.weights.iter(), |weight| weight.to_bits());
+    sum.0 ^ sum.0 >> 32
+}
+
+/// The sum of what is left after all collapses.
+fn sum_of_left(record: &Record) -> u64 {
+    let mut sum = Sum::default();
+    for step in &record.steps {
+        sum.add(u64::from(step.changes_end) << 32 | u64::from(step.removed_end));
+    }
+    sum.add_all(record.changes.iter(), |change| u64::from(change.corner) << 32 | u64::from(change.after));
+    sum.add_all(record.removed.iter(), |face| u64::from(*face));
+    sum.0 ^ sum.0 >> 32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_of_any_size_are_read_as_written() {
+        let numbers = [0, 1, 127, 128, 300, 1 << 20, u64::from(u32::MAX), (1 << 63) - 1];
+        let mut bytes = Vec::new();
+        numbers.iter().for_each(|number| put(&mut bytes, *number));
+        let mut rest = &bytes[..];
+        assert!(numbers.iter().all(|number| take(&mut rest) == Ok(*number)));
+        assert!(rest.is_empty() && take(&mut rest).is_err() && take(&mut &[0xff; 12][..]).is_err());
+    }
+}

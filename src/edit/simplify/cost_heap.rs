@@ -1,0 +1,153 @@
+//! [`Heap`]: points waiting in order of their cost, each once; the cost of any can change.
+
+/// Where a point is that does not wait.
+const OUT: u32 = u32::MAX;
+
+/// Children of a node: more make the heap flat, and kinder to the cache.
+const CHILDREN: usize = 4;
+
+/// A heap of points by cost, the least first; of equal costs the point of the smaller number.
+#[derive(Debug)]
+pub(crate) struct Heap {
+    nodes: Vec<(f64, u32)>,
+    /// Where each point stands among the nodes.
+    places: Vec<u32>,
+}
+
+fn before(a: (f64, u32), b: (f64, u32)) -> bool {
+    match a.0.total_cmp(&b.0) {
+        std::cmp::Ordering::Equal => a.1 < b.1,
+        order => order.is_lt(),
+    }
+}
+
+impl Heap {
+    /// All points from 0 that have a cost.
+    pub fn new(costs: &[Option<f64>]) -> Self {
+        let nodes: Vec<(f64, u32)> = costs
+            .iter()
+            .enumerate()
+            .filter_map(|(point, cost)| cost.map(|cost| (cost, point as u32)))
+            .collect();
+        let mut heap = Self { nodes, places: vec![OUT; costs.len()] };
+        for (place, &(_, point)) in heap.nodes.iter().enumerate() {
+            heap.places[point as usize] = place as u32;
+        }
+        for place in (0..heap.nodes.len().div_ceil(CHILDREN)).rev() {
+            heap.sink(place);
+        }
+        heap
+    }
+
+    /// Takes out the first.
+    pub fn pop(&mut self) -> Option<(f64, u32)> {
+        let first = *self.nodes.first()?;
+        self.remove(first.1);
+        Some(first)
+    }
+
+    /// The cost of a point that waits.
+    pub fn cost(&self, point: u32) -> Option<f64> {
+        self.nodes.get(self.places[point as usize] as usize).map(|node| node.0)
+    }
+
+    /// Lets a point wait at a cost, whether it waited before or not.
+    pub fn set(&mut self, point: u32, cost: f64) {
+        let mut place = self.places[point as usize] as usize;
+        if place == OUT as usize {
+            place = self.nodes.len();
+            self.nodes.push((cost, point));
+            self.places[point as usize] = place as u32;
+        } else {
+            self.nodes[place].0 = cost;
+        }
+        let place = self.rise(place);
+        self.sink(place);
+    }
+
+    /// Takes a point out, if it waits.
+    pub fn remove(&mut self, point: u32) {
+        let place = self.places[point as usize];
+        if place == OUT {
+            return;
+        }
+        self.places[point as usize] = OUT;
+        let Some(last) = self.nodes.pop() else { return };
+        if last.1 != point {
+            let place = place as usize;
+            self.nodes[place] = last;
+            self.places[last.1 as usize] = place as u32;
+            let place = self.rise(place);
+            self.sink(place);
+        }
+    }
+
+    fn rise(&mut self, mut place: usize) -> usize {
+        let node = self.nodes[place];
+        while place > 0 {
+            let parent = (place - 1) / CHILDREN;
+            if !before(node, self.nodes[parent]) {
+                break;
+            }
+            self.put(place, self.nodes[parent]);
+            place = parent;
+        }
+        self.put(place, node);
+        place
+    }
+
+    fn sink(&mut self, mut place: usize) {
+        let Some(&node) = self.nodes.get(place) else { return };
+        loop {
+            let first = place * CHILDREN + 1;
+            let mut least = (place, node);
+            for child in first..(first + CHILDREN).min(self.nodes.len()) {
+                if before(self.nodes[child], least.1) {
+                    least = (child, self.nodes[child]);
+                }
+            }
+            if least.0 == place {
+                break;
+            }
+            self.put(place, least.1);
+            place = least.0;
+        }
+        self.put(place, node);
+    }
+
+    fn put(&mut self, place: usize, node: (f64, u32)) {
+        self.nodes[place] = node;
+        self.places[node.1 as usize] = place as u32;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_come_in_order_whatever_changes() {
+        let chance = |k: u64| (k.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as f64;
+        let costs: Vec<Option<f64>> = (0..500).map(|k| (k % 3 != 0).then(|| chance(k))).collect();
+        let mut heap = Heap::new(&costs);
+        let mut plain = costs.clone();
+        for k in 0..2000_u64 {
+            let point = chance(k * 7 + 1) as usize % 500;
+            if k % 5 == 0 {
+                heap.remove(point as u32);
+                plain[point] = None;
+            } else {
+                let cost = (chance(k + 9) as u64 % 50) as f64;
+                heap.set(point as u32, cost);
+                plain[point] = Some(cost);
+            }
+            assert_eq!(heap.cost(point as u32), plain[point]);
+        }
+        let mut expected: Vec<(f64, u32)> =
+            plain.iter().enumerate().filter_map(|(p, cost)| cost.map(|cost| (cost, p as u32))).collect();
+        expected.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let popped: Vec<(f64, u32)> = std::iter::from_fn(|| heap.pop()).collect();
+        assert_eq!(popped, expected);
+        assert_eq!(heap.cost(3), None);
+    }
+}

@@ -1,0 +1,328 @@
+//! [`Collapser`]: a surface whose points fall onto their neighbours, one after another.
+//!
+//! A point falls onto a neighbour and stays nowhere between: so what remains of a surface are vertices that it had, with
+//! their normals, texture coordinates, colours, joints and morph targets, and undoing is exact.
+
+use glam::DVec3;
+
+use super::collapse_record::{Change, NONE, Record, Step};
+use super::flat_surface::Flat;
+use super::point_constraints::{Kind, Site, sites};
+use super::point_faces::Fans;
+
+/// The number of the step that takes away faces without area.
+pub(crate) const SWEEP: u32 = NONE;
+
+/// A face may not turn by more than the angle of this cosine in one collapse.
+const TURN_COSINE: f64 = 0.2;
+
+/// A face is slim whose height is less than this part of its longest side.
+const SLIM: f64 = 0.05;
+
+/// A slim face may become no slimmer than this part of what it was, in one collapse.
+const SLIMMER: f64 = 0.3;
+
+/// A surface whose points fall onto their neighbours.
+pub(crate) struct Collapser {
+    pub flat: Flat,
+    /// The points of each face, [`NONE`] for those that are gone.
+    pub corners: Vec<[u32; 3]>,
+    pub fans: Fans,
+    pub sites: Vec<Site>,
+    pub record: Record,
+    /// What is marked, by the number of the question that marked it last.
+    marks: Vec<u32>,
+    question: u32,
+    /// What the collapse that was asked for last would change and remove.
+    changes: Vec<Change>,
+    removed: Vec<u32>,
+    /// Of each removed face the wedges at both points, and the geometry.
+    carried: Vec<[u32; 3]>,
+}
+
+impl Collapser {
+    /// The surface as it is at first, without faces that have no area because corners lie at one place: these go in
+    /// a first step.
+    pub fn new(flat: Flat) -> Self {
+        let mut corners = flat.corners();
+        let is_none = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;
+        let fans = Fans::new(flat.points.len(), &corners, |face| is_none(corners[face]));
+        let sites = sites(&flat, &corners, &fans);
+        let mut faces = vec![[NONE; 3]; flat.faces.len()];
+        for (number, wedges) in flat.in_file.iter().zip(&flat.faces) {
+            faces[*number as usize] = *wedges;
+        }
+        let (wedges, ranges) = (flat.wedges.clone(), flat.ranges.clone());
+        let mut record = Record { wedges, faces, ranges, ..Record::default() };
+        for (face, corners) in corners.iter_mut().enumerate().filter(|(_, corners)| is_none(**corners)) {
+            if corners[0] != NONE {
+                record.removed.push(flat.in_file[face]);
+            }
+            *corners = [NONE; 3];
+        }
+        if !record.removed.is_empty() {
+            let removed_end = record.removed.len() as u32;
+            record.steps.push(Step { from: SWEEP, to: SWEEP, changes_end: 0, removed_end });
+        }
+        let marks = vec![0; flat.points.len()];
+        let (changes, removed, carried, question) = (Vec::new(), Vec::new(), Vec::new(), 0);
+        Self { flat, corners, fans, sites, record, marks, question, changes, removed, carried }
+    }
+
+    /// The neighbours of a point, each once, in the order of its faces.
+    pub fn neighbours(&mut self, point: u32, into: &mut Vec<u32>) {
+        into.clear();
+        self.question += 1;
+        for &face in self.fans.about(point) {
+            let corners = self.corners[face as usize];
+            for other in others(corners, point) {
+                if corners[0] != NONE && self.marks[other as usize] != self.question {
+                    self.marks[other as usize] = self.question;
+                    into.push(other);
+                }
+            }
+        }
+    }
+
+    /// Whether a point may fall onto a neighbour: the surface stays as connected as it is, no face turns over, and each
+    /// corner finds a wedge at the other point.
+    pub fn may(&mut self, from: u32, to: u32) -> bool {
+        self.is_sound(from, to) && self.keeps_sides(from, to) && self.find_changes(from, to)
+    }
+
+    /// The link condition: the neighbours that both have are those that a face has with both.
+    fn is_sound(&mut self, from: u32, to: u32) -> bool {
+        self.question += 2;
+        let (common, opposite) = (self.question - 1, self.question);
+        let (mut opposites, mut stays) = (0, false);
+        for &face in self.fans.about(from) {
+            let corners = self.corners[face as usize];
+            if corners[0] == NONE {
+                continue;
+            }
+            let with_both = corners.contains(&to);
+            stays |= !with_both;
+            for other in others(corners, from).into_iter().filter(|other| *other != to) {
+                let mark = &mut self.marks[other as usize];
+                opposites += u32::from(with_both && *mark != opposite);
+                *mark = if with_both { opposite } else { common.max(*mark) };
+            }
+        }
+        for &face in self.fans.about(to) {
+            let corners = self.corners[face as usize];
+            if corners[0] == NONE || corners.contains(&from) {
+                continue;
+            }
+            stays = true;
+            let [b, c] = others(corners, to);
+            let marks = [self.marks[b as usize], self.marks[c as usize]];
+            // A neighbour of both that no face has with both would become an end of an edge of four faces, unless the
+            // three go round a hole, which closes.
+            let mut ends = [b, c].into_iter().zip(marks).filter(|(_, mark)| *mark == common);
+            if ends.any(|(end, _)| !self.is_hole([from, to, end])) {
+                return false;
+            }
+            // A face whose other corners are about both points would be the back of another.
+            if marks.iter().all(|mark| *mark >= common) && self.has_face(from, to, corners) {
+                return false;
+            }
+        }
+        stays && opposites > 0
+    }
+
+    /// Whether three neighbours go round a hole: each of their edges is that of one face, and not all of the same.
+    fn is_hole(&self, points: [u32; 3]) -> bool {
+        let [a, b, c] = points;
+        [[a, b, c], [b, c, a], [c, a, b]].into_iter().all(|[from, to, beyond]| {
+            let about = self.fans.about(from).iter().map(|face| self.corners[*face as usize]);
+            let mut beside = about.filter(|corners| corners[0] != NONE && corners.contains(&to));
+            beside.next().is_some_and(|corners| !corners.contains(&beyond)) && beside.next().is_none()
+        })
+    }
+
+    /// Whether a point has a face with the two corners that are not `apex` of another face.
+    fn has_face(&self, point: u32, apex: u32, [a, b, c]: [u32; 3]) -> bool {
+        let has =
+            |face: &&u32| [a, b, c].iter().all(|p| *p == apex || self.corners[**face as usize].contains(p));
+        self.fans.about(point).iter().find(has).is_some()
+    }
+
+    /// Whether no face turns over or shrinks to a line.
+    fn keeps_sides(&self, from: u32, to: u32) -> bool {
+        let (at, target) = (self.sites[from as usize].place, self.sites[to as usize].place);
+        self.fans.about(from).iter().all(|face| {
+            let corners = self.corners[*face as usize];
+            if corners[0] == NONE || corners.contains(&to) {
+                return true;
+            }
+            let [b, c] = others(corners, from);
+            keeps_side(at, target, [self.sites[b as usize].place, self.sites[c as usize].place])
+        })
+    }
+
+    /// Finds what the collapse changes and removes; false if a corner finds no wedge of its geometry.
+    fn find_changes(&mut self, from: u32, to: u32) -> bool {
+        self.changes.clear();
+        self.removed.clear();
+        self.carried.clear();
+        for &face in self.fans.about(from) {
+            let corners = self.corners[face as usize];
+            if corners.contains(&to) {
+                self.removed.push(face);
+                let wedge = |point: u32| {
+                    corners
+                        .iter()
+                        .position(|p| *p == point)
+                        .map_or(NONE, |k| self.flat.faces[face as usize][k])
+                };
+                self.carried.push([wedge(from), wedge(to), self.flat.geometry[face as usize]]);
+            }
+        }
+        for &face in self.fans.about(from) {
+            let corners = self.corners[face as usize];
+            if corners[0] == NONE || corners.contains(&to) {
+                continue;
+            }
+            let Some(k) = corners.iter().position(|p| *p == from) else { continue };
+            let before = self.flat.faces[face as usize][k];
+            let Some(after) = self.wedge_for(face, before, to) else { return false };
+            self.changes.push(Change { corner: 3 * face + k as u32, before, after });
+        }
+        true
+    }
+
+    /// The wedge at `to` that carries on the wedge of a face: that of a face which goes and whose wedge was the same, or
+    /// like it; else one of `to` that is like it.
+    fn wedge_for(&self, face: u32, wedge: u32, to: u32) -> Option<u32> {
+        let geometry = self.flat.geometry[face as usize];
+        let carried = self.carried.iter().filter(|[.., own]| *own == geometry);
+        if let Some([_, at_to, _]) = carried.clone().find(|[at_from, ..]| *at_from == wedge) {
+            return Some(*at_to);
+        }
+        let like = carried.map(|[at_from, at_to, _]| (self.likeness(wedge, *at_from), *at_to));
+        if let Some((_, wedge)) = most_alike(like.filter(|(likeness, _)| *likeness >= 0.0)) {
+            return Some(wedge);
+        }
+        let own = self.fans.about(to).iter().filter(|other| self.flat.geometry[**other as usize] == geometry);
+        let wedges = own.filter_map(|other| {
+            let k = self.corners[*other as usize].iter().position(|point| *point == to)?;
+            Some(self.flat.faces[*other as usize][k])
+        });
+        most_alike(wedges.map(|other| (self.likeness(wedge, other), other))).map(|(_, wedge)| wedge)
+    }
+
+    /// How alike two wedges are: by their normals, 0 to 2, and below 0 if what must not change along an edge differs.
+    fn likeness(&self, a: u32, b: u32) -> f32 {
+        let normal = |wedge: u32| self.flat.normals.get(wedge as usize).copied().unwrap_or([0.0; 3]);
+        let ([ax, ay, az], [bx, by, bz]) = (normal(a), normal(b));
+        let same = self.flat.class[a as usize] == self.flat.class[b as usize];
+        (1.0 + ax * bx + ay * by + az * bz).max(0.0) - if same { 0.0 } else { 4.0 }
+    }
+
+    /// Lets a point fall onto a neighbour again, as a file says; false if they are no neighbours.
+    pub fn replay(&mut self, from: u32, to: u32) -> bool {
+        let fits = self.find_changes(from, to) && !self.removed.is_empty();
+        if fits {
+            self.collapse(from, to);
+        }
+        fits
+    }
+
+    /// Lets a point fall onto its neighbour, as [`Self::may`] has found it just now.
+    pub fn collapse(&mut self, from: u32, to: u32) {
+        for change in &self.changes {
+            let (face, k) = ((change.corner / 3) as usize, (change.corner % 3) as usize);
+            self.flat.faces[face][k] = change.after;
+            self.corners[face][k] = to;
+        }
+        for face in &self.removed {
+            self.corners[*face as usize] = [NONE; 3];
+        }
+        let corners = &self.corners;
+        let alive = |face: u32| corners[face as usize][0] != NONE;
+        self.fans.merge(from, to, alive, alive);
+        let quadric = self.sites[from as usize].quadric;
+        self.sites[to as usize].take(&quadric);
+        self.mend_lines(from, to);
+        let in_file = &self.flat.in_file;
+        let corner = |corner: u32| 3 * in_file[(corner / 3) as usize] + corner % 3;
+        let changes = self.changes.iter().map(|change| Change { corner: corner(change.corner), ..*change });
+        self.record.changes.extend(changes);
+        self.record.removed.extend(self.removed.iter().map(|face| in_file[*face as usize]));
+        let (changes_end, removed_end) = (self.record.changes.len() as u32, self.record.removed.len() as u32);
+        self.record.steps.push(Step { from, to, changes_end, removed_end });
+    }
+
+    /// Lines that went through a point go on from the point that it fell onto.
+    fn mend_lines(&mut self, from: u32, to: u32) {
+        let Site { kind, along, .. } = self.sites[from as usize];
+        match kind {
+            Kind::Plain => {}
+            Kind::Line => {
+                let beyond = along[usize::from(along[0] == to)];
+                self.relink(to, from, beyond);
+                self.relink(beyond, from, to);
+                // Round a hole that has closed there is no line any more.
+                let ends = [to, beyond].map(|point| self.sites.get(point as usize).map(|site| site.along));
+                if ends == [Some([beyond; 2]), Some([to; 2])] {
+                    [to, beyond].iter().for_each(|point| self.sites[*point as usize].kind = Kind::Knot);
+                }
+            }
+            Kind::Knot | Kind::Corner => {
+                let target = &mut self.sites[to as usize].kind;
+                *target = if *target == Kind::Corner { Kind::Corner } else { kind };
+                for at in 0..self.fans.about(to).len() {
+                    for point in self.corners[self.fans.about(to)[at] as usize] {
+                        self.relink(point, from, to);
+                    }
+                }
+            }
+        }
+    }
+
+    fn relink(&mut self, point: u32, before: u32, after: u32) {
+        if let Some(site) = self.sites.get_mut(point as usize) {
+            site.along.iter_mut().filter(|next| **next == before).for_each(|next| *next = after);
+        }
+    }
+
+    /// The faces that the last collapse removed, or that the next would.
+    pub fn removed(&self) -> &[u32] {
+        &self.removed
+    }
+}
+
+/// The first of those that are most alike.
+fn most_alike(choices: impl Iterator<Item = (f32, u32)>) -> Option<(f32, u32)> {
+    choices.reduce(|best, other| if other.0 > best.0 { other } else { best })
+}
+
+/// The corners of a face after one of them, in their order.
+#[inline]
+pub(crate) fn others([a, b, c]: [u32; 3], point: u32) -> [u32; 2] {
+    match point {
+        _ if a == point => [b, c],
+        _ if b == point => [c, a],
+        _ => [a, b],
+    }
+}
+
+/// Whether a face looks to the same side after its first corner has moved, and neither vanishes nor becomes a needle.
+#[inline]
+fn keeps_side(before: DVec3, after: DVec3, [b, c]: [DVec3; 2]) -> bool {
+    let side = c - b;
+    let (old, new) = ((b - before).cross(side), (b - after).cross(side));
+    let (old_squared, new_squared) = (old.length_squared(), new.length_squared());
+    let longest =
+        |at: DVec3| side.length_squared().max((b - at).length_squared()).max((c - at).length_squared());
+    let (old_longest, new_longest) = (longest(before), longest(after));
+    // Twice the area over the square of the longest side, squared: how stout a face is.
+    let (old_stout, new_stout) =
+        (old_squared * new_longest * new_longest, new_squared * old_longest * old_longest);
+    let is_slim = new_squared < SLIM * SLIM * new_longest * new_longest;
+    if is_slim && new_stout < SLIMMER * SLIMMER * old_stout || new_squared == 0.0 {
+        return old_squared == 0.0;
+    }
+    let turned = old.dot(new);
+    turned >= 0.0 && turned * turned >= TURN_COSINE * TURN_COSINE * old_squared * new_squared
+}

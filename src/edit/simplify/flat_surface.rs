@@ -1,0 +1,269 @@
+//! [`Flat`]: all triangles of a scene that are drawn, as points, wedges and faces in plain arrays.
+
+use std::ops::Range;
+
+use crate::parallel::prelude::*;
+use glam::{DAffine3, DVec3};
+
+use super::collapse_record::{NONE, Wedge};
+use super::point_weld::{Weld, joined};
+use crate::geometry::numbers::noise::hash;
+use crate::geometry::numbers::portable_math::cbrt;
+use crate::geometry::numbers::tolerance::{WELD_OF_F32_COORDINATE, WELD_OF_PART};
+use crate::mesh::EdgeMark;
+use crate::mesh::order::morton_curve::{CELLS, along_curve};
+use crate::scene::extent::drawn_points::DrawnPoints;
+use crate::scene::{Geometry, Material, Scene};
+
+/// The triangles of a scene that are drawn, each geometry once.
+///
+/// Points are what lies at one place; the wedges at a point differ in vertex, normal or texture
+/// coordinates. Geometries that are shown once are welded with each other, where they stand.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Flat {
+    /// The places of the points, in world units from the middle, over `size`.
+    pub points: Vec<DVec3>,
+    /// What each wedge is made of.
+    pub wedges: Vec<Wedge>,
+    /// The point of each wedge.
+    pub point_of: Vec<u32>,
+    /// For each wedge a number for all that must not change along an edge: geometry, texture coordinates, colour.
+    pub class: Vec<u32>,
+    /// The unit normal of each wedge in its geometry, zero for none; empty where no file's normals are.
+    pub normals: Vec<[f32; 3]>,
+    /// The wedges of each face; those of no face that is drawn are [`NONE`].
+    pub faces: Vec<[u32; 3]>,
+    /// The number of each face in the file: those of all geometries, one after another.
+    pub in_file: Vec<u32>,
+    /// The geometry of each face.
+    pub geometry: Vec<u32>,
+    /// The material of each face, [`NONE`] for none.
+    pub material: Vec<u32>,
+    /// Whether the sides 0-1, 1-2, 2-0 of each face are marked as lines, or empty.
+    pub marked: Vec<[bool; 3]>,
+    /// The faces of each geometry in the file.
+    pub ranges: Vec<Range<usize>>,
+    /// How much an error of each geometry counts: by how large its instances are, for each of them.
+    pub weights: Vec<f64>,
+}
+
+impl Flat {
+    /// The scene's.
+    pub fn of(scene: &Scene) -> Self {
+        let shown = shown(scene);
+        let frame = Frame::of(scene, &shown);
+        let textured = scene.materials.iter().any(is_textured);
+        let vertices = scene.geometries.iter().map(|geometry| geometry.positions.len()).sum();
+        let mut weld = Weld::with_room(vertices);
+        let (mut flat, mut reaches) = (Self::default(), Vec::new());
+        let has_normals = scene.geometries.iter().any(|geometry| !geometry.corner_normals.is_empty());
+        for (number, (geometry, shown)) in scene.geometries.iter().zip(&shown).enumerate() {
+            let first = flat.faces.len();
+            match shown {
+                Some(shown) => {
+                    // Copies lie elsewhere than the first does: what touches it does not touch them.
+                    let group = if shown.count == 1 { 0 } else { number as u32 + 1 };
+                    let places =
+                        geometry.positions.iter().map(|p| frame.place(shown.place.transform_point3(*p)));
+                    let points: Vec<u32> = places.map(|place| weld.point(group, place)).collect();
+                    let reach = reach(geometry) * cbrt(shown.place.matrix3.determinant().abs()) * frame.scale;
+                    reaches.resize(weld.len(), 0.0);
+                    points.iter().for_each(|point| reaches[*point as usize] = reach);
+                    flat.append(number, geometry, &points, textured);
+                    flat.weights.push(shown.weight);
+                }
+                None => {
+                    flat.faces.resize(first + geometry.triangles.len(), [NONE; 3]);
+                    flat.weights.push(0.0);
+                }
+            }
+            let count = flat.faces.len();
+            let own = geometry.material.unwrap_or(NONE);
+            flat.material.extend(geometry.triangle_material.iter().take(count - first));
+            flat.material.resize(count, own);
+            flat.geometry.resize(count, number as u32);
+            if !geometry.edge_marks.is_empty() {
+                flat.marked.resize(first, [false; 3]);
+                let is_line =
+                    |mark: EdgeMark| matches!(mark, EdgeMark::Hard | EdgeMark::Contour | EdgeMark::Cut);
+                flat.marked
+                    .extend(geometry.edge_marks.iter().take(count - first).map(|marks| marks.map(is_line)));
+            }
+            if !flat.marked.is_empty() {
+                flat.marked.resize(count, [false; 3]);
+            }
+            if has_normals {
+                let from = flat.normals.len();
+                let of = |wedge: &Wedge| {
+                    geometry.normals.get(wedge.normal as usize).copied().map_or([0.0; 3], unit)
+                };
+                flat.normals.extend(flat.wedges[from..].iter().map(of));
+            }
+            flat.ranges.push(first..count);
+        }
+        flat.points = weld.into_points();
+        if let Some(joined) = joined(&flat.points, &flat.corners(), &reaches) {
+            flat.point_of.iter_mut().for_each(|point| *point = joined[*point as usize]);
+        }
+        flat.put_in_order();
+        flat
+    }
+
+    fn append(&mut self, number: usize, geometry: &Geometry, points: &[u32], textured: bool) {
+        // The wedges of a vertex, linked to each other.
+        let mut first = vec![NONE; points.len()];
+        let mut next: Vec<u32> = Vec::new();
+        let start = self.wedges.len() as u32;
+        for (face, corners) in geometry.triangles.iter().enumerate() {
+            let normals = geometry.corner_normals.get(face).copied().unwrap_or([NONE; 3]);
+            let uvs = geometry.corner_uvs.get(face).copied().unwrap_or([NONE; 3]);
+            let mut wedges = [NONE; 3];
+            for k in 0..3 {
+                let Some(head) = first.get_mut(corners[k] as usize) else { break };
+                let made = Wedge { vertex: corners[k], normal: normals[k], uv: uvs[k] };
+                let mut at = *head;
+                while at != NONE && self.wedges[at as usize] != made {
+                    at = next[(at - start) as usize];
+                }
+                if at == NONE {
+                    at = self.wedges.len() as u32;
+                    self.wedges.push(made);
+                    self.point_of.push(points[corners[k] as usize]);
+                    self.class.push(class(number, geometry, made, textured));
+                    next.push(*head);
+                    *head = at;
+                }
+                wedges[k] = at;
+            }
+            // What points nowhere is nobody's face.
+            self.faces.push(if wedges.contains(&NONE) { [NONE; 3] } else { wedges });
+        }
+    }
+
+    /// Numbers points along a curve that fills space, and puts faces in the order of their points, so that neighbours lie
+    /// near each other in memory.
+    fn put_in_order(&mut self) {
+        let along = |place: DVec3| along_curve(place, 1.0 / CELLS);
+        let codes = self.points.par_iter().enumerate().map(|(point, place)| (along(*place), point as u32));
+        let mut order: Vec<(u64, u32)> = codes.collect();
+        order.par_sort_unstable();
+        let mut numbers = vec![NONE; order.len()];
+        for (number, (_, point)) in order.iter().enumerate() {
+            numbers[*point as usize] = number as u32;
+        }
+        self.points = order.iter().map(|(_, point)| self.points[*point as usize]).collect();
+        self.point_of.iter_mut().for_each(|point| *point = numbers[*point as usize]);
+
+        let first = |corners: &[u32; 3]| corners.iter().copied().min().unwrap_or(NONE);
+        let keys = self.corners().into_par_iter().enumerate();
+        let keys = keys.map(|(face, corners)| u64::from(first(&corners)) << 32 | face as u64);
+        let mut keys: Vec<u64> = keys.collect();
+        keys.par_sort_unstable();
+        self.in_file = keys.iter().map(|key| *key as u32).collect();
+        let order = &self.in_file;
+        self.faces = in_order(&self.faces, order);
+        self.material = in_order(&self.material, order);
+        self.geometry = in_order(&self.geometry, order);
+        self.marked = in_order(&self.marked, order);
+    }
+
+    /// The points of the corners of each face; [`NONE`] for faces that are not drawn.
+    pub fn corners(&self) -> Vec<[u32; 3]> {
+        let point = |wedge: u32| self.point_of.get(wedge as usize).copied().unwrap_or(NONE);
+        self.faces.iter().map(|wedges| wedges.map(point)).collect()
+    }
+}
+
+/// Where a geometry is shown.
+struct Shown {
+    /// The first place.
+    place: DAffine3,
+    count: usize,
+    weight: f64,
+}
+
+/// How each geometry is shown; none for those that are not.
+fn shown(scene: &Scene) -> Vec<Option<Shown>> {
+    let mut all: Vec<Option<Shown>> = scene.geometries.iter().map(|_| None).collect();
+    for part in scene.parts.iter().filter(|part| scene.geometry_of(part).is_some()) {
+        let Some(shown) = all.get_mut(part.geometry) else { continue };
+        let place = part.world_from_part;
+        let shown = shown.get_or_insert(Shown { place, count: 0, weight: 0.0 });
+        // Lengths go with the cube root of volumes; an error is the square of a length, over an area.
+        let volume = (place.matrix3.determinant() / shown.place.matrix3.determinant()).abs();
+        shown.count += 1;
+        shown.weight += cbrt(volume).powi(4);
+    }
+    for shown in all.iter_mut().flatten() {
+        // Each face that goes goes from all instances.
+        shown.weight /= shown.count as f64;
+    }
+    all
+}
+
+/// Within which distance the vertices of a geometry are one where they lie on open edges.
+fn reach(geometry: &Geometry) -> f64 {
+    let (mut least, mut greatest) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for point in DrawnPoints::of_geometry(geometry) {
+        (least, greatest) = (least.min(point), greatest.max(point));
+    }
+    let largest = least.abs().max(greatest.abs()).max_element();
+    let written = if geometry.single_precision { WELD_OF_F32_COORDINATE * largest } else { 0.0 };
+    let reach = (WELD_OF_PART * least.distance(greatest)).max(written);
+    if reach.is_finite() { reach } else { 0.0 }
+}
+
+/// A frame in which the scene is about as large as 1.
+struct Frame {
+    middle: DVec3,
+    scale: f64,
+}
+
+impl Frame {
+    fn of(scene: &Scene, shown: &[Option<Shown>]) -> Self {
+        let (mut least, mut greatest) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for (geometry, shown) in scene.geometries.iter().zip(shown) {
+            let Some(shown) = shown else { continue };
+            for point in DrawnPoints::of_geometry(geometry) {
+                let point = shown.place.transform_point3(point);
+                (least, greatest) = (least.min(point), greatest.max(point));
+            }
+        }
+        let size = (greatest - least).max_element();
+        let sound = size > 0.0 && size.is_finite();
+        Self {
+            middle: if sound { least.midpoint(greatest) } else { DVec3::ZERO },
+            scale: if sound { 1.0 / size } else { 1.0 },
+        }
+    }
+
+    fn place(&self, point: DVec3) -> DVec3 {
+        (point - self.middle) * self.scale
+    }
+}
+
+fn in_order<T: Copy>(values: &[T], order: &[u32]) -> Vec<T> {
+    if values.is_empty() { Vec::new() } else { order.iter().map(|which| values[*which as usize]).collect() }
+}
+
+/// A number for all that must not change along an edge.
+fn class(number: usize, geometry: &Geometry, wedge: Wedge, textured: bool) -> u32 {
+    let pair = |[a, b]: [f32; 2]| u64::from(a.to_bits()) << 32 | u64::from(b.to_bits());
+    let uv = geometry.uvs.get(wedge.uv as usize).filter(|_| textured).map_or(u64::MAX, |uv| pair(*uv));
+    let colour = geometry.colours.get(wedge.vertex as usize);
+    let [rg, ba] = colour.map_or([0; 2], |[r, g, b, a]| [pair([*r, *g]), pair([*b, *a])]);
+    if uv == u64::MAX && colour.is_none() {
+        return number as u32;
+    }
+    hash(number as u64, &[uv, rg, ba]) as u32
+}
+
+/// Whether it matters where texture coordinates lie.
+fn is_textured(material: &Material) -> bool {
+    material.texture.is_some() || material.picture.is_some() || material.opacity_map.is_some()
+}
+
+fn unit([x, y, z]: [f32; 3]) -> [f32; 3] {
+    let length = (x * x + y * y + z * z).sqrt();
+    if length > 0.0 && length.is_finite() { [x / length, y / length, z / length] } else { [0.0; 3] }
+}

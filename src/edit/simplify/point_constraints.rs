@@ -1,0 +1,172 @@
+//! [`Kind`]: which way a point may go, by the edges at it that must stay; and the planes it must stay near.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::collapse_record::NONE;
+use super::error_quadric::Quadric;
+use super::flat_surface::Flat;
+use super::point_faces::Fans;
+
+/// How much a plane that holds a border in its place counts, against the area of the faces beside it.
+const BORDER_WEIGHT: f64 = 10.0;
+
+/// The same for seams of materials, pictures and colours, and for edges that the file marks.
+const SEAM_WEIGHT: f64 = 1.0;
+
+/// The same for creases, which their two faces hold by themselves.
+const CREASE_WEIGHT: f64 = 0.25;
+
+/// Edges between faces whose normals have a lesser cosine are creases.
+const CREASE_COSINE: f64 = 0.7;
+
+/// Which way a point may go.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// To any neighbour: nothing at it must stay.
+    Plain,
+    /// Along a border or a seam, to the next point on it.
+    Line,
+    /// To any neighbour, though borders meet here, or more than two faces at an edge: those are held by planes alone.
+    Knot,
+    /// To points on other lines, at a price: texture coordinates, colours or materials meet here, and one would cover another.
+    Corner,
+}
+
+/// What is known of a point at first.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Site {
+    pub kind: Kind,
+    /// The next points on its line.
+    pub along: [u32; 2],
+    pub quadric: Quadric,
+    /// Where it is.
+    pub place: DVec3,
+    /// How far it is from its planes there, by the quadric.
+    pub error: f64,
+}
+
+impl Site {
+    /// Takes over the planes of a point that falls here.
+    pub fn take(&mut self, quadric: &Quadric) {
+        self.quadric.add(quadric);
+        self.error = self.quadric.at(self.place);
+    }
+}
+
+/// An edge at a point, as one face has it.
+#[derive(Clone, Copy)]
+struct Side {
+    other: u32,
+    opposite: u32,
+    face: u32,
+    /// What must be the same on both sides of an edge within a surface.
+    signature: [u32; 3],
+    marked: bool,
+}
+
+/// What is known at first of each point.
+pub(crate) fn sites(flat: &Flat, corners: &[[u32; 3]], fans: &Fans) -> Vec<Site> {
+    let normal = |corners: &[u32; 3]| match corners.contains(&NONE) {
+        true => DVec3::ZERO,
+        false => doubled_area(corners.map(|point| flat.points[point as usize])),
+    };
+    // The unit normal of each face, and its area.
+    let planes: Vec<(DVec3, f64)> = corners
+        .par_iter()
+        .map(normal)
+        .map(|normal| {
+            let length = normal.length();
+            if length > 0.0 { (normal / length, 0.5 * length) } else { (DVec3::ZERO, 0.0) }
+        })
+        .collect();
+    let of = |sides: &mut Vec<Side>, point: usize| site(flat, corners, fans, &planes, sides, point as u32);
+    (0..fans.len()).into_par_iter().with_min_len(1024).map_init(Vec::new, of).collect()
+}
+
+fn site(
+    flat: &Flat,
+    corners: &[[u32; 3]],
+    fans: &Fans,
+    planes: &[(DVec3, f64)],
+    sides: &mut Vec<Side>,
+    point: u32,
+) -> Site {
+    let place = flat.points[point as usize];
+    let mut quadric = Quadric::default();
+    let (mut weight, mut lines, mut along) = (0.0, 0, [NONE; 2]);
+    sides.clear();
+    for &face in fans.about(point) {
+        let f = face as usize;
+        weight = flat.weights[flat.geometry[f] as usize];
+        let (normal, area) = planes[f];
+        quadric.add(&Quadric::of_plane(normal, place, area));
+        let Some(k) = corners[f].iter().position(|p| *p == point) else { continue };
+        let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+        let class = |k: usize| flat.class[flat.faces[f][k] as usize];
+        let marks = flat.marked.get(f).copied().unwrap_or_default();
+        for (end, opposite, marked) in [(next, last, marks[k]), (last, next, marks[last])] {
+            let signature = [class(k), class(end), flat.material[f]];
+            sides.push(Side {
+                other: corners[f][end],
+                opposite: corners[f][opposite],
+                face,
+                signature,
+                marked,
+            });
+        }
+    }
+    sides.sort_unstable_by_key(|side| (side.other, side.opposite, side.signature, side.face));
+    for edge in sides.chunk_by(|a, b| a.other == b.other) {
+        let way = flat.points[edge[0].other as usize] - place;
+        let normal = |side: &Side| planes[side.face as usize].0;
+        let strength = match strength(edge) {
+            Some(strength) => {
+                if let Some(slot) = along.get_mut(lines) {
+                    *slot = edge[0].other;
+                }
+                lines += 1;
+                strength
+            }
+            None if normal(&edge[0]).dot(normal(&edge[edge.len() - 1])) < CREASE_COSINE => CREASE_WEIGHT,
+            None => continue,
+        };
+        for side in edge {
+            let Some(upright) = way.cross(normal(side)).try_normalize() else { continue };
+            quadric.add(&Quadric::of_plane(upright, place, strength * way.length_squared()));
+        }
+    }
+    let kind = match lines {
+        0 => Kind::Plain,
+        2 => Kind::Line,
+        _ if sides.iter().all(|side| is_like(side, &sides[0])) => Kind::Knot,
+        _ => Kind::Corner,
+    };
+    let quadric = quadric.scaled(weight);
+    Site { kind, along, quadric, place, error: quadric.at(place) }
+}
+
+/// Whether two faces at a point have there all that must not change along an edge in common.
+fn is_like(one: &Side, other: &Side) -> bool {
+    let [class, _, material] = one.signature;
+    class == other.signature[0] && material == other.signature[2]
+}
+
+/// How strongly an edge is held, if it must stay: a border, where surfaces meet, a seam. Two faces at the same place
+/// count as one: what matters is that the surface goes on to two sides.
+fn strength(edge: &[Side]) -> Option<f64> {
+    let (one, other) = edge.split_at(edge.partition_point(|side| side.opposite == edge[0].opposite));
+    if other.is_empty() {
+        return Some(BORDER_WEIGHT);
+    }
+    if other.iter().any(|side| side.opposite != other[0].opposite) {
+        return Some(SEAM_WEIGHT);
+    }
+    let same = one.len() == other.len() && one.iter().zip(other).all(|(a, b)| a.signature == b.signature);
+    (!same || edge.iter().any(|side| side.marked)).then_some(SEAM_WEIGHT)
+}
+
+/// The normal of a face of three places, as long as twice its area.
+fn doubled_area([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a)
+}

@@ -1,0 +1,113 @@
+//! Welding: corners at one place are one point, for the order of collapses alone.
+
+use glam::DVec3;
+
+use super::collapse_record::NONE;
+use crate::mesh::weld::nearby_vertices::near;
+
+const FREE: u32 = u32::MAX;
+
+/// Points at different places, or of groups that have nothing in common; a table of hashes that never forgets.
+#[derive(Debug)]
+pub(crate) struct Weld {
+    slots: Vec<u32>,
+    points: Vec<DVec3>,
+    groups: Vec<u32>,
+}
+
+impl Weld {
+    /// Room for so many points; no more may be asked for.
+    pub fn with_room(count: usize) -> Self {
+        let slots = (count * 2).max(4).next_power_of_two();
+        Self {
+            slots: vec![FREE; slots],
+            points: Vec::with_capacity(count),
+            groups: Vec::with_capacity(count),
+        }
+    }
+
+    /// The number of the point at a place: a new one where there is none yet.
+    pub fn point(&mut self, group: u32, place: DVec3) -> u32 {
+        // Zeros of either sign are one place.
+        let place = place + 0.0;
+        let mask = self.slots.len() - 1;
+        let mut slot = slot_of(group, place) as usize & mask;
+        loop {
+            let point = self.slots[slot];
+            if point == FREE {
+                let point = self.points.len() as u32;
+                self.slots[slot] = point;
+                self.points.push(place);
+                self.groups.push(group);
+                return point;
+            }
+            if self.points[point as usize] == place && self.groups[point as usize] == group {
+                return point;
+            }
+            slot = (slot + 1) & mask;
+        }
+    }
+
+    /// How many points there are.
+    pub fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    /// The place of each point.
+    pub fn into_points(self) -> Vec<DVec3> {
+        self.points
+    }
+}
+
+fn slot_of(group: u32, place: DVec3) -> u64 {
+    let mut hash = u64::from(group);
+    for bits in place.to_array().map(f64::to_bits) {
+        hash = (hash.rotate_left(23) ^ bits).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    }
+    hash ^ (hash >> 31)
+}
+
+/// For each point the one that it is joined to, where places on open edges differ by no more than their reach: the corners of CAD
+/// faces differ in their last bits. None if nothing is joined.
+pub(crate) fn joined(points: &[DVec3], corners: &[[u32; 3]], reaches: &[f64]) -> Option<Vec<u32>> {
+    // About a point that faces surround each neighbour comes next once, and last once.
+    let mut open = vec![0_u32; points.len()];
+    let mut add = |point: u32, other: u32, sign: u32| {
+        let mixed = other.wrapping_add(1).wrapping_mul(0x9e37_79b1);
+        open[point as usize] = open[point as usize].wrapping_add(sign.wrapping_mul(mixed ^ mixed >> 15));
+    };
+    for &[a, b, c] in corners.iter().filter(|corners| corners[0] != NONE) {
+        for (point, next, last) in [(a, b, c), (b, c, a), (c, a, b)] {
+            add(point, next, 1);
+            add(point, last, u32::MAX);
+        }
+    }
+    let candidates: Vec<u32> = (0..points.len() as u32).filter(|point| open[*point as usize] != 0).collect();
+    let reaches: Vec<f64> = candidates.iter().map(|point| reaches[*point as usize]).collect();
+    near(points, &candidates, &reaches)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_place_is_one_point() {
+        let mut weld = Weld::with_room(4);
+        let places = [DVec3::X, DVec3::ZERO, DVec3::X, -DVec3::ZERO];
+        assert_eq!(places.map(|place| weld.point(0, place)), [0, 1, 0, 1]);
+        assert_eq!([weld.point(1, DVec3::X), weld.point(1, DVec3::X), weld.point(0, DVec3::Y)], [2, 2, 3]);
+        assert_eq!(weld.into_points(), [DVec3::X, DVec3::ZERO, DVec3::X, DVec3::Y]);
+    }
+    #[test]
+    fn open_edges_are_joined_where_they_nearly_meet() {
+        let far = DVec3::new(1e-9, -1e-9, 0.0);
+        let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + far, DVec3::Y + far, DVec3::ONE];
+        let corners = [[0, 1, 2], [4, 3, 5], [NONE; 3]];
+        assert_eq!(joined(&points, &corners, &[1e-8; 6]), Some(vec![0, 1, 2, 1, 2, 5]));
+        assert_eq!(joined(&points, &corners, &[1e-10; 6]), None);
+        // A closed surface has nothing to be joined to, however near it lies.
+        let closed = [[0, 2, 1], [0, 1, 5], [1, 2, 5], [2, 0, 5]];
+        assert_eq!(joined(&points, &closed, &[9.0; 6]), None);
+    }
+}

@@ -1,0 +1,178 @@
+//! [`Steps`]: a path as straight steps and arcs, where its cubics are arcs.
+//!
+//! A chain on a circle is written as cubics of one form: handles along the tangents, as long as the arc's angle says. Such a cubic is read back
+//! as the arc that it stands for, and neighbours on one circle are one arc. Other curves are flattened.
+
+use std::f64::consts::TAU;
+
+use kurbo::{CubicBez, PathEl, Point, Vec2};
+
+use crate::geometry::numbers::portable_math::{atan2, cos, sin, tan};
+
+/// How far a cubic may be from the form of an arc, as a share of the radius: rounding of double precision.
+const SAME: f64 = 1e-7;
+
+/// A cubic stands for an arc of no more than this, radians.
+const MAX_TURN: f64 = 1.6;
+
+/// Arcs turn by less than this. The ends of longer ones come so near each other that their middle is uncertain.
+const LARGEST_TURN: f64 = 6.0;
+
+/// A straight line or an arc to its end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Step {
+    pub end: Point,
+    /// The centre of an arc, and its turn.
+    pub arc: Option<(Point, f64)>,
+}
+
+/// A subpath.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Steps {
+    pub start: Point,
+    pub steps: Vec<Step>,
+    pub closed: bool,
+}
+
+impl Steps {
+    /// The subpaths of a path, other curves within `tolerance`.
+    pub fn of(path: &[PathEl], tolerance: f64) -> Vec<Self> {
+        let mut all: Vec<Self> = Vec::new();
+        let mut own = Self { start: Point::ZERO, steps: Vec::new(), closed: false };
+        let mut take = |own: &mut Self, closed: bool, start: Point| {
+            let next = Self { start, steps: Vec::new(), closed: false };
+            let done = std::mem::replace(own, next);
+            if !done.steps.is_empty() {
+                all.push(Self { closed, ..done }.merged());
+            }
+        };
+        for element in path {
+            let from = own.end();
+            match *element {
+                PathEl::MoveTo(point) => take(&mut own, false, point),
+                PathEl::LineTo(point) => own.line(point),
+                PathEl::ClosePath => {
+                    let start = own.start;
+                    take(&mut own, true, start);
+                }
+                PathEl::QuadTo(a, b) => own.flat([PathEl::MoveTo(from), PathEl::QuadTo(a, b)], tolerance),
+                PathEl::CurveTo(a, b, end) => match arc_of(CubicBez::new(from, a, b, end)) {
+                    Some(arc) => own.steps.push(Step { end, arc: Some(arc) }),
+                    None => own.flat([PathEl::MoveTo(from), PathEl::CurveTo(a, b, end)], tolerance),
+                },
+            }
+        }
+        let start = own.start;
+        take(&mut own, false, start);
+        all
+    }
+
+    /// Whether some of it is an arc.
+    pub fn has_arcs(&self) -> bool {
+        self.steps.iter().any(|step| step.arc.is_some())
+    }
+
+    /// All its points, where it has no arcs.
+    pub fn points(&self) -> Vec<Point> {
+        std::iter::once(self.start).chain(self.steps.iter().map(|step| step.end)).collect()
+    }
+
+    fn end(&self) -> Point {
+        self.steps.last().map_or(self.start, |step| step.end)
+    }
+
+    fn line(&mut self, end: Point) {
+        if self.end() != end {
+            self.steps.push(Step { end, arc: None });
+        }
+    }
+
+    fn flat(&mut self, curve: [PathEl; 2], tolerance: f64) {
+        kurbo::flatten(curve, tolerance, |element| {
+            if let PathEl::LineTo(point) = element {
+                self.line(point);
+            }
+        });
+    }
+
+    /// The same with neighbouring arcs of one circle as one; a closed one that has arcs comes back to its start, and begins where an arc does.
+    fn merged(mut self) -> Self {
+        if !self.has_arcs() {
+            return self;
+        }
+        if self.closed {
+            self.line(self.start);
+            let is_end = |k: usize| {
+                let (here, before) =
+                    (self.steps[k], self.steps[(k + self.steps.len() - 1) % self.steps.len()]);
+                here.arc.is_some() && !is_one_circle(before, here)
+            };
+            if let Some(first) = (0..self.steps.len()).find(|k| is_end(*k)) {
+                self.steps.rotate_left(first);
+                self.start = self.end();
+            }
+        }
+        let mut merged: Vec<Step> = Vec::with_capacity(self.steps.len());
+        for step in self.steps {
+            match merged.last_mut() {
+                Some(last) if is_one_circle(*last, step) => {
+                    if let (Some((_, turn)), Some((_, more))) = (&mut last.arc, step.arc) {
+                        *turn += more;
+                    }
+                    last.end = step.end;
+                }
+                _ => merged.push(step),
+            }
+        }
+        Self { steps: merged, ..self }
+    }
+
+    /// The circle that it is, if it is one.
+    pub fn circle(&self) -> Option<(Point, f64)> {
+        match self.steps.as_slice() {
+            [Step { arc: Some((centre, turn)), .. }] if self.closed && (turn.abs() - TAU).abs() < SAME => {
+                Some((*centre, (self.start - *centre).hypot()))
+            }
+            _ => None,
+        }
+    }
+
+    /// The ends and bulges of an arc: of two halves where it nearly comes back to its start.
+    pub fn bulges(start: Point, end: Point, (centre, turn): (Point, f64)) -> Vec<(Point, f64)> {
+        if turn.abs() < LARGEST_TURN {
+            return vec![(end, tan(turn / 4.0))];
+        }
+        let (s, c) = (sin(turn / 2.0), cos(turn / 2.0));
+        let out = start - centre;
+        let middle = centre + Vec2::new(out.x * c - out.y * s, out.x * s + out.y * c);
+        vec![(middle, tan(turn / 8.0)), (end, tan(turn / 8.0))]
+    }
+}
+
+/// Whether two steps are arcs of one circle, the same way round.
+fn is_one_circle(a: Step, b: Step) -> bool {
+    match (a.arc, b.arc) {
+        (Some((one, turn)), Some((other, more))) => {
+            let radius = (a.end - one).hypot();
+            (one - other).hypot() <= SAME * radius && turn * more > 0.0
+        }
+        _ => false,
+    }
+}
+
+/// The centre and the angle of the arc that a cubic stands for.
+fn arc_of(curve: CubicBez) -> Option<(Point, f64)> {
+    let (out, back) = (curve.p1 - curve.p0, curve.p3 - curve.p2);
+    let (first, last) = (out.hypot(), back.hypot());
+    let turn = atan2(out.cross(back), out.dot(back));
+    if !(first > 0.0 && turn != 0.0 && turn.abs() <= MAX_TURN && (first - last).abs() <= SAME * first) {
+        return None;
+    }
+    // To the left of the tangent where it turns from x to y.
+    let radius = first / (4.0 / 3.0 * tan(turn / 4.0));
+    let centre = curve.p0 + Vec2::new(-out.y, out.x) * (radius / first);
+    let (s, c) = (sin(turn), cos(turn));
+    let from = curve.p0 - centre;
+    let end = centre + Vec2::new(from.x * c - from.y * s, from.x * s + from.y * c);
+    ((end - curve.p3).hypot() <= SAME * radius.abs()).then_some((centre, turn))
+}

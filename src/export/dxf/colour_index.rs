@@ -1,0 +1,86 @@
+//! The 255 colours that DXF numbers, and the nearest of them to a colour.
+//!
+//! Source: the AutoCAD Color Index: 1 to 9 by name, 24 hues with five values in two saturations each, six greys. Number 7 is black on
+//! white paper and white on a black screen.
+
+use crate::colour::srgb::Colour;
+
+/// Black on paper.
+pub(crate) const BLACK: u8 = 7;
+
+const NAMED: [[u8; 3]; 9] = [
+    [255, 0, 0],
+    [255, 255, 0],
+    [0, 255, 0],
+    [0, 255, 255],
+    [0, 0, 255],
+    [255, 0, 255],
+    [0, 0, 0],
+    [128, 128, 128],
+    [192, 192, 192],
+];
+const VALUES: [f64; 5] = [255.0, 189.0, 129.0, 104.0, 79.0];
+const GREYS: [u8; 6] = [51, 80, 105, 130, 190, 255];
+
+/// How much of a colour's height stays in its pale half: what is pale is mixed with two thirds of white.
+const PALE: f64 = 2.0 / 3.0;
+
+fn colour(number: u8) -> [u8; 3] {
+    match number {
+        1..=9 => NAMED[usize::from(number) - 1],
+        10..=249 => {
+            let hue = f64::from((number - 10) / 10) / 4.0;
+            let shade = usize::from(number % 10);
+            let value = VALUES[shade / 2];
+            let floor = if shade % 2 == 1 { PALE } else { 0.0 };
+            // Each channel is full for a third of the circle, and falls over a sixth on both sides.
+            [0.0, 2.0, 4.0].map(|middle: f64| {
+                let away = (hue - middle).abs();
+                let away = away.min(6.0 - away);
+                let height = (2.0 - away).clamp(0.0, 1.0);
+                (value * (floor + (1.0 - floor) * height)).round() as u8
+            })
+        }
+        250..=255 => [GREYS[usize::from(number) - 250]; 3],
+        0 => [0; 3],
+    }
+}
+
+/// The number whose colour is nearest, the first of several.
+pub(crate) fn nearest(wanted: Colour) -> u8 {
+    let wanted = [wanted.r, wanted.g, wanted.b];
+    let distance = |number: &u8| -> i32 {
+        colour(*number).iter().zip(wanted).map(|(a, b)| (i32::from(*a) - i32::from(b)).pow(2)).sum()
+    };
+    // Black comes before all else, so that near blacks are seen on black screens too.
+    let others = (1..=255).filter(|number| *number != BLACK);
+    std::iter::once(BLACK).chain(others).min_by_key(distance).unwrap_or(BLACK)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_those_of_their_numbers() {
+        for (number, wanted) in [
+            (10, [255, 0, 0]),
+            (50, [255, 255, 0]),
+            (90, [0, 255, 0]),
+            (170, [0, 0, 255]),
+            (250, [51; 3]),
+            (12, [189, 0, 0]),
+        ] {
+            assert_eq!(colour(number), wanted, "{number}");
+        }
+    }
+
+    #[test]
+    fn the_nearest_is_found() {
+        let of = |r, g, b| nearest(Colour { r, g, b, ..Colour::BLACK });
+        assert_eq!(
+            [of(0, 0, 0), of(20, 20, 20), of(250, 3, 3), of(0, 0, 255), of(255, 255, 255)],
+            [7, 7, 1, 5, 255]
+        );
+    }
+}

@@ -1,0 +1,125 @@
+//! Text made safe for XML, and ids that are unique in a document.
+
+use std::borrow::Cow;
+
+use rustc_hash::FxHashSet;
+
+/// Writes text for an attribute or an element: markup is escaped, characters that XML cannot
+/// hold are replaced by U+FFFD.
+pub(crate) fn escape(out: &mut Vec<u8>, text: &str) {
+    let plain = |byte: u8| byte >= 0x20 && !matches!(byte, b'&' | b'<' | b'>' | b'"') && byte < 0xef;
+    if text.bytes().all(plain) {
+        out.extend_from_slice(text.as_bytes());
+        return;
+    }
+    let mut buffer = [0u8; 4];
+    for c in text.chars() {
+        let replacement: &[u8] = match c {
+            '&' => b"&amp;",
+            '<' => b"&lt;",
+            '>' => b"&gt;",
+            '"' => b"&quot;",
+            // Plain ones would be read as blanks in an attribute.
+            '\t' => b"&#9;",
+            '\n' => b"&#10;",
+            '\r' => b"&#13;",
+            '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}' => "\u{fffd}".as_bytes(),
+            _ => c.encode_utf8(&mut buffer).as_bytes(),
+        };
+        out.extend_from_slice(replacement);
+    }
+}
+
+/// Text with markup escaped, see [`escape`].
+#[cfg(feature = "cli")]
+pub(crate) fn escaped(text: &str) -> String {
+    let mut out = Vec::with_capacity(text.len());
+    escape(&mut out, text);
+    String::from_utf8_lossy(&out).into_owned()
+}
+
+/// A text as it reads back from what [`escape`] wrote.
+pub(crate) fn read_back(text: &str) -> Cow<'_, str> {
+    let lost = |c: char| matches!(c, '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}') && !"\t\n\r".contains(c);
+    if text.contains(lost) { Cow::Owned(text.replace(lost, "\u{fffd}")) } else { Cow::Borrowed(text) }
+}
+
+/// Ids given away so far.
+pub(crate) struct Ids {
+    /// Before all ids of the document.
+    base: String,
+    /// Before those that are taken now.
+    prefix: String,
+    taken: FxHashSet<String>,
+}
+
+impl Ids {
+    /// Ids that all begin with a prefix, which may be empty.
+    pub fn new(prefix: &str) -> Self {
+        Self { base: safe(prefix), prefix: safe(prefix), taken: FxHashSet::default() }
+    }
+
+    /// From here on ids begin with this name as well, or no longer with any if it is empty.
+    pub fn within(&mut self, name: &str) {
+        let parted = if name.is_empty() { String::new() } else { format!("{}-", safe(name)) };
+        self.prefix = format!("{}{parted}", self.base);
+    }
+
+    /// An id made of a name, numbered if it is taken.
+    pub fn take(&mut self, name: &str) -> String {
+        let wished = format!("{}{}", self.prefix, safe(name));
+        // A name must not begin with a digit.
+        let wished = if wished.starts_with(|c: char| !c.is_alphabetic() && c != '_') {
+            format!("_{wished}")
+        } else {
+            wished
+        };
+        let mut id = wished.clone();
+        let mut number = 1;
+        while !self.taken.insert(id.clone()) {
+            number += 1;
+            id = format!("{wished}-{number}");
+        }
+        id
+    }
+}
+
+/// The name with everything replaced that may not stand in an id or that a selector would need
+/// to escape.
+fn safe(name: &str) -> String {
+    name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '-' }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn escaped(text: &str) -> String {
+        let mut out = Vec::new();
+        escape(&mut out, text);
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn markup_and_control_characters() {
+        assert_eq!(escaped("plain büro"), "plain büro");
+        assert_eq!(escaped("<a & \"b\">"), "&lt;a &amp; &quot;b&quot;&gt;");
+        assert_eq!(read_back("a\nb\u{0}\u{ffff}"), "a\nb\u{fffd}\u{fffd}");
+        assert_eq!(escaped("a\nb\u{0}\u{7}\u{ffff}日本"), "a&#10;b\u{fffd}\u{fffd}\u{fffd}日本");
+    }
+
+    #[test]
+    fn ids_are_unique_and_names() {
+        let mut ids = Ids::new("");
+        assert_eq!(ids.take("part-big bolt"), "part-big-bolt");
+        assert_eq!(ids.take("part-big-bolt"), "part-big-bolt-2");
+        assert_eq!(ids.take("part-big-bolt"), "part-big-bolt-3");
+        assert_eq!(ids.take("1"), "_1");
+        assert_eq!(Ids::new("a<b.").take("lines"), "a-b-lines");
+        let mut ids = Ids::new("p-");
+        ids.within("panel 1");
+        assert_eq!(ids.take("lines"), "p-panel-1-lines");
+        ids.within("");
+        assert_eq!([ids.take("panel-1-lines"), ids.take("lines")], ["p-panel-1-lines-2", "p-lines"]);
+    }
+}

@@ -1,0 +1,96 @@
+//! [`ApngFilm`]: frames as an animated PNG, exact and with clear pixels; what knows no animation shows the first.
+
+use std::io::Write;
+
+use png::{BitDepth, BlendOp, ColorType, Compression, DisposeOp, Encoder, EncodingError, Writer};
+
+use super::frame_clock::Pace;
+use super::frame_difference::Changed;
+use crate::error::Error;
+use crate::export::Pixels;
+
+/// Units of time a second.
+const PER_SECOND: u16 = 1000;
+
+/// Writes an animated PNG.
+pub struct ApngFilm<W: Write> {
+    /// Until the first frame tells the size.
+    out: Option<W>,
+    writer: Option<Writer<W>>,
+    pace: Pace,
+    frames: u32,
+    written: u32,
+    before: Option<Pixels>,
+}
+
+impl<W: Write> ApngFilm<W> {
+    /// A film of so many frames, which must all be given, and so many ticks a second.
+    pub fn new(out: W, fps: f64, frames: u32) -> Self {
+        Self { out: Some(out), writer: None, pace: Pace::new(fps), frames, written: 0, before: None }
+    }
+
+    /// Adds a frame that is shown for so many ticks.
+    ///
+    /// # Errors
+    /// If it cannot be written, if it is of another size than the first, or one too many.
+    pub fn push(&mut self, pixels: &Pixels, ticks: u32) -> Result<(), Error> {
+        if self.written == self.frames {
+            return Err(Error::new(format!("the film should have {} frames", self.frames)));
+        }
+        let changed = match &self.before {
+            Some(before) if [before.width, before.height] != [pixels.width, pixels.height] => {
+                return Err(Error::new("a frame has another size than the first"));
+            }
+            Some(before) => Changed::between(before, pixels),
+            None => Changed::whole(pixels),
+        };
+        let delay = self.pace.next(ticks, f64::from(PER_SECOND)).min(u32::from(u16::MAX)) as u16;
+        self.write(pixels, changed, delay).map_err(cannot_write)?;
+        self.before = Some(pixels.clone());
+        self.written += 1;
+        Ok(())
+    }
+
+    fn write(&mut self, pixels: &Pixels, changed: Changed, delay: u16) -> Result<(), EncodingError> {
+        if let Some(out) = self.out.take() {
+            let mut encoder = Encoder::new(out, pixels.width, pixels.height);
+            encoder.set_color(ColorType::Rgba);
+            encoder.set_depth(BitDepth::Eight);
+            encoder.set_compression(Compression::Balanced);
+            encoder.set_animated(self.frames, 0)?;
+            encoder.set_frame_delay(delay, PER_SECOND)?;
+            encoder.set_blend_op(BlendOp::Source)?;
+            encoder.set_dispose_op(DisposeOp::None)?;
+            self.writer = Some(encoder.write_header()?);
+        }
+        let Some(writer) = &mut self.writer else { return Ok(()) };
+        if self.before.is_some() {
+            // A frame that would reach beyond the picture for a moment is refused.
+            writer.reset_frame_position()?;
+            writer.set_frame_dimension(changed.width, changed.height)?;
+            writer.set_frame_position(changed.left, changed.top)?;
+            writer.set_frame_delay(delay, PER_SECOND)?;
+        }
+        let rows: Vec<u8> = changed.rows(pixels).flatten().copied().collect();
+        writer.write_image_data(&rows)
+    }
+
+    /// Ends the film.
+    ///
+    /// # Errors
+    /// If the end cannot be written, or if frames are missing.
+    pub fn finish(self) -> Result<(), Error> {
+        let writer = self.writer.ok_or_else(|| Error::new("a film needs at least one frame"))?;
+        if self.written < self.frames {
+            return Err(Error::new(format!("this film has {} of {} frames", self.written, self.frames)));
+        }
+        writer.finish().map_err(cannot_write)
+    }
+}
+
+fn cannot_write(error: EncodingError) -> Error {
+    match error {
+        EncodingError::IoError(error) => Error::io("cannot write", error),
+        error => Error::new(format!("cannot write PNG: {error}")),
+    }
+}

@@ -1,0 +1,44 @@
+//! [`Pace`]: how long frames are shown, in the units of a format, without adding up what rounding takes.
+
+/// Where a film is in time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pace {
+    fps: f64,
+    /// Ticks of all frames so far.
+    ticks: u64,
+}
+
+impl Pace {
+    /// At the begin of a film of so many ticks a second.
+    pub fn new(fps: f64) -> Self {
+        Self { fps, ticks: 0 }
+    }
+
+    /// For how many of `per_second` the next frame is shown, which lasts so many ticks; at least for one.
+    pub fn next(&mut self, ticks: u32, per_second: f64) -> u32 {
+        let at = |ticks: u64| (ticks as f64 / self.fps * per_second).round();
+        let after = self.ticks + u64::from(ticks);
+        let delay = at(after) - at(self.ticks);
+        self.ticks = after;
+        delay.clamp(1.0, f64::from(u32::MAX)) as u32
+    }
+
+    /// How long all frames so far are shown, in seconds.
+    pub fn seconds(&self) -> f64 {
+        self.ticks as f64 / self.fps
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_rounding_takes_does_not_add_up() {
+        let mut pace = Pace::new(24.0);
+        let delays: Vec<u32> = (0..24).map(|_| pace.next(1, 100.0)).collect();
+        assert_eq!(delays.iter().sum::<u32>(), 100);
+        assert!(delays.iter().all(|delay| (4..=5).contains(delay)));
+        assert!((pace.seconds() - 1.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,134 @@
+//! [`Tokens`]: frames as lists of numbers for their lines of text, so that what is written alike is known by one number.
+//!
+//! A path is known by all of it but where it begins: one that stands elsewhere, but is otherwise the same, has the same number.
+
+use rustc_hash::FxHashMap;
+
+/// A line of a frame.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) enum Token {
+    /// A path: its number, and where it begins, as it is written.
+    Path(usize, Box<str>),
+    /// Anything else, by the number of its text.
+    Other(usize),
+}
+
+/// A path without its place.
+#[derive(Debug, Clone)]
+pub(crate) struct Shape {
+    /// What stands before the first coordinates, and behind them.
+    pub before: Box<str>,
+    pub after: Box<str>,
+    /// Where it is in the first frame that has it.
+    pub first: Box<str>,
+    /// How often it is there.
+    pub count: usize,
+    /// Whether it always begins where it began first.
+    pub stays: bool,
+}
+
+/// All that frames are made of, each once.
+#[derive(Debug, Default)]
+pub(crate) struct Tokens {
+    pub shapes: Vec<Shape>,
+    pub others: Vec<Box<str>>,
+    known_shapes: FxHashMap<(Box<str>, Box<str>), usize>,
+    known_others: FxHashMap<Box<str>, usize>,
+}
+
+impl Tokens {
+    /// The tokens of a frame's lines.
+    pub fn of<'a>(&mut self, lines: impl Iterator<Item = &'a str>) -> Vec<Token> {
+        lines.map(|line| self.token(line)).collect()
+    }
+
+    fn token(&mut self, line: &str) -> Token {
+        let Some([before, place, after]) = parts(line) else {
+            let next = self.others.len();
+            let number = *self.known_others.entry(line.into()).or_insert(next);
+            if number == next {
+                self.others.push(line.into());
+            }
+            return Token::Other(number);
+        };
+        let next = self.shapes.len();
+        let number = *self.known_shapes.entry((before.into(), after.into())).or_insert(next);
+        if number == next {
+            let (before, after, first) = (before.into(), after.into(), place.into());
+            self.shapes.push(Shape { before, after, first, count: 0, stays: true });
+        }
+        if let Some(shape) = self.shapes.get_mut(number) {
+            shape.count += 1;
+            shape.stays &= *shape.first == *place;
+        }
+        Token::Path(number, place.into())
+    }
+}
+
+/// What of a path stands before its first coordinates, these, and the rest; `None` for what cannot stand elsewhere.
+fn parts(line: &str) -> Option<[&str; 3]> {
+    // What refers to something, or has an axis of its own beside its outline, stays where it is.
+    let path = line.starts_with("<path") && (line.ends_with("/>") || line.ends_with("</path>"));
+    if !path || line.contains("url(#") || line.contains(" id=\"") {
+        return None;
+    }
+    let start = line.find(" d=\"M")? + 5;
+    if line.contains(" data-axis=") {
+        return Some([line.get(..start)?, "", line.get(start..)?]);
+    }
+    let rest = line.get(start..)?;
+    let first = number(rest)?;
+    let between = rest.get(first..)?;
+    let blank = usize::from(between.starts_with(' '));
+    let end = first + blank + number(between.get(blank..)?)?;
+    Some([line.get(..start)?, rest.get(..end)?, rest.get(end..)?])
+}
+
+/// How long the number at the begin of a text is.
+fn number(text: &str) -> Option<usize> {
+    let mut point = false;
+    let goes_on = |(at, letter): (usize, char)| match letter {
+        '-' => at == 0,
+        '.' => !std::mem::replace(&mut point, true),
+        digit => digit.is_ascii_digit(),
+    };
+    let mut goes_on = goes_on;
+    let end = text.char_indices().find(|own| !goes_on(*own)).map_or(text.len(), |(at, _)| at);
+    (end > 0).then_some(end)
+}
+
+/// The two coordinates of a place.
+pub(crate) fn coordinates(place: &str) -> Option<[&str; 2]> {
+    let (x, rest) = place.split_at_checked(number(place)?)?;
+    Some([x, rest.trim_start()])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_is_known_wherever_it_begins() {
+        let mut tokens = Tokens::default();
+        let lines = [
+            "<g>",
+            "<path class=\"crease\" d=\"M1.5.25l3 4\"/>",
+            "<path class=\"crease\" d=\"M-7-8l3 4\"/>",
+            "<path class=\"crease\" d=\"M1.5.25l3 5\"/>",
+            "<path fill=\"url(#a)\" d=\"M1 2l3 4\"/>",
+            "<path data-axis=\"M1 2l3 4\" d=\"M1 2l3 4z\"/>",
+            "<g>",
+        ];
+        let own = tokens.of(lines.into_iter());
+        assert_eq!(own[0], own[6]);
+        assert_eq!(own[1], Token::Path(0, "1.5.25".into()));
+        assert_eq!(own[2], Token::Path(0, "-7-8".into()));
+        assert_eq!(own[3], Token::Path(1, "1.5.25".into()));
+        assert_eq!(own[4], Token::Other(1));
+        assert_eq!(own[5], Token::Path(2, "".into()));
+        assert_eq!((tokens.shapes[0].count, tokens.shapes[0].stays), (2, false));
+        assert_eq!(coordinates("1.5.25"), Some(["1.5", ".25"]));
+        assert_eq!(coordinates("-7-8"), Some(["-7", "-8"]));
+        assert_eq!(coordinates("10 20.5"), Some(["10", "20.5"]));
+    }
+}

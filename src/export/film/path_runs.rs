@@ -1,0 +1,86 @@
+//! [`runs`]: paths that always follow each other, in every frame that has one of them.
+//!
+//! What stands still under what moves is then used by one reference a frame, and not by one a path.
+
+use super::frame_tokens::{Shape, Token};
+
+/// Who stands beside a path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Beside {
+    Unknown,
+    /// Always this one.
+    Always(usize),
+    Varies,
+}
+
+impl Beside {
+    fn sees(&mut self, other: Option<usize>) {
+        let now = other.map_or(Self::Varies, Self::Always);
+        *self = if *self == Self::Unknown || *self == now { now } else { Self::Varies };
+    }
+}
+
+/// Lists of shapes, each longer than one, which stand in every frame in this order or not at all; in the order of their first shapes.
+pub(crate) fn runs(frames: &[Vec<Token>], shapes: &[Shape]) -> Vec<Vec<usize>> {
+    let mut before = vec![Beside::Unknown; shapes.len()];
+    let mut after = before.clone();
+    // A shape that is twice in a frame, or not where it was, is used by itself.
+    let joins = |token: Option<&Token>| match token {
+        Some(Token::Path(shape, _)) => shapes
+            .get(*shape)
+            .filter(|own| own.stays && own.count > 1 && own.count <= frames.len())
+            .map(|_| *shape),
+        _ => None,
+    };
+    for frame in frames {
+        for (place, token) in frame.iter().enumerate() {
+            let Some(shape) = joins(Some(token)) else { continue };
+            let previous = place.checked_sub(1).and_then(|place| joins(frame.get(place)));
+            if let (Some(before), Some(after)) = (before.get_mut(shape), after.get_mut(shape)) {
+                before.sees(previous);
+                after.sees(joins(frame.get(place + 1)));
+            }
+        }
+    }
+    let follows = |shape: usize| match after.get(shape) {
+        Some(Beside::Always(next)) if before.get(*next) == Some(&Beside::Always(shape)) => Some(*next),
+        _ => None,
+    };
+    let led = |shape: usize| match before.get(shape) {
+        Some(Beside::Always(previous)) => follows(*previous) == Some(shape),
+        _ => false,
+    };
+    let mut runs = Vec::new();
+    for shape in (0..shapes.len()).filter(|shape| !led(*shape)) {
+        let run: Vec<usize> = std::iter::successors(Some(shape), |shape| follows(*shape)).collect();
+        if run.len() > 1 {
+            runs.push(run);
+        }
+    }
+    runs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::frame_tokens::Tokens;
+    use super::*;
+
+    #[test]
+    fn what_always_follows_is_a_run() {
+        let mut tokens = Tokens::default();
+        let mut frame = |text: &str| {
+            let lines: Vec<String> = text
+                .chars()
+                .map(|letter| format!("<path d=\"M{} 0h1\" class=\"{letter}\"/>", letter as u32))
+                .collect();
+            tokens.of(lines.iter().map(String::as_str))
+        };
+        // Only what of the path stands before the coordinates is in its shape, so that letters are told apart by place alone.
+        let frames = ["abcdx", "abcydz", "wabc", "d"].map(&mut frame);
+        let shapes: Vec<Shape> = tokens.shapes;
+        let letters = |run: &Vec<usize>| run.len();
+        let runs = runs(&frames, &shapes);
+        assert_eq!(runs.iter().map(letters).collect::<Vec<_>>(), [3]);
+        assert_eq!(runs[0], [0, 1, 2]);
+    }
+}

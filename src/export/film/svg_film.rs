@@ -1,0 +1,247 @@
+//! [`SvgFilm`]: frames as one animated SVG.
+//!
+//! Every frame is a group within `defs`; one `use` shows one after another, by a discrete `animate` of its `xlink:href`. That plays in
+//! browsers, also within `img`, and what knows no animation shows the first frame. What several frames have in common is written
+//! once: paths that stay, alone or in runs, and paths that moved without turning.
+
+use std::fmt::Write as _;
+
+use super::frame_clock::Pace;
+use super::frame_tokens::{Shape, Token, Tokens, coordinates};
+use super::path_runs::runs;
+use crate::drawing::{Drawing, Unit};
+use crate::export::SvgOptions;
+
+/// Shorter paths are written again: a reference would be no shorter.
+const SHORTEST_SHARED: usize = 48;
+
+/// Decimals of coordinates in px and mm, unless others are asked for: what moves is looked at less closely.
+const DECIMALS: [u8; 2] = [1, 2];
+
+/// What a group of a drawing says to drawing programs, which cannot open frames as layers.
+const LAYER: &str = " inkscape:groupmode=\"layer\" inkscape:label=\"";
+
+/// Makes an animated SVG.
+#[derive(Debug)]
+pub struct SvgFilm {
+    options: SvgOptions,
+    fps: f64,
+    pace: Pace,
+    /// The root element and the title, of the first frame.
+    head: String,
+    tokens: Tokens,
+    /// Frames, no two of which are the same.
+    frames: Vec<Vec<Token>>,
+    /// The frames in the order in which they are shown, and for how many ticks.
+    shown: Vec<(usize, u32)>,
+}
+
+impl SvgFilm {
+    /// A film of so many ticks a second. Without a precision in the options coordinates have one decimal in px, and two in mm.
+    #[must_use]
+    pub fn new(fps: f64, options: &SvgOptions) -> Self {
+        Self {
+            options: options.clone(),
+            fps,
+            pace: Pace::new(fps),
+            head: String::new(),
+            tokens: Tokens::default(),
+            frames: Vec::new(),
+            shown: Vec::new(),
+        }
+    }
+
+    /// Adds a frame that is shown for so many ticks.
+    pub fn push(&mut self, drawing: &Drawing, ticks: u32) {
+        let precision = self.options.precision.unwrap_or(match drawing.page.unit {
+            Unit::Px => DECIMALS[0],
+            Unit::Mm => DECIMALS[1],
+        });
+        let id_prefix = format!("{}f{}-", self.options.id_prefix, self.frames.len());
+        let options =
+            SvgOptions { precision: Some(precision), id_prefix: id_prefix.clone(), ..self.options.clone() };
+        let text = drawing.to_svg(&options);
+        let body = text.strip_suffix("</svg>\n").unwrap_or(&text);
+        let is_head = |line: &&str| line.starts_with("<svg") || line.starts_with("<title>");
+        if self.head.is_empty() {
+            self.head = body.lines().take_while(is_head).fold(String::new(), |head, line| head + line + "\n");
+        }
+        // The same groups in all frames: an id is given where something refers to it.
+        let own = format!(" id=\"{id_prefix}");
+        let lines: Vec<String> = body.lines().skip_while(is_head).map(|line| plain(line, &own)).collect();
+        let frame = self.tokens.of(lines.iter().map(String::as_str));
+        let known = self.frames.iter().position(|known| *known == frame);
+        let number = known.unwrap_or(self.frames.len());
+        if known.is_none() {
+            self.frames.push(frame);
+        }
+        self.pace.next(ticks, self.fps);
+        match self.shown.last_mut() {
+            Some((last, shown)) if *last == number => *shown += ticks,
+            _ => self.shown.push((number, ticks)),
+        }
+    }
+
+    /// The film as SVG text; empty without a frame.
+    #[must_use]
+    pub fn finish(self) -> String {
+        if self.frames.is_empty() {
+            return String::new();
+        }
+        let prefix = &self.options.id_prefix;
+        let shared = Shared::of(&self.frames, &self.tokens, prefix);
+        let mut out = self.head.clone();
+        if !out.contains(" xmlns:xlink=") {
+            out = out.replacen(
+                " xmlns:inkscape=",
+                " xmlns:xlink=\"http://www.w3.org/1999/xlink\" xmlns:inkscape=",
+                1,
+            );
+        }
+        out.push_str("<defs>\n");
+        shared.define(&mut out, &self.tokens.shapes);
+        for (number, frame) in self.frames.iter().enumerate() {
+            let _ = writeln!(out, "<g id=\"{prefix}frame-{number}\">");
+            shared.write(&mut out, frame, &self.tokens);
+            out.push_str("</g>\n");
+        }
+        out.push_str("</defs>\n");
+        let first = self.shown.first().map_or(0, |(number, _)| *number);
+        let _ = write!(out, "<use xlink:href=\"#{prefix}frame-{first}\">");
+        self.animate(&mut out);
+        out.push_str("</use>\n</svg>\n");
+        out
+    }
+
+    /// What shows one frame after another.
+    fn animate(&self, out: &mut String) {
+        let all: u64 = self.shown.iter().map(|(_, ticks)| u64::from(*ticks)).sum();
+        if self.shown.len() < 2 {
+            return;
+        }
+        let prefix = &self.options.id_prefix;
+        out.push_str(
+            "<animate attributeName=\"xlink:href\" calcMode=\"discrete\" repeatCount=\"indefinite\" dur=\"",
+        );
+        let _ = write!(out, "{}s\" values=\"", short(self.pace.seconds()));
+        for (place, (number, _)) in self.shown.iter().enumerate() {
+            let _ = write!(out, "{}#{prefix}frame-{number}", if place > 0 { ";" } else { "" });
+        }
+        out.push('"');
+        // Without times all are shown equally long.
+        if self.shown.iter().any(|(_, ticks)| Some(ticks) != self.shown.first().map(|(_, ticks)| ticks)) {
+            out.push_str(" keyTimes=\"");
+            let mut before = 0_u64;
+            for (place, (_, ticks)) in self.shown.iter().enumerate() {
+                let time = short(before as f64 / all as f64);
+                let _ = write!(out, "{}{time}", if place > 0 { ";" } else { "" });
+                before += u64::from(*ticks);
+            }
+            out.push('"');
+        }
+        out.push_str("/>");
+    }
+}
+
+/// A line without what makes a group a layer, and without the group's id, to which nothing refers.
+fn plain(line: &str, own_id: &str) -> String {
+    let Some(at) = line.find(LAYER) else { return line.to_owned() };
+    let after = line.get(at + LAYER.len()..).and_then(|rest| rest.split_once('"'));
+    let head = line.get(..at).unwrap_or_default();
+    let layer = head.find(own_id).and_then(|at| head.get(at + own_id.len()..)).unwrap_or_default();
+    let layer = layer.trim_end_matches('"');
+    format!("<g class=\"{layer}\"{}", after.map_or("", |(_, rest)| rest))
+}
+
+/// A number with at most six decimals.
+fn short(value: f64) -> String {
+    let text = format!("{value:.6}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// What is written once, and where it is used.
+struct Shared<'a> {
+    prefix: &'a str,
+    runs: Vec<Vec<usize>>,
+    /// One a shape.
+    roles: Vec<Role>,
+}
+
+/// How a shape is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Role {
+    /// Where it stands.
+    Plain,
+    /// By a reference to itself.
+    Alone,
+    /// As the begin of this run.
+    Begins(usize),
+    /// Within a run that has begun.
+    Within,
+}
+
+impl<'a> Shared<'a> {
+    fn of(frames: &[Vec<Token>], tokens: &Tokens, prefix: &'a str) -> Self {
+        let shapes = &tokens.shapes;
+        let role = |shape: &Shape| {
+            let long = shape.before.len() + shape.after.len() >= SHORTEST_SHARED;
+            if shape.count > 1 && long { Role::Alone } else { Role::Plain }
+        };
+        let mut roles: Vec<Role> = shapes.iter().map(role).collect();
+        let runs = runs(frames, shapes);
+        for (number, run) in runs.iter().enumerate() {
+            for (place, shape) in run.iter().enumerate() {
+                if let Some(role) = roles.get_mut(*shape) {
+                    *role = if place == 0 { Role::Begins(number) } else { Role::Within };
+                }
+            }
+        }
+        Self { prefix, runs, roles }
+    }
+
+    /// Writes what is used by reference.
+    fn define(&self, out: &mut String, shapes: &[Shape]) {
+        for (number, (shape, role)) in shapes.iter().zip(&self.roles).enumerate() {
+            if *role != Role::Alone {
+                continue;
+            }
+            let (id, rest) = (format!("{}p{number}", self.prefix), shape.before.strip_prefix("<path"));
+            let place = if shape.stays { &*shape.first } else { "0 0" };
+            let _ = writeln!(out, "<path id=\"{id}\"{}{place}{}", rest.unwrap_or_default(), shape.after);
+        }
+        for (number, run) in self.runs.iter().enumerate() {
+            let _ = writeln!(out, "<g id=\"{}r{number}\">", self.prefix);
+            for Shape { before, first, after, .. } in run.iter().filter_map(|shape| shapes.get(*shape)) {
+                let _ = writeln!(out, "{before}{first}{after}");
+            }
+            out.push_str("</g>\n");
+        }
+    }
+
+    fn write(&self, out: &mut String, frame: &[Token], tokens: &Tokens) {
+        for token in frame {
+            let (number, place) = match token {
+                Token::Other(number) => {
+                    out.push_str(tokens.others.get(*number).map_or("", |text| text));
+                    out.push('\n');
+                    continue;
+                }
+                Token::Path(number, place) => (*number, place),
+            };
+            let (Some(shape), Some(role)) = (tokens.shapes.get(number), self.roles.get(number)) else {
+                continue;
+            };
+            let prefix = self.prefix;
+            let _ = match role {
+                Role::Within => Ok(()),
+                Role::Begins(run) => writeln!(out, "<use xlink:href=\"#{prefix}r{run}\"/>"),
+                Role::Alone if shape.stays => writeln!(out, "<use xlink:href=\"#{prefix}p{number}\"/>"),
+                Role::Alone => {
+                    let [x, y] = coordinates(place).unwrap_or(["0", "0"]);
+                    writeln!(out, "<use xlink:href=\"#{prefix}p{number}\" x=\"{x}\" y=\"{y}\"/>")
+                }
+                Role::Plain => writeln!(out, "{}{place}{}", shape.before, shape.after),
+            };
+        }
+    }
+}

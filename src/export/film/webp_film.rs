@@ -1,0 +1,117 @@
+//! [`WebpFilm`]: frames as an animated WebP, exact and with clear pixels.
+//!
+//! Source: the container of WebP, developers.google.com/speed/webp/docs/riff_container: `VP8X`, `ANIM`, and for each frame an
+//! `ANMF` that holds a still picture without its outermost header.
+
+use image_webp::{ColorType, WebPEncoder};
+
+use super::frame_clock::Pace;
+use super::frame_difference::Changed;
+use crate::error::Error;
+use crate::export::Pixels;
+
+/// Units of time a second.
+const PER_SECOND: f64 = 1000.0;
+
+/// Most pixels a side.
+const LONGEST_SIDE: u32 = 16_384;
+
+/// The outermost header of a still picture: `RIFF`, its length, `WEBP`.
+const HEADER: usize = 12;
+
+/// Flags of `VP8X`: it moves, and has clear pixels.
+const MOVES_AND_CLEAR: u8 = 0x02 | 0x10;
+
+/// Flags of `ANMF`: its pixels replace what is there, and stay.
+const REPLACES: u8 = 0x02;
+
+/// Makes an animated WebP.
+pub struct WebpFilm {
+    /// All chunks behind the outermost header.
+    chunks: Vec<u8>,
+    pace: Pace,
+    before: Option<Pixels>,
+}
+
+impl WebpFilm {
+    /// A film of so many ticks a second.
+    #[must_use]
+    pub fn new(fps: f64) -> Self {
+        Self { chunks: Vec::new(), pace: Pace::new(fps), before: None }
+    }
+
+    /// Adds a frame that is shown for so many ticks.
+    ///
+    /// # Errors
+    /// If it is of another size than the first, or larger than the format allows.
+    pub fn push(&mut self, pixels: &Pixels, ticks: u32) -> Result<(), Error> {
+        if pixels.width.max(pixels.height) > LONGEST_SIDE {
+            return Err(
+                Error::new("WebP is limited to 16384 pixels per side").remedy("choose a smaller size")
+            );
+        }
+        let changed = match &self.before {
+            Some(before) if [before.width, before.height] != [pixels.width, pixels.height] => {
+                return Err(Error::new("a frame has another size than the first"));
+            }
+            Some(before) => Changed::between(before, pixels).even(),
+            None => {
+                let mut extended = vec![MOVES_AND_CLEAR, 0, 0, 0];
+                extended.extend(low(pixels.width - 1));
+                extended.extend(low(pixels.height - 1));
+                self.chunk(*b"VP8X", &extended);
+                // A clear background, and no end of repetitions.
+                self.chunk(*b"ANIM", &[0; 6]);
+                Changed::whole(pixels)
+            }
+        };
+        let rows: Vec<u8> = changed.rows(pixels).flatten().copied().collect();
+        let mut still = Vec::new();
+        WebPEncoder::new(&mut still)
+            .encode(&rows, changed.width, changed.height, ColorType::Rgba8)
+            .map_err(|error| Error::new(format!("cannot write WebP: {error}")))?;
+        let mut frame = Vec::with_capacity(still.len() + 16);
+        for number in [changed.left / 2, changed.top / 2, changed.width - 1, changed.height - 1] {
+            frame.extend(low(number));
+        }
+        frame.extend(low(self.pace.next(ticks, PER_SECOND).min(0x00ff_ffff)));
+        frame.push(REPLACES);
+        frame.extend_from_slice(still.get(HEADER..).unwrap_or_default());
+        self.chunk(*b"ANMF", &frame);
+        self.before = Some(pixels.clone());
+        Ok(())
+    }
+
+    /// The film as bytes.
+    ///
+    /// # Errors
+    /// If there is no frame, or if the film is longer than the format allows.
+    pub fn finish(self) -> Result<Vec<u8>, Error> {
+        if self.before.is_none() {
+            return Err(Error::new("a film needs at least one frame"));
+        }
+        let length = u32::try_from(self.chunks.len() + 4)
+            .map_err(|_| Error::new("the film is longer than WebP allows").remedy("write fewer frames"))?;
+        let mut file = b"RIFF".to_vec();
+        file.extend(length.to_le_bytes());
+        file.extend(b"WEBP");
+        file.extend(self.chunks);
+        Ok(file)
+    }
+
+    /// Adds a chunk; one of odd length is followed by a byte more.
+    fn chunk(&mut self, name: [u8; 4], content: &[u8]) {
+        self.chunks.extend(name);
+        self.chunks.extend((content.len() as u32).to_le_bytes());
+        self.chunks.extend_from_slice(content);
+        if content.len() % 2 == 1 {
+            self.chunks.push(0);
+        }
+    }
+}
+
+/// The lowest three bytes of a number.
+fn low(number: u32) -> [u8; 3] {
+    let [a, b, c, _] = number.to_le_bytes();
+    [a, b, c]
+}

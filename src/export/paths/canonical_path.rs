@@ -1,0 +1,234 @@
+//! The canonical form of a path: rounded, rid of pieces of no length, and begun where every way of writing it down would
+//! begin.
+//!
+//! Coordinates are rounded where they stand on the page, and all else is decided on the rounded ones: what is read
+//! back from the text is in the form already.
+
+use std::cmp::Ordering;
+
+use kurbo::{BezPath, PathEl, Point};
+
+use super::path_data::Writer;
+use super::path_piece::{Kind, PathPiece, Step};
+use crate::export::encoding::decimals::Decimals;
+
+/// What of a path makes no difference to how it is painted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// Nothing, but for pieces of no length: dashes begin where the path does, and pens travel along it.
+    Kept,
+    /// Where it begins, and which way it runs: a solid line.
+    Stroked,
+    /// Where its closed subpaths begin. The way they run tells holes from islands.
+    Filled,
+}
+
+/// Writes paths in canonical form; keeps its memory from one path to the next.
+#[derive(Debug)]
+pub(crate) struct Canonical {
+    decimals: Decimals,
+    form: Form,
+    /// The subpath that is being read: where it began, and its pieces.
+    begun: Option<Step>,
+    pen: Step,
+    pieces: Vec<PathPiece>,
+    turned: Vec<PathPiece>,
+    first: Option<Step>,
+    lost: bool,
+}
+
+impl Canonical {
+    pub fn new(decimals: Decimals) -> Self {
+        Self {
+            decimals,
+            form: Form::Kept,
+            begun: None,
+            pen: Step::default(),
+            pieces: Vec::new(),
+            turned: Vec::new(),
+            first: None,
+            lost: false,
+        }
+    }
+
+    /// A point on the grid of the written precision.
+    pub fn step(&self, point: Point) -> Step {
+        Step { y: self.decimals.round(point.y), x: self.decimals.round(point.x) }
+    }
+
+    /// Writes the `d` of a path; where what is written begins.
+    pub fn write(&mut self, out: &mut Vec<u8>, path: &BezPath, form: Form) -> Option<Step> {
+        let mut writer = Writer::new(out, self.decimals);
+        self.form = form;
+        (self.begun, self.first, self.lost, self.pen) = (None, None, false, Step::default());
+        let none = Step::default();
+        for element in path.elements() {
+            match *element {
+                PathEl::MoveTo(to) => {
+                    self.end(&mut writer, false);
+                    self.pen = self.step(to);
+                    self.begun = Some(self.pen);
+                }
+                PathEl::LineTo(to) => self.piece(Kind::Line, none, none, self.step(to)),
+                PathEl::QuadTo(c, to) => self.piece(Kind::Quad, self.step(c), none, self.step(to)),
+                PathEl::CurveTo(c1, c2, to) => {
+                    self.piece(Kind::Cubic, self.step(c1), self.step(c2), self.step(to));
+                }
+                PathEl::ClosePath => self.end(&mut writer, true),
+            }
+        }
+        self.end(&mut writer, false);
+        self.first
+    }
+
+    /// Whether points of the last path were left out, where markers might have stood.
+    #[cfg(feature = "diff")]
+    pub fn has_lost_points(&self) -> bool {
+        self.lost
+    }
+
+    fn piece(&mut self, kind: Kind, c1: Step, c2: Step, to: Step) {
+        // What follows a close without a move begins where that subpath began.
+        self.begun.get_or_insert(self.pen);
+        let piece = PathPiece { from: self.pen, to, kind, c1, c2 };
+        if piece.has_no_length() {
+            self.lost = true;
+        } else {
+            self.pieces.push(piece);
+        }
+        self.pen = to;
+    }
+
+    /// Ends the subpath that is being read, if there is one, and writes it.
+    fn end(&mut self, writer: &mut Writer, closed: bool) {
+        let Some(start) = self.begun.take() else { return };
+        if closed {
+            self.lost |= self.pen == start && self.pieces.last().is_some_and(|last| last.kind == Kind::Line);
+            if self.pen != start {
+                let none = Step::default();
+                let closing = PathPiece { from: self.pen, to: start, kind: Kind::Line, c1: none, c2: none };
+                self.pieces.push(closing);
+            }
+        }
+        match (self.form, closed) {
+            (Form::Kept, _) | (Form::Filled, false) => {}
+            (Form::Stroked, false) => {
+                let backwards = self.pieces.iter().rev().map(PathPiece::reversed);
+                if backwards.cmp(self.pieces.iter().copied()) == Ordering::Less {
+                    self.pieces.reverse();
+                    self.pieces.iter_mut().for_each(|piece| *piece = piece.reversed());
+                }
+            }
+            (Form::Filled, true) => rotate(&mut self.pieces),
+            (Form::Stroked, true) => {
+                self.turned.clear();
+                self.turned.extend(self.pieces.iter().rev().map(PathPiece::reversed));
+                rotate(&mut self.pieces);
+                rotate(&mut self.turned);
+                if self.turned < self.pieces {
+                    std::mem::swap(&mut self.turned, &mut self.pieces);
+                }
+            }
+        }
+        let first = self.pieces.first().map_or(start, |piece| piece.from);
+        self.first.get_or_insert(first);
+        writer.subpath(first, &self.pieces, closed);
+        self.pieces.clear();
+        // Wherever it begins now, what follows begins where it did.
+        self.pen = start;
+    }
+}
+
+/// Turns a closed subpath until it is the least of all that it may be: it begins at its least point then.
+fn rotate(pieces: &mut [PathPiece]) {
+    let turns = least_rotation(pieces);
+    pieces.rotate_left(turns);
+}
+
+/// By how much a cycle is to be turned to be the least one, in time that grows with its length only: two candidates
+/// are compared, and where they part, all candidates of the greater one up to there are out.
+fn least_rotation<T: Ord>(cycle: &[T]) -> usize {
+    let count = cycle.len();
+    let (mut a, mut b, mut same) = (0, 1, 0);
+    while a < count && b < count && same < count {
+        match cycle[(a + same) % count].cmp(&cycle[(b + same) % count]) {
+            Ordering::Equal => same += 1,
+            order => {
+                let out = if order == Ordering::Greater { &mut a } else { &mut b };
+                *out += same + 1;
+                if a == b {
+                    b += 1;
+                }
+                same = 0;
+            }
+        }
+    }
+    a.min(b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn form(text: &str, form: Form) -> String {
+        let mut out = Vec::new();
+        Canonical::new(Decimals::new(2)).write(&mut out, &BezPath::from_svg(text).unwrap(), form);
+        String::from_utf8(out).unwrap()
+    }
+
+    #[test]
+    fn lines_begin_at_their_lesser_end() {
+        for text in ["M5 5 L3 9 L1 2", "M1 2 L3 9 L5 5"] {
+            assert_eq!(form(text, Form::Stroked), "M1 2l2 7 2-4");
+        }
+        assert_eq!(form("M9 1 C8 2 7 3 1 1", Form::Stroked), "M1 1c6 2 7 1 8 0");
+        assert_eq!(form("M5 5 L3 9 L1 2", Form::Kept), "M5 5l-2 4-2-7");
+        assert_eq!(form("M5 5 L3 9 L1 2", Form::Filled), "M5 5l-2 4-2-7");
+    }
+
+    #[test]
+    fn rings_begin_at_their_least_point() {
+        // A square written from every corner, both ways, with and without its last side.
+        let corners = ["1 1", "5 1", "5 4", "1 4"];
+        for first in 0..4 {
+            for step in [1, 3] {
+                let at = |index: usize| corners[(first + index * step) % 4];
+                for last in ["", " L"] {
+                    let last = if last.is_empty() { String::new() } else { format!("{last}{}", at(0)) };
+                    let text = format!("M{} L{} L{} L{}{last} Z", at(0), at(1), at(2), at(3));
+                    assert_eq!(form(&text, Form::Stroked), "M1 1h4v3h-4z", "{text}");
+                    let filled = if step == 1 { "M1 1h4v3h-4z" } else { "M1 1v3h4v-3z" };
+                    assert_eq!(form(&text, Form::Filled), filled, "{text}");
+                }
+            }
+        }
+        // The order of subpaths stays, and what follows a close begins at the old start.
+        assert_eq!(form("M5 5 L1 1 L9 1 Z L7 7", Form::Filled), "M1 1h8l-4 4zm4 4 2 2");
+    }
+
+    #[test]
+    fn figures_of_eight_have_one_form() {
+        let eight = ["2 2", "4 1", "4 3", "2 2", "0 3", "0 1"];
+        let mut forms: Vec<String> = Vec::new();
+        for first in 0..6 {
+            for step in [1, 5] {
+                let points: Vec<&str> = (0..6).map(|index| eight[(first + index * step) % 6]).collect();
+                forms.push(form(&format!("M{}Z", points.join(" L")), Form::Stroked));
+            }
+        }
+        forms.dedup();
+        assert_eq!(forms.len(), 1, "{forms:?}");
+        for (cycle, turns) in [("abab", 0), ("baba", 1), ("cabaab", 3), ("aaa", 0), ("", 0), ("b", 0)] {
+            assert_eq!(least_rotation(cycle.as_bytes()), turns, "{cycle}");
+        }
+    }
+
+    #[test]
+    fn pieces_of_no_length_go() {
+        assert_eq!(form("M1 1 L1.001 1 L5 1 C5 1 5 1 5 1", Form::Stroked), "M1 1h4");
+        assert_eq!(form("M1 1 L1.001 1 Z", Form::Stroked), "M1 1z");
+        assert_eq!(form("M1 1 L1.001 1", Form::Filled), "M1 1h0");
+        // A loop has no ends apart, and yet a length.
+        assert_eq!(form("M1 1 C3 1 1 3 1 1", Form::Filled), "M1 1c2 0 0 2 0 0");
+    }
+}

@@ -1,0 +1,403 @@
+//! The operators of PDF that paint marks: a content stream, written only where the ink changes.
+//!
+//! Source: ISO 32000-1, tables 57 (graphics state), 59 (path construction), 60 (path painting).
+
+use kurbo::{Affine, PathEl, Point};
+
+use super::fonts::Fonts;
+use super::picture_crops::Crops;
+use crate::colour::srgb::Colour;
+use crate::drawing::{Cap, ImagePaint, ImagePiece, Join, Mark, OutlinePaint, Paint, Shows, StrokePaint};
+use crate::export::encoding::decimals::Decimals;
+use crate::export::encoding::embedded_pictures::matrix;
+use crate::export::pdf::press::halftone_screen::Screen;
+use crate::export::pdf::press::ink_plates::{Ink, Plates};
+
+/// Decimals of widths and dashes, as in SVG, and of the channels of colours.
+const WIDTH_DECIMALS: u8 = 3;
+const CHANNEL_DECIMALS: u8 = 4;
+
+/// What prints marks, and in which fonts they are set.
+#[derive(Clone, Copy)]
+pub(crate) struct Press<'a> {
+    pub plates: &'a Plates,
+    /// None where letters are outlines.
+    pub fonts: Option<&'a Fonts>,
+    /// The number that the first picture of the drawing has in the document.
+    pub first_picture: usize,
+    /// How fills become dots.
+    pub dots: Option<Dots>,
+}
+
+/// How fills become dots.
+#[derive(Clone, Copy)]
+pub(crate) struct Dots {
+    pub screen: Screen,
+    /// From units of the drawing to those of its page.
+    pub place: Affine,
+    /// Units of the page in a mm.
+    pub mm: f64,
+}
+
+/// Paints marks, one after the other.
+pub(crate) struct Writer<'a> {
+    pub(crate) out: Vec<u8>,
+    decimals: Decimals,
+    /// The ink that is set; nothing is known at the start.
+    stroke: Option<StrokePaint>,
+    pub(crate) fill: Option<Colour>,
+    /// Opacity, and whether inks below stay.
+    state: Option<(u8, bool)>,
+    /// The number of the next gradient.
+    patterns: usize,
+    /// None for the colours of screens and outlines of letters.
+    pub(crate) press: Option<Press<'a>>,
+}
+
+impl<'a> Writer<'a> {
+    /// Coordinates get so many decimals; gradients are numbered on from `patterns`.
+    pub(crate) fn new(decimals: Decimals, patterns: usize, press: Option<Press<'a>>) -> Self {
+        Self { out: Vec::new(), decimals, stroke: None, fill: None, state: None, patterns, press }
+    }
+
+    /// Paints a mark that is no picture.
+    pub(crate) fn plain(&mut self, mark: &Mark) {
+        self.mark(mark, &Crops::default());
+    }
+
+    /// Paints one mark of a drawing with those pictures.
+    pub(crate) fn mark(&mut self, mark: &Mark, pictures: &Crops) {
+        if mark.path.elements().is_empty() {
+            self.patterns += usize::from(matches!(mark.paint, Paint::Gradient(_)));
+            return;
+        }
+        match &mark.paint {
+            Paint::Stroke(stroke) => {
+                self.set_state(stroke.colour);
+                self.set_stroke(stroke);
+                self.path(mark.path.elements());
+                self.out.extend_from_slice(b"S\n");
+            }
+            Paint::Gradient(gradient)
+                if self.screened(mark, gradient.stops.first().map_or(255, |s| s.1.a)) =>
+            {
+                self.patterns += 1;
+            }
+            Paint::Fill(colour) if mark.provenance.text.is_none() && self.screened(mark, colour.a) => {}
+            Paint::Gradient(gradient) => {
+                self.set_opacity(gradient.stops.first().map_or(255, |(_, colour)| colour.a));
+                let name = pattern_name(self.patterns);
+                self.patterns += 1;
+                self.fill = None;
+                self.out.extend_from_slice(format!("/Pattern cs /{name} scn\n").as_bytes());
+                self.path(mark.path.elements());
+                self.out.extend_from_slice(b"f\n");
+            }
+            Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => {
+                self.set_state(*colour);
+                self.set_fill(*colour);
+                let fonts = self.press.and_then(|press| press.fonts);
+                let set = fonts.zip(mark.provenance.text.as_ref());
+                if set.is_some_and(|(fonts, run)| fonts.set(&mut self.out, run, self.decimals)) {
+                    return;
+                }
+                self.path(mark.path.elements());
+                self.out.extend_from_slice(b"f\n");
+            }
+            Paint::Image(image) if pictures.mask(image).is_some() => {
+                let Some((number, ink)) = pictures.mask(image) else { return };
+                let first = self.press.map_or(0, |press| press.first_picture);
+                self.set_opacity(255);
+                let before = (self.stroke.clone(), self.fill, self.state);
+                self.out.extend_from_slice(format!("q\n/{} gs\n", mask_name(first, number)).as_bytes());
+                self.set_fill(ink);
+                self.path(mark.path.elements());
+                self.out.extend_from_slice(b"f\nQ\n");
+                (self.stroke, self.fill, self.state) = before;
+            }
+            Paint::Image(image) => {
+                self.set_opacity(255);
+                self.clipped(mark.path.elements(), |writer| writer.pieces(image, pictures));
+            }
+        }
+    }
+
+    /// Paints the pieces of a picture.
+    fn pieces(&mut self, image: &ImagePaint, pictures: &Crops) {
+        let first = self.press.map_or(0, |press| press.first_picture);
+        for piece in &image.pieces {
+            match piece.shows {
+                Shows::Pixels(_) => self.pixels(piece, pictures, first),
+                Shows::Colour(colour) => {
+                    self.set_fill(colour);
+                    self.path(piece.outline.elements());
+                    self.out.extend_from_slice(b"f\n");
+                }
+            }
+        }
+    }
+
+    /// Paints how opaque the pieces of a picture are: black where they are clear, white where they hide all.
+    pub(crate) fn opacities(&mut self, image: &ImagePaint, pictures: &Crops, first: usize) {
+        for piece in &image.pieces {
+            match piece.shows {
+                Shows::Pixels(_) => self.pixels(piece, pictures, first),
+                Shows::Colour(Colour { a, .. }) => {
+                    let light = Decimals::new(CHANNEL_DECIMALS).text(f64::from(a) / 255.0);
+                    self.out.extend_from_slice(format!("{light} g\n").as_bytes());
+                    self.path(piece.outline.elements());
+                    self.out.extend_from_slice(b"f\n");
+                }
+            }
+        }
+    }
+
+    /// Paints a piece that shows pixels.
+    fn pixels(&mut self, piece: &ImagePiece, pictures: &Crops, first: usize) {
+        let Shows::Pixels(transform) = piece.shows else { return };
+        let Some((number, crop)) = pictures.shown(piece) else { return };
+        let place = matrix(transform * crop.pixels_from_object(), " ");
+        let shown = format!("{place} cm\n/{} Do\n", picture_name(first + number));
+        self.clipped(piece.outline.elements(), |writer| {
+            writer.out.extend_from_slice(shown.as_bytes());
+        });
+    }
+
+    /// Lets that be seen of what is painted which lies inside a path.
+    pub(crate) fn clipped(&mut self, elements: &[PathEl], paint: impl FnOnce(&mut Self)) {
+        let ink = (self.stroke.clone(), self.fill, self.state);
+        self.out.extend_from_slice(b"q\n");
+        self.path(elements);
+        self.out.extend_from_slice(b"W n\n");
+        paint(self);
+        self.out.extend_from_slice(b"Q\n");
+        (self.stroke, self.fill, self.state) = ink;
+    }
+
+    fn set_stroke(&mut self, stroke: &StrokePaint) {
+        let old = self.stroke.take();
+        let differs =
+            |same: fn(&StrokePaint, &StrokePaint) -> bool| !old.as_ref().is_some_and(|old| same(old, stroke));
+        let fine = Decimals::new(WIDTH_DECIMALS);
+        if differs(|a, b| a.width == b.width) {
+            self.value(fine, stroke.width);
+            self.operator(b"w");
+        }
+        if differs(|a, b| a.cap == b.cap) {
+            self.operator(match stroke.cap {
+                Cap::Butt => b"0 J",
+                Cap::Round => b"1 J",
+                Cap::Square => b"2 J",
+            });
+        }
+        if differs(|a, b| a.join == b.join) {
+            self.operator(match stroke.join {
+                Join::Miter => b"0 j",
+                Join::Round => b"1 j",
+                Join::Bevel => b"2 j",
+            });
+        }
+        if differs(|a, b| a.colour == b.colour) {
+            self.colour(stroke.colour, b"RG");
+        }
+        if differs(|a, b| a.dash == b.dash && a.dash_offset == b.dash_offset) {
+            self.out.push(b'[');
+            // A pattern that is all zero would be an error.
+            if stroke.dash.iter().any(|length| fine.round(*length) > 0) {
+                stroke.dash.iter().for_each(|length| self.value(fine, *length));
+            }
+            self.out.extend_from_slice(b"] ");
+            self.value(fine, stroke.dash_offset);
+            self.operator(b"d");
+        }
+        self.stroke = Some(stroke.clone());
+    }
+
+    /// Sets the colour of filled outlines.
+    pub(crate) fn set_fill(&mut self, colour: Colour) {
+        if self.fill != Some(colour) {
+            self.colour(colour, b"rg");
+            self.fill = Some(colour);
+        }
+    }
+
+    /// Chooses the graphics state of what has that colour: its opacity, and printed over what is below or not.
+    pub(crate) fn set_state(&mut self, colour: Colour) {
+        let overprints = self.press.is_some_and(|press| press.plates.overprints(colour));
+        self.choose((colour.a, overprints));
+    }
+
+    /// Chooses the graphics state of that opacity, by its [`state_name`].
+    fn set_opacity(&mut self, opacity: u8) {
+        self.choose((opacity, false));
+    }
+
+    pub(crate) fn choose(&mut self, state: (u8, bool)) {
+        if self.state != Some(state) {
+            self.out.push(b'/');
+            self.out.extend_from_slice(state_name(state).as_bytes());
+            self.operator(b" gs");
+            self.state = Some(state);
+        }
+    }
+
+    /// Sets a colour: `operator` is that of RGB, `rg` or `RG`.
+    fn colour(&mut self, colour: Colour, operator: &[u8]) {
+        let fills = operator == b"rg";
+        let fine = Decimals::new(CHANNEL_DECIMALS);
+        match self.press.map(|press| press.plates.ink(colour)) {
+            None => {
+                for channel in colour.channels() {
+                    self.value(fine, channel);
+                }
+                self.operator(operator);
+            }
+            Some(Ink::Rgb(channels)) => {
+                channels.into_iter().for_each(|channel| self.value(fine, channel));
+                self.operator(operator);
+            }
+            Some(Ink::Cmyk(inks)) => {
+                inks.into_iter().for_each(|ink| self.value(fine, ink));
+                self.operator(if fills { b"k" } else { b"K" });
+            }
+            Some(Ink::Spot(number)) => {
+                let (space, tint) = if fills { ("cs", "scn") } else { ("CS", "SCN") };
+                self.out.extend_from_slice(format!("/{} {space} 1 {tint}\n", spot_name(number)).as_bytes());
+            }
+        }
+    }
+
+    /// Begins a path.
+    pub(crate) fn path(&mut self, elements: &[PathEl]) {
+        let mut pen = Point::ZERO;
+        let mut start = Point::ZERO;
+        for (index, element) in elements.iter().enumerate() {
+            match *element {
+                PathEl::MoveTo(to) => {
+                    self.points(&[to], b"m");
+                    // A subpath of no length is a dot, and needs a piece for its caps to be drawn.
+                    if !matches!(elements.get(index + 1), Some(next) if !matches!(next, PathEl::MoveTo(_))) {
+                        self.points(&[to], b"l");
+                    }
+                    (pen, start) = (to, to);
+                }
+                PathEl::LineTo(to) => {
+                    self.points(&[to], b"l");
+                    pen = to;
+                }
+                PathEl::QuadTo(control, to) => {
+                    let (first, second) = (pen.lerp(control, 2.0 / 3.0), to.lerp(control, 2.0 / 3.0));
+                    self.points(&[first, second, to], b"c");
+                    pen = to;
+                }
+                PathEl::CurveTo(first, second, to) => {
+                    self.points(&[first, second, to], b"c");
+                    pen = to;
+                }
+                PathEl::ClosePath => {
+                    self.operator(b"h");
+                    pen = start;
+                }
+            }
+        }
+    }
+
+    fn points(&mut self, points: &[Point], operator: &[u8]) {
+        for point in points {
+            self.value(self.decimals, point.x);
+            self.value(self.decimals, point.y);
+        }
+        self.operator(operator);
+    }
+
+    pub(crate) fn value(&mut self, decimals: Decimals, value: f64) {
+        decimals.write(&mut self.out, decimals.round(value));
+        self.out.push(b' ');
+    }
+
+    pub(crate) fn operator(&mut self, operator: &[u8]) {
+        self.out.extend_from_slice(operator);
+        self.out.push(b'\n');
+    }
+}
+
+/// Name of the state that sets a mask; `first_picture` is the number of the drawing's first picture in the document.
+pub(crate) fn mask_name(first_picture: usize, number: usize) -> String {
+    format!("M{first_picture}x{number}")
+}
+
+/// Name of a picture in the page's resources.
+pub(crate) fn picture_name(number: usize) -> String {
+    format!("P{number}")
+}
+
+/// Name of a gradient, by its number in the order of marks.
+pub(crate) fn pattern_name(number: usize) -> String {
+    format!("G{number}")
+}
+
+/// Name of the colour space of an ink of its own.
+pub(crate) fn spot_name(number: usize) -> String {
+    format!("S{number}")
+}
+
+/// Name of the graphics state of an opacity, with inks below that stay or not.
+pub(crate) fn state_name((opacity, overprints): (u8, bool)) -> String {
+    format!("{}{opacity}", if overprints { 'O' } else { 'A' })
+}
+
+#[cfg(test)]
+mod tests {
+    use kurbo::BezPath;
+
+    use super::*;
+    use crate::drawing::{Drawing, Page, Provenance, Unit};
+
+    const PAGE: Page = Page { width: 9.0, height: 9.0, unit: Unit::Px, background: None };
+
+    fn content(marks: &[(&str, Paint)]) -> String {
+        let mut writer = Writer::new(Decimals::new(2), 0, None);
+        for (data, paint) in marks {
+            let path = BezPath::from_svg(data).unwrap();
+            let mark = Mark { path, paint: paint.clone(), provenance: Provenance::default() };
+            let drawing = Drawing::new("", PAGE, vec![]);
+            writer.mark(&mark, &Crops::of(&drawing));
+        }
+        String::from_utf8(writer.out).unwrap().replace('\n', " ")
+    }
+
+    fn pen(width: f64, dash: &[f64]) -> Paint {
+        Paint::Stroke(StrokePaint {
+            width,
+            colour: Colour::rgb(255, 0, 51),
+            cap: Cap::Round,
+            join: Join::Bevel,
+            dash: dash.to_vec(),
+            dash_offset: 0.0,
+        })
+    }
+
+    #[test]
+    fn ink_is_set_where_it_changes() {
+        let lines =
+            [("M0 0L1 2.5", pen(1.5, &[])), ("M3 3H4", pen(1.5, &[])), ("M5 5H6", pen(2.0, &[4.0, 2.0]))];
+        assert_eq!(
+            content(&lines),
+            "/A255 gs 1.5 w 1 J 2 j 1 0 .2 RG [] 0 d 0 0 m 1 2.5 l S 3 3 m 4 3 l S 2 w [4 2 ] 0 d 5 5 m 6 5 l S "
+        );
+    }
+
+    #[test]
+    fn all_elements_of_paths() {
+        let fill = Paint::Fill(Colour { a: 128, ..Colour::BLACK });
+        let ink = "/A128 gs 0 0 0 rg ";
+        for (data, operators) in [
+            ("M0 0C1 2 3 4 5 6Z", "0 0 m 1 2 3 4 5 6 c h f "),
+            ("M0 0Q3 0 3 3", "0 0 m 2 0 3 1 3 3 c f "),
+            ("M0 0H3ZQ0 3 3 3", "0 0 m 3 0 l h 0 0 m 0 2 1 3 3 3 c f "),
+            ("M1 1M2 2", "1 1 m 1 1 l 2 2 m 2 2 l f "),
+        ] {
+            assert_eq!(content(&[(data, fill.clone())]), format!("{ink}{operators}"), "{data}");
+        }
+    }
+}

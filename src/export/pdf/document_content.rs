@@ -1,0 +1,213 @@
+//! [`Document`]: the layers of pages and the stretches of their content, gathered before anything is written.
+
+use kurbo::{Affine, Rect, Shape};
+use miniz_oxide::deflate::compress_to_vec_zlib;
+use pdf_writer::{Name, Ref, TextStr};
+
+use super::content_stream::{Dots, Press, Writer};
+use super::drawing_page::{CHUNK, DEFLATE_LEVEL, group_name};
+use super::page_boxes::Sheet;
+use super::picture_crops::Crops;
+use crate::colour::srgb::Colour;
+use crate::drawing::{Composition, Gradient, Item, LayerKind, Mark, Paint, Provenance, Unit};
+use crate::export::SvgOptions;
+use crate::export::encoding::decimals::Decimals;
+use crate::export::encoding::embedded_pictures::matrix;
+use crate::export::pdf::press::halftone_screen::Screen;
+
+/// Decimals of matrices.
+const FINE: u8 = 6;
+
+/// A layer of the document.
+pub(crate) struct Group {
+    pub label: String,
+    /// The page, and the layer it is within.
+    page: usize,
+    within: Option<usize>,
+}
+
+/// A stretch of the content of a page.
+pub(crate) enum Segment<'a> {
+    Raw(Vec<u8>),
+    Marks {
+        dots: Option<Dots>,
+        marks: &'a [Mark],
+        crops: &'a Crops<'a>,
+        first_picture: usize,
+        first_pattern: usize,
+        decimals: Decimals,
+    },
+}
+
+impl Segment<'_> {
+    /// The content, deflated.
+    pub fn write(&self, press: Press) -> Vec<u8> {
+        match self {
+            Self::Raw(bytes) => compress_to_vec_zlib(bytes, DEFLATE_LEVEL),
+            Self::Marks { dots, marks, crops, first_picture, first_pattern, decimals } => {
+                let press = Press { first_picture: *first_picture, dots: *dots, ..press };
+                let mut writer = Writer::new(*decimals, *first_pattern, Some(press));
+                marks.iter().for_each(|mark| writer.mark(mark, crops));
+                compress_to_vec_zlib(&writer.out, DEFLATE_LEVEL)
+            }
+        }
+    }
+}
+
+/// What is gathered of the pages.
+pub(crate) struct Document<'a> {
+    press: Press<'a>,
+    screen: Option<Screen>,
+    pub groups: Vec<Group>,
+    /// Of each page.
+    pub segments: Vec<Vec<Segment<'a>>>,
+    titles: Vec<String>,
+    /// Gradients, and from their units to those of the paper.
+    pub gradients: Vec<(Affine, &'a Gradient)>,
+    pictures: usize,
+    drawings: usize,
+}
+
+impl<'a> Document<'a> {
+    pub fn new(press: Press<'a>, screen: Option<Screen>) -> Self {
+        let (groups, segments, titles, gradients) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { press, screen, groups, segments, titles, gradients, pictures: 0, drawings: 0 }
+    }
+
+    /// Gathers what is on a page; `crops` are of all drawings of all pages.
+    pub fn page(&mut self, page: &'a Composition, sheet: &Sheet, crops: &'a [Crops<'a>], marks: bool) {
+        let decimals = Decimals::new(SvgOptions::default().decimals(page.page.unit));
+        self.segments.push(Vec::new());
+        self.titles.push(page.title.clone());
+        // Miters end where they do in SVG.
+        let mut start = format!("q\n{} cm\n4 M\n", matrix(sheet.matrix(), " ")).into_bytes();
+        if let Some(colour) = page.page.background {
+            let dots = self.dots(Affine::IDENTITY, sheet);
+            start.append(&mut self.paper(sheet.bleed, colour, decimals, dots));
+        }
+        self.raw(start);
+        for item in &page.items {
+            self.item(item, sheet, crops, page.page.unit);
+        }
+        if marks {
+            self.raw(sheet.paint_marks(Decimals::new(3)));
+        }
+        self.raw(b"Q\n".to_vec());
+    }
+
+    /// How fills become dots in a drawing in that place.
+    fn dots(&self, place: Affine, sheet: &Sheet) -> Option<Dots> {
+        self.screen.map(|screen| Dots { screen, place, mm: sheet.mm })
+    }
+
+    /// Paints paper.
+    fn paper(&self, rect: Rect, colour: Colour, decimals: Decimals, dots: Option<Dots>) -> Vec<u8> {
+        let mut writer = Writer::new(decimals, 0, Some(Press { dots, ..self.press }));
+        let (path, paint) = (rect.to_path(0.0), Paint::Fill(colour));
+        writer.plain(&Mark { path, paint, provenance: Provenance::default() });
+        writer.out
+    }
+
+    fn raw(&mut self, bytes: Vec<u8>) {
+        if let Some(page) = self.segments.last_mut() {
+            page.push(Segment::Raw(bytes));
+        }
+    }
+
+    fn group(&mut self, label: &str, within: Option<usize>) -> usize {
+        let page = self.segments.len().saturating_sub(1);
+        self.groups.push(Group { label: label.to_owned(), page, within });
+        self.groups.len() - 1
+    }
+
+    fn item(&mut self, item: &'a Item, sheet: &Sheet, crops: &'a [Crops<'a>], unit: Unit) {
+        let drawing = &item.drawing;
+        let Some(crops) = crops.get(self.drawings) else { return };
+        let first_picture = self.pictures;
+        self.drawings += 1;
+        self.pictures += crops.list.len();
+        let group = self.group(&item.name, None);
+        let mut writer =
+            Writer::new(Decimals::new(SvgOptions::default().decimals(unit)), 0, Some(self.press));
+        writer.out.extend_from_slice(format!("/OC /{} BDC\nq\n", group_name(group)).as_bytes());
+        if let Some(clip) = &item.clip {
+            // Nothing is seen through a clip that is no path.
+            if clip.elements().is_empty() {
+                writer.out.extend_from_slice(b"0 0 m\n");
+            }
+            writer.path(clip.elements());
+            writer.out.extend_from_slice(b"W n\n");
+        }
+        if item.place != Affine::IDENTITY {
+            writer.out.extend_from_slice(format!("{} cm\n", matrix(item.place, " ")).as_bytes());
+        }
+        if let Some(colour) = drawing.page.background {
+            let paper = self.group(LayerKind::Paper.id(), Some(group));
+            writer.out.extend_from_slice(format!("/OC /{} BDC\n", group_name(paper)).as_bytes());
+            let dots = self.dots(item.place, sheet);
+            let whole = Rect::new(0.0, 0.0, drawing.page.width, drawing.page.height);
+            writer.out.append(&mut self.paper(whole, colour, Decimals::new(FINE), dots));
+            writer.out.extend_from_slice(b"EMC\n");
+        }
+        self.raw(writer.out);
+        // Where a drawing is enlarged its coordinates get more decimals.
+        let larger = item.place.determinant().abs().sqrt();
+        let more = [1.0, 10.0, 100.0].iter().filter(|step| larger > **step).count() as u8;
+        let decimals = Decimals::new(SvgOptions::default().decimals(drawing.page.unit) + more);
+        let dots = self.dots(item.place, sheet);
+        for layer in &drawing.layers {
+            let inner = self.group(&drawing.names(layer).1, Some(group));
+            self.raw(format!("/OC /{} BDC\n", group_name(inner)).into_bytes());
+            for marks in layer.marks.chunks(CHUNK) {
+                let first_pattern = self.gradients.len();
+                let graded = marks.iter().filter_map(|mark| match &mark.paint {
+                    Paint::Gradient(gradient) => Some((sheet.matrix() * item.place, gradient)),
+                    _ => None,
+                });
+                self.gradients.extend(graded);
+                if let Some(page) = self.segments.last_mut() {
+                    page.push(Segment::Marks { dots, marks, crops, first_picture, first_pattern, decimals });
+                }
+            }
+            self.raw(b"EMC\n".to_vec());
+        }
+        self.raw(b"Q\nEMC\n".to_vec());
+    }
+
+    /// Lists the layers as programs show them: by page, the front ones first, those of a drawing under it.
+    pub fn write_layers(&self, catalog: &mut pdf_writer::writers::Catalog, ids: &[Ref]) {
+        if ids.is_empty() {
+            return;
+        }
+        let mut properties = catalog.insert(Name(b"OCProperties")).dict();
+        properties.insert(Name(b"OCGs")).array().items(ids.iter().copied());
+        let mut shown = properties.insert(Name(b"D")).dict();
+        shown.pair(Name(b"Name"), TextStr("layers"));
+        let mut order = shown.insert(Name(b"Order")).array();
+        let several = self.titles.len() > 1;
+        for (number, title) in self.titles.iter().enumerate() {
+            if several {
+                let mut page = order.push().array();
+                page.push().primitive(TextStr(title));
+                self.write_page_layers(&mut page, number, ids);
+            } else {
+                self.write_page_layers(&mut order, number, ids);
+            }
+        }
+    }
+
+    fn write_page_layers(&self, list: &mut pdf_writer::Array, page: usize, ids: &[Ref]) {
+        let own =
+            || self.groups.iter().zip(ids).enumerate().filter(|(_, (group, _))| group.page == page).rev();
+        for (number, (_, id)) in own().filter(|(_, (group, _))| group.within.is_none()) {
+            list.push().primitive(*id);
+            let inner: Vec<Ref> = own()
+                .filter(|(_, (group, _))| group.within == Some(number))
+                .map(|(_, (_, id))| *id)
+                .collect();
+            if !inner.is_empty() {
+                list.push().array().items(inner);
+            }
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Fills as dots: a content stream of PDF for a screen of its own.
+
+use std::collections::BTreeMap;
+
+use kurbo::{Affine, Point};
+
+use super::content_stream::Writer;
+use crate::colour::srgb::Colour;
+use crate::drawing::{Gradient, Mark, Paint};
+use crate::export::encoding::decimals::Decimals;
+use crate::export::encoding::embedded_pictures::matrix;
+use crate::export::pdf::press::halftone_screen::{Tone, diameter, dots as screen_dots, share_of, tone};
+use crate::export::pdf::press::ink_plates::Ink;
+
+/// Decimals of the channels of colours and of widths of dots.
+const DECIMALS: u8 = 4;
+
+/// Dots that are painted at once: programs take their time with long paths.
+const DOTS_OF_PATH: usize = 1000;
+
+/// Classes of marks that are drawn with a pen, filled as they may be.
+const DRAWN: [&str; 3] = ["hatch", "pattern", "grain"];
+
+impl Writer<'_> {
+    /// Paints a fill as dots, and says so; fills that are not dots stay.
+    pub(crate) fn screened(&mut self, mark: &Mark, opacity: u8) -> bool {
+        let Some((press, dots)) = self.press.and_then(|press| Some((press, press.dots?))) else {
+            return false;
+        };
+        // Strokes, dots and grain of styles are no tones.
+        if mark.provenance.classes.iter().any(|class| DRAWN.contains(class)) {
+            return false;
+        }
+        let clear = f64::from(opacity) / 255.0;
+        let inks = |colour: Colour| match press.plates.ink(colour) {
+            Ink::Cmyk(inks) => Some(inks.map(|ink| ink * clear)),
+            _ => None,
+        };
+        let gradient = match &mark.paint {
+            Paint::Gradient(gradient) => Some(gradient),
+            _ => None,
+        };
+        let colour = match &mark.paint {
+            Paint::Fill(colour) => *colour,
+            _ => gradient.map_or(Colour::BLACK, Gradient::middle),
+        };
+        let Some(flat) = inks(colour) else { return false };
+        let is_flat = gradient.is_none();
+        if is_flat && flat.iter().all(|ink| tone(*ink) != Tone::Dots) && opacity == 255 {
+            return false;
+        }
+        // What is below goes away, as below any fill.
+        if opacity == 255 {
+            self.choose((255, false));
+            self.out.extend_from_slice(b"0 0 0 0 k\n");
+            self.fill = None;
+            self.path(mark.path.elements());
+            self.out.extend_from_slice(b"f\n");
+        }
+        self.clipped(mark.path.elements(), |writer| {
+            writer.choose((255, true));
+            let mut before = Affine::IDENTITY;
+            // Solid plates first: viewers that show no overprint then show the dots of the others as well.
+            let is_solid = |ink: &f64| is_flat && tone(*ink) == Tone::Solid;
+            let solids = flat.iter().enumerate().filter(|(_, ink)| is_solid(ink));
+            let rest = flat.iter().enumerate().filter(|(_, ink)| !is_solid(ink));
+            for (plate, ink) in solids.chain(rest) {
+                if is_flat && tone(*ink) == Tone::None {
+                    continue;
+                }
+                let mut solid = [0.0; 4];
+                if let Some(one) = solid.get_mut(plate) {
+                    *one = 1.0;
+                }
+                // From the lattice to units of the drawing.
+                let lattice = dots.place.inverse() * dots.screen.lattice(plate, dots.mm);
+                let outline = lattice.inverse() * &mark.path;
+                let share = |at: Point| match gradient {
+                    None => *ink,
+                    Some(gradient) => {
+                        let (line, at) = (gradient.end - gradient.start, lattice * at - gradient.start);
+                        let along = if line.hypot2() > 0.0 { line.dot(at) / line.hypot2() } else { 0.5 };
+                        inks(gradient.at(along.clamp(0.0, 1.0)))
+                            .and_then(|inks| inks.get(plate).copied())
+                            .unwrap_or(0.0)
+                    }
+                };
+                let laid = if is_solid(ink) { None } else { screen_dots(&outline, share) };
+                let change = before.inverse() * lattice;
+                before = lattice;
+                writer.out.extend_from_slice(format!("{} cm\n", matrix(change, " ")).as_bytes());
+                match laid {
+                    Some(laid) => writer.lay(&laid, solid),
+                    None => {
+                        let tint = solid.map(|one| one * ink);
+                        tint.into_iter().for_each(|ink| writer.value(Decimals::new(DECIMALS), ink));
+                        writer.operator(b"k");
+                        writer.path(outline.elements());
+                        writer.operator(b"f");
+                    }
+                }
+            }
+        });
+        true
+    }
+
+    /// Lays dots of an ink: neighbours in a row are one line of a round pen, whose dashes are points one apart.
+    fn lay(&mut self, dots: &BTreeMap<u8, Vec<(i32, i32)>>, solid: [f64; 4]) {
+        solid.into_iter().for_each(|ink| self.value(Decimals::new(DECIMALS), ink));
+        self.operator(b"K");
+        self.operator(b"1 J [0 1] 0 d");
+        for (size, places) in dots {
+            self.value(Decimals::new(DECIMALS), diameter(share_of(*size)));
+            self.operator(b"w");
+            for places in places.chunks(DOTS_OF_PATH) {
+                for run in places.chunk_by(|a, b| b.1 == a.1 && b.0 == a.0 + 1) {
+                    let ([(x, y), ..], [.., (end, _)]) = (run, run) else { continue };
+                    // Half a step more, so that the last point is within.
+                    let end = f64::from(*end) + 0.5;
+                    self.out.extend_from_slice(format!("{x} {y} m {end} {y} l\n").as_bytes());
+                }
+                self.operator(b"S");
+            }
+        }
+    }
+}

@@ -1,0 +1,151 @@
+//! [`Sheet`]: where a page lies on the paper that is printed: its boxes, and the marks by which it is cut and inks are registered.
+
+use kurbo::{Affine, BezPath, Circle, Rect, Shape};
+
+use super::drawing_page::{LONGEST_SIDE, POINTS_PER_MM, POINTS_PER_PX};
+use crate::drawing::{Composition, Unit};
+use crate::error::Error;
+use crate::export::encoding::decimals::Decimals;
+
+/// Crop marks begin this far from the trimmed page, or where the bleed ends, mm, and are so long and wide.
+const CROP_GAP: f64 = 3.0;
+const CROP_LENGTH: f64 = 5.0;
+const MARK_WIDTH: f64 = 0.1;
+
+/// The radius of the circle of registration marks, mm; its lines are twice as long.
+const REGISTER: f64 = 1.25;
+
+/// How much paper is left beyond marks, mm.
+const MARGIN: f64 = 1.0;
+
+/// The name of the colour space of all inks.
+pub(crate) const ALL_INKS: &str = "All";
+
+/// A page on its paper; boxes are in units of the page, y down.
+pub(crate) struct Sheet {
+    pub media: Rect,
+    pub trim: Rect,
+    pub bleed: Rect,
+    /// Whether the page is cut, or a standard wants to know.
+    pub has_boxes: bool,
+    /// Points in a unit of the page.
+    pub scale: f64,
+    pub user_unit: f64,
+    /// Units of the page in a mm.
+    pub mm: f64,
+    /// Where lines end that are drawn from the trimmed page outward.
+    reach: f64,
+}
+
+impl Sheet {
+    /// # Errors
+    /// Returns an error if the page has no size or its boxes are not within each other.
+    pub fn new(page: &Composition, marks: bool) -> Result<Self, Error> {
+        let (width, height) = (page.page.width, page.page.height);
+        if !(width.is_finite() && height.is_finite() && width > 0.0 && height > 0.0) {
+            return Err(
+                Error::new(format!("a page of {width} x {height} is not possible")).remedy("give it a size")
+            );
+        }
+        let (per_unit, mm) = match page.page.unit {
+            Unit::Px => (POINTS_PER_PX, POINTS_PER_MM / POINTS_PER_PX),
+            Unit::Mm => (POINTS_PER_MM, 1.0),
+        };
+        let whole = Rect::new(0.0, 0.0, width, height);
+        let (trim, bleed) = page.boxes.map_or((whole, whole), |boxes| (boxes.trim, boxes.bleed));
+        let holds = |outer: Rect, inner: Rect| {
+            let numbers = [inner.x0, inner.y0, inner.x1, inner.y1].iter().all(|x| x.is_finite());
+            numbers && inner.width() > 0.0 && inner.height() > 0.0 && outer.union(inner) == outer
+        };
+        if !holds(bleed, trim) || !holds(whole, bleed) {
+            return Err(Error::new("the trimmed page is not within its bleed, or that not within the page")
+                .remedy("make the page larger or its bleed smaller"));
+        }
+        let beyond =
+            (trim.x0 - bleed.x0).max(trim.y0 - bleed.y0).max(bleed.x1 - trim.x1).max(bleed.y1 - trim.y1);
+        let reach = beyond.max(CROP_GAP * mm) + CROP_LENGTH * mm;
+        let margin = reach + MARGIN * mm;
+        let media = if marks { whole.union(trim.inflate(margin, margin)) } else { whole };
+        let user_unit = (media.width().max(media.height()) * per_unit / LONGEST_SIDE).max(1.0);
+        let has_boxes = page.boxes.is_some() || marks;
+        Ok(Self { media, trim, bleed, has_boxes, scale: per_unit / user_unit, user_unit, mm, reach })
+    }
+
+    /// From units of the page to those of its paper, y up.
+    pub fn matrix(&self) -> Affine {
+        let s = self.scale;
+        Affine::new([s, 0.0, 0.0, -s, -self.media.x0 * s, self.media.y1 * s])
+    }
+
+    /// A box on the paper.
+    pub fn on_paper(&self, rect: Rect) -> pdf_writer::Rect {
+        let rect = self.matrix().transform_rect_bbox(rect);
+        let [x0, y0, x1, y1] = [rect.x0, rect.y0, rect.x1, rect.y1].map(|x| x as f32);
+        pdf_writer::Rect::new(x0, y0, x1, y1)
+    }
+
+    /// Paints the marks with all inks, in units of the page.
+    pub fn paint_marks(&self, decimals: Decimals) -> Vec<u8> {
+        let mut out = format!("q\n/{ALL_INKS} CS\n1 SCN\n/A255 gs\n0 J\n").into_bytes();
+        let value = |out: &mut Vec<u8>, value: f64| {
+            decimals.write(out, decimals.round(value));
+            out.push(b' ');
+        };
+        value(&mut out, MARK_WIDTH * self.mm);
+        out.extend_from_slice(b"w\n");
+        for (x0, y0, x1, y1) in self.lines() {
+            value(&mut out, x0);
+            value(&mut out, y0);
+            out.extend_from_slice(b"m\n");
+            value(&mut out, x1);
+            value(&mut out, y1);
+            out.extend_from_slice(b"l\nS\n");
+        }
+        for (x, y) in self.registers() {
+            let circle: BezPath = Circle::new((x, y), REGISTER * self.mm).to_path(0.01 * self.mm);
+            for element in circle.elements() {
+                let (points, operator): (Vec<kurbo::Point>, &[u8]) = match *element {
+                    kurbo::PathEl::MoveTo(p) => (vec![p], b"m\n"),
+                    kurbo::PathEl::CurveTo(a, b, p) => (vec![a, b, p], b"c\n"),
+                    _ => (Vec::new(), b"h\n"),
+                };
+                for p in points {
+                    value(&mut out, p.x);
+                    value(&mut out, p.y);
+                }
+                out.extend_from_slice(operator);
+            }
+            out.extend_from_slice(b"S\n");
+        }
+        out.extend_from_slice(b"Q\n");
+        out
+    }
+
+    /// The middles of the registration marks: beside the middles of the four sides.
+    fn registers(&self) -> [(f64, f64); 4] {
+        let (middle, out) = (self.trim.center(), self.reach - 2.0 * REGISTER * self.mm);
+        let Rect { x0, y0, x1, y1 } = self.trim;
+        [(middle.x, y0 - out), (x1 + out, middle.y), (middle.x, y1 + out), (x0 - out, middle.y)]
+    }
+
+    /// Crop marks at the corners and the lines of registration marks.
+    fn lines(&self) -> Vec<(f64, f64, f64, f64)> {
+        let Rect { x0, y0, x1, y1 } = self.trim;
+        let (near, far) = (self.reach - CROP_LENGTH * self.mm, self.reach);
+        let mut lines = Vec::new();
+        for x in [x0, x1] {
+            lines.push((x, y0 - near, x, y0 - far));
+            lines.push((x, y1 + near, x, y1 + far));
+        }
+        for y in [y0, y1] {
+            lines.push((x0 - near, y, x0 - far, y));
+            lines.push((x1 + near, y, x1 + far, y));
+        }
+        let arm = 2.0 * REGISTER * self.mm;
+        for (x, y) in self.registers() {
+            lines.push((x - arm, y, x + arm, y));
+            lines.push((x, y - arm, x, y + arm));
+        }
+        lines
+    }
+}

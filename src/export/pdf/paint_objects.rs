@@ -1,0 +1,103 @@
+//! Gradients and pictures as objects of a PDF, in the colours of screens or the inks of a press.
+
+use miniz_oxide::deflate::compress_to_vec_zlib;
+use pdf_writer::types::FunctionShadingType;
+use pdf_writer::writers::ColorSpace;
+use pdf_writer::{Filter, Finish, Pdf, Ref};
+
+use super::picture_crops::Crop;
+use crate::colour::srgb::Colour;
+use crate::drawing::Gradient;
+use crate::export::pdf::press::ink_plates::{Ink, Plates};
+
+/// As that of content.
+const DEFLATE_LEVEL: u8 = 4;
+
+/// Pictures are worth some time.
+const PICTURE_DEFLATE_LEVEL: u8 = 8;
+
+/// How many channels a colour has.
+fn channels(press: Option<&Plates>) -> usize {
+    if press.is_some_and(Plates::is_press) { 4 } else { 3 }
+}
+
+/// The channels of a colour, eight bits each.
+fn samples(colour: Colour, press: Option<&Plates>) -> Vec<u8> {
+    match press.map(|plates| plates.process(colour)) {
+        Some(Ink::Cmyk(inks)) => inks.iter().map(|ink| (ink * 255.0).round() as u8).collect(),
+        _ => vec![colour.r, colour.g, colour.b],
+    }
+}
+
+fn space(space: ColorSpace, press: Option<&Plates>) {
+    if press.is_some_and(Plates::is_press) {
+        space.device_cmyk();
+    } else {
+        space.device_rgb();
+    }
+}
+
+/// A gradient: a shading along its line, with its colours sampled evenly.
+pub(crate) fn write_gradient(
+    pdf: &mut Pdf,
+    gradient: &Gradient,
+    matrix: [f32; 6],
+    [id, function]: [Ref; 2],
+    press: Option<&Plates>,
+) {
+    let mut pattern = pdf.shading_pattern(id);
+    pattern.matrix(matrix);
+    let mut shading = pattern.function_shading();
+    shading.shading_type(FunctionShadingType::Axial);
+    space(shading.color_space(), press);
+    let Gradient { start, end, .. } = gradient;
+    shading.coords([start.x, start.y, end.x, end.y].map(|x| x as f32));
+    shading.function(function).extend([true, true]);
+    shading.finish();
+    pattern.finish();
+    let place = |k: usize| k as f64 / (SHADES - 1) as f64;
+    let shades: Vec<u8> = (0..SHADES).flat_map(|k| samples(gradient.at(place(k)), press)).collect();
+    let shades = compress_to_vec_zlib(&shades, DEFLATE_LEVEL);
+    let mut sampled = pdf.sampled_function(function, &shades);
+    sampled.filter(Filter::FlateDecode);
+    sampled.domain([0.0, 1.0]).range([0.0, 1.0].repeat(channels(press)));
+    sampled.size([SHADES as i32]).bits_per_sample(8);
+    sampled.finish();
+}
+
+/// Samples of the colours of a gradient.
+const SHADES: usize = 128;
+
+/// A part of a picture as an object of the document; where some of it is clear, with a mask.
+pub(crate) fn write_picture(pdf: &mut Pdf, crop: &Crop, [id, mask]: [Ref; 2], press: Option<&Plates>) {
+    let (width, height) = (crop.width as i32, crop.height as i32);
+    let deflated = |samples: Vec<u8>| compress_to_vec_zlib(&samples, PICTURE_DEFLATE_LEVEL);
+    let opacities = crop.samples(|pixel| [pixel.a]);
+    let write_opacities = |pdf: &mut Pdf, id: Ref| {
+        let samples = deflated(opacities.clone());
+        let mut object = pdf.image_xobject(id, &samples);
+        object.filter(Filter::FlateDecode);
+        object.width(width).height(height).bits_per_component(8).color_space().device_gray();
+    };
+    if crop.is_mask {
+        write_opacities(pdf, id);
+        return;
+    }
+    let opaque = opacities.iter().all(|opacity| *opacity == 255);
+    let colours = crop.samples(|pixel| [pixel]);
+    let samples = deflated(colours.into_iter().flat_map(|colour| samples(colour, press)).collect());
+    let mut object = pdf.image_xobject(id, &samples);
+    object.filter(Filter::FlateDecode);
+    object
+        .width(width)
+        .height(height)
+        .bits_per_component(8)
+        .interpolate(press.is_none_or(|plates| plates.smooths));
+    space(object.color_space(), press);
+    if opaque {
+        return;
+    }
+    object.s_mask(mask);
+    object.finish();
+    write_opacities(pdf, mask);
+}

@@ -1,0 +1,202 @@
+//! [`Crops`]: the pictures of a drawing as objects of a PDF: small ones whole, large ones in the parts that pieces show.
+//!
+//! Many viewers go through all of an object each time it is shown, so that a thousand pieces of one large picture
+//! would take them minutes.
+
+use kurbo::{Affine, PathEl, Rect};
+use rustc_hash::FxHashMap;
+
+use crate::colour::pixel_picture::Picture;
+use crate::colour::srgb::Colour;
+use crate::drawing::{Drawing, ImagePaint, ImagePiece, Shows};
+use crate::export::encoding::embedded_pictures::{Pictures, marks};
+
+/// Pictures of no more pixels stay whole.
+const SMALL: usize = 1 << 18;
+
+/// Parts are no longer than this, pixels, unless one piece shows more.
+const LONGEST: f64 = 320.0;
+
+/// Pixels around what a piece shows, for those that are mixed with their neighbours.
+const MARGIN: f64 = 2.0;
+
+/// A part of a picture.
+pub(crate) struct Crop<'a> {
+    pub picture: &'a Picture,
+    pub left: usize,
+    pub top: usize,
+    pub width: usize,
+    pub height: usize,
+    /// Whether it is part of a mask: of it only the opacity is written.
+    pub is_mask: bool,
+}
+
+/// The parts of the pictures of a drawing.
+#[derive(Default)]
+pub(crate) struct Crops<'a> {
+    pub list: Vec<Crop<'a>>,
+    /// The content of masks, in the order of the marks.
+    pub masked: Vec<&'a ImagePaint>,
+    /// The number and the ink of what is shown through a mask, by where it lies in memory.
+    inks: FxHashMap<usize, (usize, Colour)>,
+    /// The number of the part that a piece shows, by where the piece lies in memory.
+    of_piece: FxHashMap<usize, usize>,
+}
+
+impl<'a> Crops<'a> {
+    pub fn of(drawing: &'a Drawing) -> Self {
+        let pictures = Pictures::of(drawing);
+        let mut shown: Vec<Vec<(usize, Rect)>> = vec![Vec::new(); pictures.list.len()];
+        for (_, image) in marks(drawing) {
+            let Some(list) = shown.get_mut(pictures.number(image)) else { continue };
+            for piece in &image.pieces {
+                if let Shows::Pixels(transform) = piece.shows {
+                    list.push((address(piece), needed(piece, transform, &image.picture)));
+                }
+            }
+        }
+        let mut crops = Self::default();
+        for (_, image) in marks(drawing) {
+            if let Some(ink) = pictures.ink(image) {
+                crops.inks.insert(std::ptr::from_ref(image).addr(), (crops.masked.len(), ink));
+                crops.masked.push(image);
+            }
+        }
+        for ((picture, mut pieces), ink) in pictures.list.iter().copied().zip(shown).zip(&pictures.inks) {
+            let is_mask = ink.is_some();
+            if picture.width * picture.height <= SMALL {
+                let whole = Rect::new(0.0, 0.0, picture.width as f64, picture.height as f64);
+                crops.add((picture, is_mask), whole, &pieces);
+                continue;
+            }
+            // Those that are near each other in the picture follow each other; of equal ones the first stays so.
+            pieces.sort_by_key(|(_, rect)| along_curve(rect));
+            let mut rest = &pieces[..];
+            while let Some(((_, first), others)) = rest.split_first() {
+                let mut part = *first;
+                let fits = |(_, rect): &&(usize, Rect)| {
+                    let wider = part.union(*rect);
+                    let is_small = wider.width() <= LONGEST && wider.height() <= LONGEST;
+                    if is_small {
+                        part = wider;
+                    }
+                    is_small
+                };
+                let count = 1 + others.iter().take_while(fits).count();
+                let (own, left) = rest.split_at(count);
+                crops.add((picture, is_mask), part, own);
+                rest = left;
+            }
+        }
+        crops
+    }
+
+    fn add(&mut self, (picture, is_mask): (&'a Picture, bool), part: Rect, pieces: &[(usize, Rect)]) {
+        let [left, top] = [part.x0, part.y0].map(|low| low as usize);
+        let (width, height) = ((part.width() as usize).max(1), (part.height() as usize).max(1));
+        self.of_piece.extend(pieces.iter().map(|(piece, _)| (*piece, self.list.len())));
+        self.list.push(Crop { picture, left, top, width, height, is_mask });
+    }
+
+    /// The number of the mask through which a picture is shown, and the ink that it lets through; `None` without a mask.
+    pub fn mask(&self, image: &ImagePaint) -> Option<(usize, Colour)> {
+        self.inks.get(&std::ptr::from_ref(image).addr()).copied()
+    }
+
+    /// The number of the part that a piece shows, and the part.
+    pub fn shown(&self, piece: &ImagePiece) -> Option<(usize, &Crop<'a>)> {
+        let number = *self.of_piece.get(&address(piece))?;
+        Some((number, self.list.get(number)?))
+    }
+}
+
+impl Crop<'_> {
+    /// Some samples of each pixel, row by row.
+    pub fn samples<T, const N: usize>(&self, of: impl Fn(crate::colour::srgb::Colour) -> [T; N]) -> Vec<T> {
+        let pixels = (0..self.width * self.height)
+            .map(|k| self.picture.at(self.left + k % self.width, self.top + k / self.width));
+        pixels.flat_map(of).collect()
+    }
+
+    /// From the part as an object, one unit wide and high and standing on its last row, to pixels of the picture.
+    pub fn pixels_from_object(&self) -> Affine {
+        let [width, height] = [self.width, self.height].map(|count| count as f64);
+        let (left, bottom) = (self.left as f64, (self.top + self.height) as f64);
+        Affine::new([width, 0.0, 0.0, -height, left, bottom])
+    }
+}
+
+/// Where a piece lies in memory.
+fn address(piece: &ImagePiece) -> usize {
+    std::ptr::from_ref(piece).addr()
+}
+
+/// The whole pixels that a piece shows.
+fn needed(piece: &ImagePiece, transform: Affine, picture: &Picture) -> Rect {
+    let back = transform.inverse();
+    let points = piece.outline.elements().iter().filter_map(PathEl::end_point).map(|p| back * p);
+    let none = (f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY);
+    let (x0, y0, x1, y1) =
+        points.fold(none, |(x0, y0, x1, y1), p| (p.x.min(x0), p.y.min(y0), p.x.max(x1), p.y.max(y1)));
+    let [width, height] = [picture.width, picture.height].map(|count| count as f64);
+    let within = |low: f64, high: f64, most: f64| {
+        let low = (low - MARGIN).floor().clamp(0.0, most - 1.0);
+        (low, (high + MARGIN).ceil().clamp(low + 1.0, most))
+    };
+    if [x0, y0, x1, y1].iter().any(|x| !x.is_finite()) {
+        return Rect::new(0.0, 0.0, width, height);
+    }
+    let ((left, right), (top, bottom)) = (within(x0, x1, width), within(y0, y1, height));
+    Rect::new(left, top, right, bottom)
+}
+
+/// The place of the middle of a part along a curve that keeps together what is near (Morton, 1966).
+fn along_curve(part: &Rect) -> u64 {
+    let middle = part.center();
+    let spread = |x: f64| (0..16).fold(0_u64, |all, bit| all | ((x as u64 >> bit & 1) << (2 * bit)));
+    spread(middle.x) | spread(middle.y) << 1
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::drawing::{Layer, LayerKind, Mark, Page, Paint, Provenance, Unit};
+
+    /// A drawing of a picture of so many pixels a side, in squares of ten px.
+    fn drawing(side: usize) -> Drawing {
+        let picture =
+            Arc::new(Picture { width: side, height: side, pixels: vec![Colour::WHITE; side * side] });
+        let square = |k: usize| {
+            let (x, y) = ((k % 100) as f64 * 10.0, (k / 100) as f64 * 10.0);
+            let outline = kurbo::Shape::to_path(&Rect::new(x, y, x + 10.0, y + 10.0), 0.1);
+            ImagePiece { outline, shows: Shows::Pixels(Affine::scale(1000.0 / side as f64)) }
+        };
+        let paint = Paint::Image(ImagePaint { picture, pieces: (0..10_000).map(square).collect() });
+        let mark = Mark { path: kurbo::BezPath::new(), paint, provenance: Provenance::default() };
+        let layer = Layer { kind: LayerKind::Fills, pen: None, ordered: false, marks: vec![mark] };
+        let page = Page { width: 1000.0, height: 1000.0, unit: Unit::Px, background: None };
+        Drawing::new("", page, vec![layer])
+    }
+
+    #[test]
+    fn large_pictures_fall_into_parts_that_hold_what_is_shown() {
+        let small = drawing(500);
+        assert_eq!(Crops::of(&small).list.len(), 1);
+        let large = drawing(2000);
+        let crops = Crops::of(&large);
+        let all: usize = crops.list.iter().map(|crop| crop.width * crop.height).sum();
+        assert!(crops.list.len() > 20 && all < 3 * 2000 * 2000, "{} parts of {all} pixels", crops.list.len());
+        for (_, image) in marks(&large) {
+            for piece in &image.pieces {
+                let (_, crop) = crops.shown(piece).unwrap();
+                let Shows::Pixels(transform) = piece.shows else { unreachable!() };
+                let need = needed(piece, transform, &image.picture);
+                let [left, top] = [crop.left as f64, crop.top as f64];
+                let has = Rect::new(left, top, left + crop.width as f64, top + crop.height as f64);
+                assert_eq!(has.union(need), has);
+            }
+        }
+    }
+}

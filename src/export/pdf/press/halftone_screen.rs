@@ -1,0 +1,236 @@
+//! Half-tones in PDF: fills as dots on one lattice of the page for each ink, as vectors.
+//!
+//! The dots of an ink lie at the corners of squares, turned by the ink's own angle, and have the area that the tone asks for; the lattice
+//! is that of the page, so that neighbours of one tone have one screen. Lattices of cyan, magenta and black are 30 degrees apart, at which
+//! their moiré is finest, yellow's lies between.
+
+use std::collections::BTreeMap;
+
+use kurbo::{Affine, BezPath, PathEl, Point};
+
+use crate::geometry::numbers::portable_math::{acos, cos, sin};
+
+/// Angles of the plates beside that of black, degrees: cyan, magenta, yellow, black.
+const TURNS: [f64; 4] = [-30.0, 30.0, -45.0, 0.0];
+
+/// Inks above this are solid, and below one less this are none.
+const SOLID: f64 = 0.99;
+
+/// Steps of the size of dots.
+const STEPS: f64 = 255.0;
+
+/// Flattening of outlines, in distances of dots.
+const TOLERANCE: f64 = 0.02;
+
+/// More dots than this are not laid for one fill: they would be finer than any press prints.
+const MOST_DOTS: f64 = 4e6;
+
+/// A half-tone screen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Screen {
+    /// Rows of dots to an inch.
+    pub lpi: f64,
+    /// The angle of the black plate, degrees counter-clockwise.
+    pub angle_deg: f64,
+}
+
+/// What an ink does with a tone.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Tone {
+    None,
+    Solid,
+    /// Dots so many of [`STEPS`] large.
+    Dots,
+}
+
+pub(crate) fn tone(ink: f64) -> Tone {
+    if ink >= SOLID {
+        Tone::Solid
+    } else if ink <= 1.0 - SOLID {
+        Tone::None
+    } else {
+        Tone::Dots
+    }
+}
+
+impl Screen {
+    /// From the lattice of a plate, whose dots are one apart, to units of a page of which a mm has so many.
+    pub(crate) fn lattice(&self, plate: usize, mm: f64) -> Affine {
+        let turn = TURNS.get(plate).copied().unwrap_or(0.0);
+        let angle = (-(self.angle_deg + turn)).to_radians();
+        let pitch = 25.4 / self.lpi * mm;
+        let (s, c) = (sin(angle) * pitch, cos(angle) * pitch);
+        Affine::new([c, s, -s, c, 0.0, 0.0])
+    }
+}
+
+/// The diameter of dots that cover a share of a lattice whose dots are one apart: they touch at π/4, and overlap beyond.
+pub(crate) fn diameter(share: f64) -> f64 {
+    let covered = |r: f64| {
+        let disc = std::f64::consts::PI * r * r;
+        if r <= 0.5 { disc } else { disc - 4.0 * (r * r * acos(0.5 / r) - 0.5 * (r * r - 0.25).sqrt()) }
+    };
+    let (mut low, mut high) = (0.0, std::f64::consts::FRAC_1_SQRT_2);
+    for _ in 0..40 {
+        let middle = (low + high) / 2.0;
+        if covered(middle) < share { low = middle } else { high = middle }
+    }
+    low + high
+}
+
+/// The dots that an outline shows, by their size in steps of 1/255: an outline in units of the lattice, and the share that is covered at
+/// a point of it. None if there would be too many.
+pub(crate) fn dots(outline: &BezPath, share: impl Fn(Point) -> f64) -> Option<BTreeMap<u8, Vec<(i32, i32)>>> {
+    let reach = std::f64::consts::FRAC_1_SQRT_2;
+    let mut dots: BTreeMap<u8, Vec<(i32, i32)>> = BTreeMap::new();
+    for (row, spans) in rows(outline, reach)? {
+        let mut last = i64::MIN;
+        for (from, to) in spans {
+            let (from, to) = ((from.ceil() as i64).max(last.saturating_add(1)), to.floor() as i64);
+            for column in from..=to {
+                let size =
+                    (share(Point::new(column as f64, row as f64)).clamp(0.0, 1.0) * STEPS).round() as u8;
+                if size > 0 {
+                    dots.entry(size).or_default().push((column as i32, row as i32));
+                }
+            }
+            last = last.max(to);
+        }
+    }
+    Some(dots)
+}
+
+/// The share that dots of a size cover.
+pub(crate) fn share_of(size: u8) -> f64 {
+    f64::from(size) / STEPS
+}
+
+/// Of each row of the lattice, the stretches on which dots that reach so far show in an outline, in rising order.
+fn rows(outline: &BezPath, reach: f64) -> Option<BTreeMap<i64, Vec<(f64, f64)>>> {
+    let mut spans: BTreeMap<i64, Vec<(f64, f64)>> = BTreeMap::new();
+    let mut crossings: BTreeMap<i64, Vec<(f64, i32)>> = BTreeMap::new();
+    let mut edges: Vec<(Point, Point)> = Vec::new();
+    let (mut start, mut pen) = (Point::ZERO, Point::ZERO);
+    kurbo::flatten(outline.elements().iter().copied(), TOLERANCE, |element| match element {
+        PathEl::MoveTo(p) => {
+            edges.push((pen, start));
+            (start, pen) = (p, p);
+        }
+        PathEl::LineTo(p) => {
+            edges.push((pen, p));
+            pen = p;
+        }
+        PathEl::ClosePath => {
+            edges.push((pen, start));
+            pen = start;
+        }
+        PathEl::QuadTo(..) | PathEl::CurveTo(..) => {}
+    });
+    edges.push((pen, start));
+    let numbers = edges.iter().flat_map(|(a, b)| [a.x, a.y, b.x, b.y]);
+    if numbers.clone().any(|x| !x.is_finite() || x.abs() > 1e6) {
+        return None;
+    }
+    for (a, b) in edges {
+        if a == b {
+            continue;
+        }
+        let (low, high) = (a.y.min(b.y), a.y.max(b.y));
+        let at = |y: f64| a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)).clamp(0.0, 1.0);
+        for row in (low - reach).ceil() as i64..=(high + reach).floor() as i64 {
+            let y = row as f64;
+            let (x0, x1) = if low == high { (a.x, b.x) } else { (at(y - reach), at(y + reach)) };
+            spans.entry(row).or_default().push((x0.min(x1) - reach, x0.max(x1) + reach));
+            if low <= y && y < high {
+                crossings.entry(row).or_default().push((at(y), if a.y < b.y { 1 } else { -1 }));
+            }
+        }
+    }
+    for (row, mut found) in crossings {
+        found.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut turns = 0;
+        let inner = spans.entry(row).or_default();
+        for pair in found.windows(2) {
+            let [(from, turn), (to, _)] = pair else { continue };
+            turns += turn;
+            if turns != 0 {
+                inner.push((*from, *to));
+            }
+        }
+    }
+    let length: f64 = spans.values().flatten().map(|(from, to)| to - from).sum();
+    if length > MOST_DOTS {
+        return None;
+    }
+    for inner in spans.values_mut() {
+        inner.sort_by(|a, b| a.0.total_cmp(&b.0));
+    }
+    Some(spans)
+}
+
+#[cfg(test)]
+mod tests {
+    use kurbo::{Circle, Rect, Shape};
+
+    use super::*;
+
+    #[test]
+    fn dots_cover_what_the_tone_asks_for() {
+        for share in [0.02, 0.2, 0.5, 0.7, 0.8, 0.9, 0.98] {
+            let radius = diameter(share) / 2.0;
+            let steps = 400;
+            let inside = (0..steps * steps).filter(|k| {
+                let (x, y) = ((k % steps) as f64 + 0.5, (k / steps) as f64 + 0.5);
+                let (x, y) = (x / steps as f64 - 0.5, y / steps as f64 - 0.5);
+                // A point of a square and the dot in its middle or in that of a neighbour.
+                let near = |dx: f64, dy: f64| (x - dx).powi(2) + (y - dy).powi(2) <= radius * radius;
+                near(0.0, 0.0) || [-1.0, 1.0].iter().any(|step| near(*step, 0.0) || near(0.0, *step))
+            });
+            let covered = inside.count() as f64 / (steps * steps) as f64;
+            assert!((covered - share).abs() < 0.003, "{covered} is not {share}");
+        }
+        assert!((diameter(1.0) - std::f64::consts::SQRT_2).abs() < 1e-6);
+    }
+
+    #[test]
+    fn no_dot_that_shows_is_missing_and_few_are_in_vain() {
+        let shapes: [BezPath; 3] = [
+            Circle::new((3.3, -2.1), 7.7).to_path(1e-4),
+            BezPath::from_svg("M0 0L30 1L0 2ZM5 5H20V25H5ZM8 8V20H17V8Z").unwrap(),
+            Rect::new(0.2, 0.2, 0.4, 9.0).to_path(1e-4),
+        ];
+        for shape in shapes {
+            let found = dots(&shape, |_| 0.6).unwrap();
+            let laid: Vec<(i32, i32)> = found.values().flatten().copied().collect();
+            let radius = diameter(0.6) / 2.0;
+            let mut vain = 0;
+            for (x, y) in (-40..60).flat_map(|x| (-40..60).map(move |y| (x, y))) {
+                let middle = Point::new(f64::from(x), f64::from(y));
+                let around = (0..64).flat_map(|k| [0.5, 1.0].map(|r| (k, r)));
+                let mut points = around.map(|(k, r)| {
+                    let angle = f64::from(k) / 64.0 * std::f64::consts::TAU;
+                    middle + kurbo::Vec2::new(cos(angle), sin(angle)) * (r * radius)
+                });
+                let shows = shape.contains(middle) || points.any(|p| shape.contains(p));
+                let is_laid = laid.contains(&(x, y));
+                assert!(is_laid || !shows, "no dot at {x} {y}");
+                vain += usize::from(is_laid && !shows);
+            }
+            assert!(vain < laid.len() / 2 + 20, "{vain} of {} in vain", laid.len());
+            let mut all = laid.clone();
+            all.sort_unstable();
+            all.dedup();
+            assert_eq!(all.len(), laid.len(), "no dot is laid twice");
+        }
+    }
+
+    #[test]
+    fn plates_are_turned_and_as_fine_as_asked() {
+        let screen = Screen { lpi: 50.8, angle_deg: 45.0 };
+        let step = |plate: usize| screen.lattice(plate, 1.0) * Point::new(1.0, 0.0);
+        for (plate, angle) in [(0, 15.0), (1, 75.0), (2, 0.0), (3, 45.0_f64)] {
+            let wanted = kurbo::Vec2::new(cos(angle.to_radians()), -sin(angle.to_radians())) * 0.5;
+            assert!((step(plate).to_vec2() - wanted).hypot() < 1e-9, "plate {plate}");
+        }
+    }
+}

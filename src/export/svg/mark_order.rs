@@ -1,0 +1,230 @@
+//! Marks that may be exchanged, in an order that does not depend on how they were found: by name, and where they begin.
+//!
+//! Neighbours that are painted alike may: one colour over itself is the same either way round.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use crate::parallel::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::paint_attributes::{Attributes, alike};
+use crate::drawing::{Mark, Paint, Provenance};
+use crate::export::encoding::decimals::Decimals;
+use crate::export::encoding::xml::read_back;
+use crate::export::paths::canonical_path::{Canonical, Form};
+use crate::export::paths::path_piece::Step;
+
+/// Marks that one task writes.
+pub(crate) const CHUNK: usize = 2048;
+
+/// What a mark is called; the order of the fields is that in which marks are compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub(crate) struct Name<'a> {
+    /// Its classes, as they are written.
+    pub classes: &'a str,
+    /// The part of the model.
+    pub part: Option<&'a str>,
+    /// The material, where it is written.
+    pub material: Option<&'a str>,
+    /// The tone of a region.
+    pub tone: Option<u16>,
+}
+
+/// The path data of marks.
+pub(crate) struct Paths {
+    /// Of each chunk of marks.
+    texts: Vec<Vec<u8>>,
+    /// Of each mark.
+    places: Vec<Place>,
+}
+
+/// Where the data of a mark is: first that of its axis, then its own.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    begin: usize,
+    axis_end: usize,
+    end: usize,
+    start: Option<Step>,
+}
+
+impl Paths {
+    /// Writes the paths of marks; where these are ordered, each runs as it does.
+    pub fn of(marks: &[&Mark], ordered: bool, decimals: Decimals) -> Self {
+        let write = |chunk: &[&Mark]| {
+            let mut text = Vec::with_capacity(chunk.len() * 64);
+            let mut canonical = Canonical::new(decimals);
+            let mut places = Vec::with_capacity(chunk.len());
+            for mark in chunk {
+                let begin = text.len();
+                if let Paint::Outline(outline) = &mark.paint {
+                    let form = if ordered { Form::Kept } else { Form::Stroked };
+                    canonical.write(&mut text, &outline.axis, form);
+                }
+                let axis_end = text.len();
+                let start = canonical.write(&mut text, &mark.path, form(mark, ordered));
+                places.push(Place { begin, axis_end, end: text.len(), start });
+            }
+            (text, places)
+        };
+        let chunks: Vec<(Vec<u8>, Vec<Place>)> = marks.par_chunks(CHUNK).with_max_len(1).map(write).collect();
+        let mut paths = Self { texts: Vec::new(), places: Vec::with_capacity(marks.len()) };
+        for (text, places) in chunks {
+            paths.texts.push(text);
+            paths.places.extend(places);
+        }
+        paths
+    }
+
+    /// The `d` of a mark.
+    pub fn data(&self, mark: usize) -> &[u8] {
+        self.text(mark, |place| place.axis_end..place.end)
+    }
+
+    /// The middle of a line that is drawn as an outline.
+    pub fn axis(&self, mark: usize) -> &[u8] {
+        self.text(mark, |place| place.begin..place.axis_end)
+    }
+
+    fn text(&self, mark: usize, range: impl Fn(&Place) -> Range<usize>) -> &[u8] {
+        let place = self.places.get(mark).map(range);
+        place.zip(self.texts.get(mark / CHUNK)).and_then(|(range, text)| text.get(range)).unwrap_or_default()
+    }
+}
+
+/// What of a mark's path makes no difference.
+fn form(mark: &Mark, ordered: bool) -> Form {
+    match &mark.paint {
+        _ if ordered => Form::Kept,
+        Paint::Stroke(stroke) if stroke.dash.is_empty() => Form::Stroked,
+        Paint::Stroke(_) => Form::Kept,
+        Paint::Fill(_) | Paint::Gradient(_) | Paint::Image(_) | Paint::Outline(_) => Form::Filled,
+    }
+}
+
+/// Neighbours that are painted alike.
+pub(crate) struct AlikeMarks {
+    /// Which of the marks, in the order that they are written in.
+    pub range: Range<usize>,
+    pub attributes: Attributes,
+}
+
+/// The runs of marks that are painted alike.
+pub(crate) fn runs(marks: &[&Mark]) -> Vec<AlikeMarks> {
+    let mut at = 0;
+    let run = |run: &[&Mark]| {
+        let range = at..at + run.len();
+        at = range.end;
+        Some(AlikeMarks { range, attributes: Attributes::of(run.first()?) })
+    };
+    marks.chunk_by(|a, b| alike(a, b)).filter_map(run).collect()
+}
+
+/// What a mark is ordered by, but for its path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Key {
+    rank: Option<usize>,
+    start: Option<Step>,
+}
+
+/// The order that marks are written in: those of a run by name, start and path.
+pub(crate) fn sorted(marks: &[&Mark], runs: &[AlikeMarks], paths: &Paths) -> Vec<usize> {
+    let ranks = ranks(marks);
+    let key = |mark: usize| {
+        let start = paths.places.get(mark).and_then(|place| place.start);
+        (Key { rank: ranks.get(mark).copied(), start }, mark)
+    };
+    // Keys lie beside the numbers of their marks, so that comparing seldom looks elsewhere.
+    let mut order: Vec<(Key, usize)> = (0..marks.len()).into_par_iter().map(key).collect();
+    for run in runs.iter().filter(|run| run.range.len() > 1) {
+        let Some(of_run) = order.get_mut(run.range.clone()) else { continue };
+        // The number of the mark decides in the end, so that the sort need not be stable.
+        of_run.par_sort_unstable_by(|(key, a), (other, b)| {
+            key.cmp(other).then_with(|| paths.data(*a).cmp(paths.data(*b))).then(a.cmp(b))
+        });
+    }
+    order.into_iter().map(|(_, mark)| mark).collect()
+}
+
+/// The place of each mark's name among all names.
+fn ranks(marks: &[&Mark]) -> Vec<usize> {
+    let mut known: FxHashMap<Called, usize> = FxHashMap::default();
+    let mut names: Vec<Called> = Vec::new();
+    let mut last: Option<(Called, usize)> = None;
+    let mut numbers: Vec<usize> = Vec::with_capacity(marks.len());
+    for mark in marks {
+        let called = Called::of(mark);
+        let number = match last {
+            // Most marks are called as the one before.
+            Some((same, number)) if same == called => number,
+            _ => *known.entry(called).or_insert_with(|| {
+                names.push(called);
+                names.len() - 1
+            }),
+        };
+        last = Some((called, number));
+        numbers.push(number);
+    }
+    let texts: Vec<[Option<Cow<str>>; 3]> = names.iter().map(Called::texts).collect();
+    let name = |number: usize| {
+        let [classes, part, material] =
+            texts.get(number).map_or([None; 3], |texts| texts.each_ref().map(Option::as_deref));
+        let tone = names.get(number).and_then(|called| called.tone);
+        Name { classes: classes.unwrap_or_default(), part, material, tone }
+    };
+    let mut order: Vec<usize> = (0..names.len()).collect();
+    order.sort_by(|a, b| name(*a).cmp(&name(*b)));
+    // Names that read alike are one.
+    let mut ranks = vec![0; names.len()];
+    let mut rank = 0;
+    for (index, number) in order.iter().enumerate() {
+        let before = index.checked_sub(1).and_then(|before| order.get(before));
+        if before.is_some_and(|before| name(*before) != name(*number)) {
+            rank += 1;
+        }
+        if let Some(place) = ranks.get_mut(*number) {
+            *place = rank;
+        }
+    }
+    numbers.into_iter().filter_map(|number| ranks.get(number).copied()).collect()
+}
+
+/// What a mark is called, before it is written.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+struct Called<'a> {
+    classes: &'a [&'static str],
+    tone: Option<u16>,
+    part: Option<&'a str>,
+    material: Option<&'a str>,
+}
+
+impl<'a> Called<'a> {
+    fn of(mark: &'a Mark) -> Self {
+        let Provenance { classes, tone, part, material, .. } = &mark.provenance;
+        let material =
+            material.as_deref().filter(|_| matches!(mark.paint, Paint::Fill(_) | Paint::Gradient(_)));
+        Self { classes, tone: *tone, part: part.as_deref(), material }
+    }
+
+    /// Classes, part and material as they read back.
+    fn texts(&self) -> [Option<Cow<'a, str>>; 3] {
+        let mut classes = Vec::new();
+        write_classes(&mut classes, self.classes, self.tone);
+        let classes = String::from_utf8_lossy(&classes).into_owned();
+        [Some(Cow::Owned(classes)), self.part.map(read_back), self.material.map(read_back)]
+    }
+}
+
+/// Writes the classes of a mark, its tone last.
+pub(crate) fn write_classes(out: &mut Vec<u8>, classes: &[&str], tone: Option<u16>) {
+    for (index, class) in classes.iter().enumerate() {
+        if index > 0 {
+            out.push(b' ');
+        }
+        out.extend_from_slice(class.as_bytes());
+    }
+    if let Some(tone) = tone {
+        let blank = if classes.is_empty() { "" } else { " " };
+        out.extend_from_slice(format!("{blank}tone-{tone}").as_bytes());
+    }
+}

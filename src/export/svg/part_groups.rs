@@ -1,0 +1,168 @@
+//! A drawing as groups of parts that paints the same picture as its layers.
+//!
+//! A line of one part lies over the fill of its neighbour, and the other way round: a part is several groups where one would put
+//! something over what lies over it. Where the order of marks makes a difference (they may touch, and are not of one colour) it
+//! stays; else all of a part is in one group.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+use std::sync::Arc;
+
+use crate::parallel::prelude::*;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::page_cells::Cells;
+use crate::colour::srgb::Colour;
+use crate::drawing::{Drawing, Layer, Mark, OutlinePaint, Paint};
+
+/// Marks of one part that follow each other.
+#[derive(Debug, Default)]
+pub(crate) struct PartGroup<'a> {
+    /// The part; none for marks that belong to none.
+    pub name: Option<Arc<str>>,
+    pub marks: Vec<&'a Mark>,
+    /// Whether some are of an ordered layer.
+    pub ordered: bool,
+}
+
+/// Marks of one layer and one part that stay together.
+struct Bundle<'a> {
+    part: usize,
+    marks: Vec<&'a Mark>,
+    ordered: bool,
+}
+
+/// The marks of a drawing by part, back to front.
+pub(crate) fn part_groups(drawing: &Drawing) -> Vec<PartGroup<'_>> {
+    let mut names: Vec<Option<Arc<str>>> = Vec::new();
+    let bundles = bundles(drawing, &mut names);
+    let after = precedence(&bundles, &Cells::of(&drawing.page));
+    let mut groups: Vec<PartGroup> = Vec::new();
+    let mut last = None;
+    for index in schedule(&bundles, &after) {
+        let Some(bundle) = bundles.get(index) else { continue };
+        if last != Some(bundle.part) {
+            let name = names.get(bundle.part).cloned().flatten();
+            groups.push(PartGroup { name, ..PartGroup::default() });
+            last = Some(bundle.part);
+        }
+        if let Some(group) = groups.last_mut() {
+            group.marks.extend(&bundle.marks);
+            group.ordered |= bundle.ordered;
+        }
+    }
+    groups
+}
+
+/// The marks in bundles, in their order; `names` are those of the parts, by number.
+fn bundles<'a>(drawing: &'a Drawing, names: &mut Vec<Option<Arc<str>>>) -> Vec<Bundle<'a>> {
+    let mut numbers: FxHashMap<Option<&str>, usize> = FxHashMap::default();
+    let mut bundles: Vec<Bundle> = Vec::new();
+    for layer in &drawing.layers {
+        let begin = bundles.len();
+        let exchangeable = is_of_one_colour(layer);
+        let mut of_part: FxHashMap<usize, usize> = FxHashMap::default();
+        for mark in &layer.marks {
+            let name = mark.provenance.part.as_ref();
+            let part = *numbers.entry(name.map(AsRef::as_ref)).or_insert_with(|| {
+                names.push(name.cloned());
+                names.len() - 1
+            });
+            let open = match exchangeable {
+                true => of_part.get(&part).copied(),
+                false => {
+                    bundles.len().checked_sub(1).filter(|last| *last >= begin && bundles[*last].part == part)
+                }
+            };
+            let index = open.unwrap_or_else(|| {
+                bundles.push(Bundle { part, marks: Vec::new(), ordered: layer.ordered });
+                bundles.len() - 1
+            });
+            of_part.insert(part, index);
+            if let Some(bundle) = bundles.get_mut(index) {
+                bundle.marks.push(mark);
+            }
+        }
+    }
+    bundles
+}
+
+/// Whether the marks of a layer may be painted in any order.
+fn is_of_one_colour(layer: &Layer) -> bool {
+    let mut colours = layer.marks.iter().map(colour);
+    let first = colours.next().flatten();
+    first.is_some() && colours.all(|other| other == first)
+}
+
+/// The one colour that a mark is painted in.
+fn colour(mark: &Mark) -> Option<Colour> {
+    match &mark.paint {
+        Paint::Stroke(stroke) => Some(stroke.colour),
+        Paint::Fill(colour) | Paint::Outline(OutlinePaint { colour, .. }) => Some(*colour),
+        Paint::Gradient(_) | Paint::Image(_) => None,
+    }
+}
+
+/// Of each bundle those that must come after it.
+fn precedence(bundles: &[Bundle], cells: &Cells) -> Vec<Vec<usize>> {
+    // In each cell what is painted there, back to front.
+    let mut painted: Vec<(u32, usize, Option<Colour>)> = bundles
+        .par_iter()
+        .enumerate()
+        .flat_map_iter(|(index, bundle)| {
+            let mut own: Vec<_> = bundle
+                .marks
+                .iter()
+                .flat_map(|mark| cells.under(mark).into_iter().map(|cell| (cell, index, colour(mark))))
+                .collect();
+            own.dedup();
+            own
+        })
+        .collect();
+    // Stable: marks of a bundle keep their order.
+    painted.par_sort_by_key(|(cell, index, _)| (*cell, *index));
+    painted.dedup();
+    let mut known: FxHashSet<(usize, usize)> = FxHashSet::default();
+    let mut after = vec![Vec::new(); bundles.len()];
+    for cell in painted.chunk_by(|a, b| a.0 == b.0) {
+        let runs: Vec<_> = cell.chunk_by(|a, b| a.2.is_some() && a.2 == b.2).collect();
+        for pair in runs.windows(2) {
+            for (_, below, _) in pair[0] {
+                for (_, above, _) in pair[1] {
+                    if below != above && known.insert((*below, *above)) {
+                        after[*below].push(*above);
+                    }
+                }
+            }
+        }
+    }
+    after
+}
+
+/// The bundles in an order that keeps to what must come after what, each part as long as it can go on.
+fn schedule(bundles: &[Bundle], after: &[Vec<usize>]) -> Vec<usize> {
+    let mut waits = vec![0_usize; bundles.len()];
+    after.iter().flatten().for_each(|above| waits[*above] += 1);
+    let parts = bundles.iter().map(|bundle| bundle.part + 1).max().unwrap_or(0);
+    // What is ready, by part, first come first.
+    let mut ready: Vec<BinaryHeap<Reverse<usize>>> = vec![BinaryHeap::new(); parts];
+    let mut firsts: BinaryHeap<Reverse<(usize, usize)>> = BinaryHeap::new();
+    let mut order = Vec::with_capacity(bundles.len());
+    for (index, bundle) in bundles.iter().enumerate().filter(|(index, _)| waits[*index] == 0) {
+        ready[bundle.part].push(Reverse(index));
+        firsts.push(Reverse((index, bundle.part)));
+    }
+    while let Some(Reverse((_, part))) = firsts.pop() {
+        while let Some(Reverse(index)) = ready[part].pop() {
+            order.push(index);
+            for above in &after[index] {
+                waits[*above] -= 1;
+                if waits[*above] == 0 {
+                    ready[bundles[*above].part].push(Reverse(*above));
+                    firsts.push(Reverse((*above, bundles[*above].part)));
+                }
+            }
+        }
+    }
+    order
+}

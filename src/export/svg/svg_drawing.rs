@@ -1,0 +1,416 @@
+//! A drawing as SVG: Inkscape layers or groups of parts, small and fast to write.
+
+use crate::parallel::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::hotspots;
+use super::mark_order::{self, AlikeMarks, CHUNK, Paths};
+use super::paint_attributes::{Attributes, WIDTH_DECIMALS, hex};
+use super::part_groups::{PartGroup, part_groups};
+use super::svg_images;
+use super::svg_options::{Grouping, SvgOptions};
+use crate::colour::srgb::Colour;
+use crate::drawing::{Drawing, Gradient, Layer, LayerKind, Mark, Page, Paint, Unit};
+use crate::export::encoding::decimals::Decimals;
+use crate::export::encoding::embedded_pictures::Named;
+use crate::export::encoding::xml::{Ids, escape};
+
+/// Decimals of dash lengths: finer than coordinates, since they add up along a path.
+const DASH_DECIMALS: u8 = 3;
+
+/// Decimals of the places of stops in a gradient.
+const STOP_DECIMALS: u8 = 4;
+
+impl Drawing {
+    /// The drawing as SVG text, in canonical form: the same drawing gives the same bytes, and one that differs a little
+    /// a text that differs a little. Marks that may be exchanged stand in an order of their own, and paths begin where
+    /// every way of writing them would; see [`Layer::ordered`].
+    ///
+    /// Coordinates are off by at most half a unit of the last written decimal.
+    #[must_use]
+    pub fn to_svg(&self, options: &SvgOptions) -> String {
+        let mut ids = Ids::new(&options.id_prefix);
+        let named = &Named::of(self, &mut ids);
+        let mut out = Vec::new();
+        let has_buttons = !self.hotspots.is_empty();
+        open(&mut out, (&self.title, &self.page), (!named.is_empty(), has_buttons), options, &mut ids);
+        self.write_content(&mut out, named, options, &mut ids);
+        finished(out)
+    }
+
+    /// Pictures, paper, layers and areas to click on.
+    pub(crate) fn write_content(
+        &self,
+        out: &mut Vec<u8>,
+        named: &Named,
+        options: &SvgOptions,
+        ids: &mut Ids,
+    ) {
+        let decimals = Decimals::new(options.decimals(self.page.unit));
+        let ink = options.ink.map(|ink| Colour { a: 255, ..ink });
+        if !named.is_empty() {
+            named.write(out);
+        }
+        self.paper(out, ids);
+        match options.group {
+            Grouping::Layer => {
+                for layer in &self.layers {
+                    let marks: Vec<&Mark> = layer.marks.iter().collect();
+                    let (id, label) = self.names(layer);
+                    open_layer(out, ids, &id, &label);
+                    let fills = gradient_ids(&marks, ids);
+                    let group = Group { marks: &marks, ordered: layer.ordered, decimals, named, fills, ink };
+                    group.write(out, b"");
+                }
+            }
+            Grouping::Part => {
+                for PartGroup { name, marks, ordered } in part_groups(self) {
+                    let fills = gradient_ids(&marks, ids);
+                    let group = Group { marks: &marks, ordered, decimals, named, fills, ink };
+                    match name {
+                        Some(name) => {
+                            out.extend_from_slice(b"<g id=\"");
+                            out.extend_from_slice(ids.take(&format!("part-{name}")).as_bytes());
+                            out.push(b'"');
+                            // Hot-spots say the names of parts already.
+                            if options.read_aloud && !self.hotspots.is_empty() {
+                                out.extend_from_slice(b" aria-hidden=\"true\"");
+                            }
+                            let mut title = b"<title>".to_vec();
+                            escape(&mut title, &name);
+                            title.extend_from_slice(b"</title>\n");
+                            group.write(out, &title);
+                        }
+                        None => {
+                            out.extend_from_slice(b"<g");
+                            group.write(out, b"");
+                        }
+                    }
+                }
+            }
+        }
+        if !self.hotspots.is_empty() {
+            open_layer(out, ids, hotspots::LAYER, hotspots::LAYER);
+            hotspots::write(out, &self.hotspots, decimals, options.read_aloud);
+        }
+    }
+
+    /// The coloured paper.
+    pub(crate) fn paper(&self, out: &mut Vec<u8>, ids: &mut Ids) {
+        let Some(colour) = self.page.background else { return };
+        let number = |value: f64| Decimals::new(4).text(value);
+        let kind = LayerKind::Paper;
+        // A paper layer with marks of its own follows; the plain colour lies below it.
+        let taken = self.layers.iter().any(|layer| layer.kind == kind);
+        open_layer(out, ids, if taken { "paper-colour" } else { kind.id() }, kind.id());
+        let opacity = match colour.a {
+            255 => String::new(),
+            a => format!(" fill-opacity=\"{}\"", Decimals::new(3).text(f64::from(a) / 255.0)),
+        };
+        let rectangle = format!(
+            ">\n<rect width=\"{}\" height=\"{}\" fill=\"{}\"{opacity}/>\n</g>\n",
+            number(self.page.width),
+            number(self.page.height),
+            hex(colour),
+        );
+        out.extend_from_slice(rectangle.as_bytes());
+    }
+
+    /// Id and label of a layer. Layers of several pens are numbered, and labelled by their pen.
+    pub(crate) fn names(&self, layer: &Layer) -> (String, String) {
+        let id = layer.kind.id();
+        let mut same = self.layers.iter().filter(|other| other.kind == layer.kind);
+        let id = match (&layer.pen, same.nth(1)) {
+            (Some(pen), Some(_)) => format!("{id}-{}", pen.split(' ').next().unwrap_or_default()),
+            _ => id.to_owned(),
+        };
+        let label = layer.pen.clone().unwrap_or_else(|| id.clone());
+        (id, label)
+    }
+}
+
+/// The root element and the title; what is used needs a namespace of its own. For screen readers it is one picture, or a group if there are
+/// buttons in it: the contents of a picture have neither roles nor names.
+pub(crate) fn open(
+    out: &mut Vec<u8>,
+    (title, page): (&String, &Page),
+    (uses, has_buttons): (bool, bool),
+    options: &SvgOptions,
+    ids: &mut Ids,
+) {
+    let number = |value: f64| Decimals::new(4).text(value);
+    let unit = match page.unit {
+        Unit::Px => "",
+        Unit::Mm => "mm",
+    };
+    let (width, height) = (number(page.width), number(page.height));
+    let links = if uses { "xmlns:xlink=\"http://www.w3.org/1999/xlink\" " } else { "" };
+    let root = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" {links}\
+         xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" \
+         width=\"{width}{unit}\" height=\"{height}{unit}\" viewBox=\"0 0 {width} {height}\""
+    );
+    out.extend_from_slice(root.as_bytes());
+    let texts = [("title", Some(title)), ("desc", options.desc.as_ref())];
+    let texts = texts.map(|(tag, text)| {
+        let text = text.filter(|text| !text.is_empty())?;
+        Some((tag, text, options.read_aloud.then(|| ids.take(tag))))
+    });
+    if options.read_aloud {
+        let role = if has_buttons { "group" } else { "img" };
+        out.extend_from_slice(format!(" role=\"{role}\"").as_bytes());
+        let known: Vec<&str> = texts.iter().flatten().filter_map(|(_, _, id)| id.as_deref()).collect();
+        if !known.is_empty() {
+            out.extend_from_slice(format!(" aria-labelledby=\"{}\"", known.join(" ")).as_bytes());
+        }
+    }
+    out.extend_from_slice(b">\n");
+    for (tag, text, id) in texts.into_iter().flatten() {
+        let id = id.map(|id| format!(" id=\"{id}\"")).unwrap_or_default();
+        out.extend_from_slice(format!("<{tag}{id}>").as_bytes());
+        escape(out, text);
+        out.extend_from_slice(format!("</{tag}>\n").as_bytes());
+    }
+}
+
+/// The document, which ends here.
+pub(crate) fn finished(mut out: Vec<u8>) -> String {
+    out.extend_from_slice(b"</svg>\n");
+    // All that is written is ASCII or copied from text.
+    String::from_utf8(out).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned())
+}
+
+/// The start tag of a layer, but for its attributes of painting and its closing bracket.
+fn open_layer(out: &mut Vec<u8>, ids: &mut Ids, id: &str, label: &str) {
+    out.extend_from_slice(b"<g id=\"");
+    out.extend_from_slice(ids.take(id).as_bytes());
+    out.extend_from_slice(b"\" inkscape:groupmode=\"layer\" inkscape:label=\"");
+    escape(out, label);
+    out.push(b'"');
+}
+
+/// Marks that are written as one group.
+struct Group<'a> {
+    marks: &'a [&'a Mark],
+    /// Whether they stay in their order, and paths run as they do.
+    ordered: bool,
+    decimals: Decimals,
+    named: &'a Named<'a>,
+    /// The ids of the gradients of marks, by the number of the mark.
+    fills: FxHashMap<usize, String>,
+    /// The colour that is written as `currentColor`.
+    ink: Option<Colour>,
+}
+
+/// Ids for the gradients of marks.
+fn gradient_ids(marks: &[&Mark], ids: &mut Ids) -> FxHashMap<usize, String> {
+    let graded = marks.iter().enumerate().filter(|(_, mark)| matches!(mark.paint, Paint::Gradient(_)));
+    graded.map(|(index, _)| (index, ids.take("gradient"))).collect()
+}
+
+impl Group<'_> {
+    /// The rest of a group whose start tag is open: shared attributes, `head`, marks, end tag.
+    fn write(&self, out: &mut Vec<u8>, head: &[u8]) {
+        let runs = mark_order::runs(self.marks);
+        let counts: Vec<(Attributes, usize)> =
+            runs.iter().map(|run| (run.attributes, run.range.len())).collect();
+        let common = Attributes::common(&counts);
+        if self.ordered {
+            out.extend_from_slice(b" data-order=\"travel\"");
+        }
+        common.write(out, self.ink);
+        out.extend_from_slice(b">\n");
+        out.extend_from_slice(head);
+        self.write_gradients(out);
+        let paths = Paths::of(self.marks, self.ordered, self.decimals);
+        let order = match self.ordered {
+            true => (0..self.marks.len()).collect(),
+            false => mark_order::sorted(self.marks, &runs, &paths),
+        };
+        let write = |(index, chunk): (usize, &[usize])| {
+            let mut out = Vec::with_capacity(chunk.len() * 96);
+            self.write_chunk(&mut out, chunk, index * CHUNK, &Shared { common, paths: &paths, runs: &runs });
+            out
+        };
+        let pieces: Vec<Vec<u8>> = order.par_chunks(CHUNK).with_max_len(1).enumerate().map(write).collect();
+        out.reserve(pieces.iter().map(Vec::len).sum::<usize>() + 16);
+        for piece in pieces {
+            out.extend_from_slice(&piece);
+        }
+        out.extend_from_slice(b"</g>\n");
+    }
+
+    /// The gradients of the group's marks.
+    fn write_gradients(&self, out: &mut Vec<u8>) {
+        if self.fills.is_empty() {
+            return;
+        }
+        out.extend_from_slice(b"<defs>\n");
+        for (index, mark) in self.marks.iter().enumerate() {
+            if let (Paint::Gradient(gradient), Some(id)) = (&mark.paint, self.fills.get(&index)) {
+                write_gradient(out, gradient, id, self.decimals);
+            }
+        }
+        out.extend_from_slice(b"</defs>\n");
+    }
+
+    /// Some marks of the group, the first of which is the `from`th; neighbours that are painted alike, but unlike the
+    /// group, share a group of their own.
+    fn write_chunk(&self, out: &mut Vec<u8>, chunk: &[usize], from: usize, shared: &Shared) {
+        let Shared { common, paths, runs } = shared;
+        let first = runs.partition_point(|run| run.range.end <= from);
+        let to = from + chunk.len();
+        for AlikeMarks { range, attributes } in runs.iter().skip(first).take_while(|run| run.range.start < to)
+        {
+            let grouped = range.len() > 1 && !attributes.fits(common);
+            if grouped && range.start >= from {
+                out.extend_from_slice(b"<g");
+                attributes.write_over(common, out, self.ink);
+                out.extend_from_slice(b">\n");
+            }
+            let outer = if grouped { attributes } else { common };
+            for place in range.start.max(from)..range.end.min(to) {
+                let Some((index, mark)) =
+                    chunk.get(place - from).and_then(|i| Some((*i, self.marks.get(*i)?)))
+                else {
+                    continue;
+                };
+                if let Paint::Image(image) = &mark.paint {
+                    let Self { named, decimals, .. } = self;
+                    let attributes = (outer, attributes);
+                    svg_images::write(out, (mark, image), attributes, paths.data(index), named, *decimals);
+                    continue;
+                }
+                let texts = [paths.axis(index), paths.data(index)];
+                write_mark(out, mark, outer, attributes, (self.fills.get(&index), self.ink), texts);
+            }
+            if grouped && range.end <= to {
+                out.extend_from_slice(b"</g>\n");
+            }
+        }
+    }
+}
+
+/// What the chunks of a group share.
+struct Shared<'a> {
+    common: Attributes,
+    paths: &'a Paths,
+    runs: &'a [AlikeMarks],
+}
+
+/// One gradient.
+fn write_gradient(out: &mut Vec<u8>, gradient: &Gradient, id: &str, decimals: Decimals) {
+    let number = |value: f64| decimals.text(value);
+    let Gradient { start, end, stops } = gradient;
+    let line = format!(
+        "<linearGradient id=\"{id}\" gradientUnits=\"userSpaceOnUse\" x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\">",
+        number(start.x),
+        number(start.y),
+        number(end.x),
+        number(end.y),
+    );
+    out.extend_from_slice(line.as_bytes());
+    for (place, colour) in stops {
+        let place = Decimals::new(STOP_DECIMALS).text(*place);
+        let stop = format!("<stop offset=\"{place}\" stop-color=\"{}\"/>", hex(*colour));
+        out.extend_from_slice(stop.as_bytes());
+    }
+    out.extend_from_slice(b"</linearGradient>\n");
+}
+
+/// Letters of an identity: enough that no two lines of a drawing share one but by a chance of one in thousands.
+const ID_LETTERS: u32 = 6;
+
+/// An identity in letters and digits.
+fn short_id(identity: u64) -> String {
+    const DIGITS: &[u8; 32] = b"0123456789abcdefghjkmnpqrstuvwxy";
+    let digit = |place: u32| char::from(DIGITS[(identity >> (5 * place) & 31) as usize]);
+    (0..ID_LETTERS).map(digit).collect()
+}
+
+/// One path.
+fn write_mark(
+    out: &mut Vec<u8>,
+    mark: &Mark,
+    outer: &Attributes,
+    attributes: &Attributes,
+    (gradient, ink): (Option<&String>, Option<Colour>),
+    [axis, data]: [&[u8]; 2],
+) {
+    let provenance = &mark.provenance;
+    out.extend_from_slice(b"<path");
+    if !provenance.classes.is_empty() || provenance.tone.is_some() {
+        let before = out.len();
+        out.extend_from_slice(b" class=\"");
+        let empty = out.len();
+        mark_order::write_classes(out, &provenance.classes, provenance.tone);
+        if out.len() == empty {
+            out.truncate(before);
+        } else {
+            out.push(b'"');
+        }
+    }
+    let mut named = |name: &[u8], text: &str| {
+        out.extend_from_slice(name);
+        escape(out, text);
+        out.push(b'"');
+    };
+    if let Some(part) = &provenance.part {
+        named(b" data-part=\"", part);
+    }
+    if let (Paint::Fill(_) | Paint::Gradient(_), Some(material)) = (&mark.paint, &provenance.material) {
+        named(b" data-material=\"", material);
+    }
+    if let Some(tone) = provenance.tone {
+        named(b" data-tone=\"", &tone.to_string());
+    }
+    if provenance.invisibility > 0 {
+        named(b" data-invisibility=\"", &provenance.invisibility.to_string());
+    }
+    if provenance.identity > 0 {
+        named(b" data-id=\"", &short_id(provenance.identity));
+    }
+    if let Some(text) = &provenance.text {
+        named(b" aria-label=\"", &text.words);
+    }
+    if let Paint::Outline(outline) = &mark.paint {
+        out.extend_from_slice(b" data-axis=\"");
+        out.extend_from_slice(axis);
+        out.extend_from_slice(b"\" data-width=\"");
+        let fine = Decimals::new(WIDTH_DECIMALS);
+        fine.write(out, fine.round(outline.width));
+        out.push(b'"');
+    }
+    attributes.write_over(outer, out, ink);
+    if let Some(id) = gradient {
+        out.extend_from_slice(format!(" fill=\"url(#{id})\"").as_bytes());
+    }
+    if let Paint::Stroke(stroke) = &mark.paint
+        && !stroke.dash.is_empty()
+    {
+        let fine = Decimals::new(DASH_DECIMALS);
+        out.extend_from_slice(b" stroke-dasharray=\"");
+        for (index, dash) in stroke.dash.iter().enumerate() {
+            if index > 0 {
+                out.push(b' ');
+            }
+            fine.write(out, fine.round(*dash));
+        }
+        out.push(b'"');
+        if fine.round(stroke.dash_offset) != 0 {
+            out.extend_from_slice(b" stroke-dashoffset=\"");
+            fine.write(out, fine.round(stroke.dash_offset));
+            out.push(b'"');
+        }
+    }
+    out.extend_from_slice(b" d=\"");
+    out.extend_from_slice(data);
+    match &provenance.note {
+        None => out.extend_from_slice(b"\"/>\n"),
+        Some(note) => {
+            out.extend_from_slice(b"\"><title>");
+            escape(out, note);
+            out.extend_from_slice(b"</title></path>\n");
+        }
+    }
+}

@@ -1,0 +1,102 @@
+//! [`Ranks`]: some of many numbers, one bit each, and how many of them come before each.
+
+/// A set of numbers below a bound, which knows the place of each in the order of all that it holds.
+#[derive(Debug, Clone, Default)]
+pub struct Ranks {
+    /// A bit for each number: whether it is held.
+    words: Vec<u64>,
+    /// How many are held before each word of these, and in all.
+    before: Vec<u32>,
+}
+
+impl Ranks {
+    /// Of the numbers below `bound`, those that are listed, in any order and any number of times.
+    #[must_use]
+    pub fn new(bound: usize, listed: impl IntoIterator<Item = usize>) -> Self {
+        let mut words = vec![0_u64; bound.div_ceil(64)];
+        listed.into_iter().for_each(|number| words[number / 64] |= 1 << (number % 64));
+        let mut before = Vec::with_capacity(words.len() + 1);
+        before.push(0);
+        let mut sum = 0;
+        before.extend(words.iter().map(|word| {
+            sum += word.count_ones();
+            sum
+        }));
+        Self { words, before }
+    }
+
+    /// How many there are.
+    #[inline]
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.before.last().copied().unwrap_or_default() as usize
+    }
+
+    /// Whether it holds a number below the bound.
+    #[inline]
+    #[must_use]
+    pub fn contains(&self, number: usize) -> bool {
+        self.words[number / 64] >> (number % 64) & 1 == 1
+    }
+
+    /// How many come before a number below the bound.
+    #[inline]
+    #[must_use]
+    pub fn of(&self, number: usize) -> u32 {
+        let word = number / 64;
+        self.before[word] + (self.words[word] & ((1 << (number % 64)) - 1)).count_ones()
+    }
+
+    /// Whether it holds any from one number to another, both below the bound and the latter no less.
+    #[inline]
+    #[must_use]
+    pub fn any_within(&self, first: usize, last: usize) -> bool {
+        let (from, to) = (first / 64, last / 64);
+        let (head, tail) = (u64::MAX << (first % 64), u64::MAX >> (63 - last % 64));
+        if from == to {
+            return self.words[from] & head & tail != 0;
+        }
+        self.words[from] & head != 0
+            || self.words[to] & tail != 0
+            || self.words[from + 1..to].iter().any(|word| *word != 0)
+    }
+
+    /// All of them, ascending.
+    pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
+        self.words.iter().enumerate().filter(|(_, word)| **word != 0).flat_map(|(k, word)| {
+            let mut rest = *word;
+            std::iter::from_fn(move || {
+                let bit = (rest != 0).then(|| rest.trailing_zeros() as usize)?;
+                rest &= rest - 1;
+                Some(64 * k + bit)
+            })
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::numbers::noise::hash;
+
+    #[test]
+    fn ranks_and_spans_are_those_of_a_plain_list() {
+        for (bound, of) in [(1, 1), (64, 3), (65, 2), (1000, 17), (1000, 400), (300, 1)] {
+            let is_held = |number: &usize| hash(1, &[*number as u64]).is_multiple_of(of);
+            let plain: Vec<usize> = (0..bound).filter(is_held).collect();
+            // Backwards and twice: the order in which they are listed does not matter.
+            let ranks = Ranks::new(bound, plain.iter().rev().chain(&plain).copied());
+            assert_eq!(ranks.iter().collect::<Vec<_>>(), plain);
+            assert_eq!(ranks.count(), plain.len());
+            for number in 0..bound {
+                assert_eq!(ranks.contains(number), is_held(&number));
+                assert_eq!(ranks.of(number) as usize, plain.partition_point(|held| *held < number));
+                for last in (number..bound).step_by(1 + number % 7) {
+                    let any = plain.iter().any(|held| (number..=last).contains(held));
+                    assert_eq!(ranks.any_within(number, last), any, "{number} to {last} of {bound}");
+                }
+            }
+        }
+        assert_eq!(Ranks::default().count(), 0);
+    }
+}

@@ -1,0 +1,16 @@
+//! Numbers and plane geometry without meaning of their own: the base that every other room may import.
+//!
+//! Nothing here depends on another room except the parallel loops, so results are the same on every machine
+//! and thread count.
+//!
+//! Folders, in reading order: [`numbers`] portable functions, powers of two, linear systems, noise and
+//! tolerances; [`plane`] distances, convex hulls and zero lines of grids; [`lists`] lists of lists (CSR) and
+//! sets of bits; [`names`] name patterns and stable ids of named things.
+
+#[cfg(test)]
+#[path = "../../tests/library/support/dice.rs"]
+pub mod dice;
+pub mod lists;
+pub mod names;
+pub mod numbers;
+pub mod plane;

@@ -1,0 +1,6 @@
+//! Names: patterns that select them, and numbers that identify them.
+//!
+//! Files: [`glob`] patterns with `*` and `?`; [`name_ids`] a stable number for each of several named things.
+
+pub mod glob;
+pub mod name_ids;

@@ -1,0 +1,39 @@
+//! Numbers that tell things with names apart, and stay theirs while others come and go.
+
+use rustc_hash::FxHashMap;
+
+use crate::geometry::numbers::noise::hash;
+
+/// A number for each name, in their order: from the name alone, and of several things with one name from
+/// which of them it is.
+#[must_use]
+pub fn identities<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<u64> {
+    let mut counts: FxHashMap<&str, u64> = FxHashMap::default();
+    let of = |name: &'a str| {
+        let count = counts.entry(name).or_default();
+        *count += 1;
+        let words = name
+            .as_bytes()
+            .chunks(8)
+            .map(|bytes| bytes.iter().fold(0, |word: u64, byte| word << 8 | u64::from(*byte)));
+        let mut words: Vec<u64> = words.collect();
+        words.push(*count);
+        hash(0, &words)
+    };
+    names.into_iter().map(of).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_comes_and_goes_changes_no_other() {
+        let all = identities(["bolt", "bolt", "wheel", "", "a name of many letters"]);
+        let mut different = all.clone();
+        different.sort_unstable();
+        different.dedup();
+        assert_eq!(different.len(), 5);
+        assert_eq!(identities(["wheel", "a name of many letters"]), [all[2], all[4]]);
+    }
+}

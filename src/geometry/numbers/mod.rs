@@ -1,0 +1,12 @@
+//! Functions and constants of plain numbers.
+//!
+//! Files, in reading order: [`portable_math`] transcendental functions with the same last bit on every
+//! machine; [`powers_of_two`] the powers of two around a number; [`linear_solver`] small symmetric systems of
+//! equations; [`noise`] hashes and value noise in place of a random generator; [`tolerance`] every epsilon of
+//! the crate.
+
+pub mod linear_solver;
+pub mod noise;
+pub mod portable_math;
+pub mod powers_of_two;
+pub mod tolerance;

@@ -1,0 +1,374 @@
+//! [`Cut`]: what borders leave of a dot.
+//!
+//! Its own border runs in turn along pieces of border within the circle and along arcs of the circle within
+//! the domain (Weiler and Atherton, Hidden surface removal using polygon area sorting, 1977, for one
+//! circle). Which ends of pieces lie within the circle is decided once for each point, so loops always
+//! close; where rounding confuses the order around the circle, a circle smaller by a hair is cut
+//! instead.
+
+use std::f64::consts::TAU;
+
+use kurbo::{BezPath, Point, Vec2};
+
+use super::disc::Disc;
+use crate::geometry::numbers::portable_math::atan2;
+use crate::geometry::numbers::tolerance;
+
+/// What borders leave of a dot.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Cut {
+    /// All of it.
+    Whole,
+    /// Nothing.
+    Nothing,
+    /// A path and its area.
+    Part(BezPath, f64),
+}
+
+impl Disc {
+    /// What is left of the dot within a domain, which lies to the right as seen (y down) of its directed
+    /// `border`. Pieces farther away do not matter; where none is near, `inside` tells whether the centre
+    /// lies in the domain.
+    pub fn cut(self, border: &[[Point; 2]], inside: bool, px: f64) -> Cut {
+        for attempt in 0..ATTEMPTS {
+            let radius = self.radius * (1.0 - f64::from(attempt) * tolerance::DOT_NUDGE);
+            let disc = Self { radius, ..self };
+            if let Some(cut) = Tracer::new(disc, border).and_then(|mut tracer| tracer.cut(inside, px)) {
+                return cut;
+            }
+        }
+        Cut::Nothing
+    }
+}
+
+/// How many circles are tried before a dot is given up.
+const ATTEMPTS: u32 = 8;
+
+/// A part of a piece of border within the circle; points as seen from the centre.
+#[derive(Debug, Clone, Copy)]
+struct Step {
+    ends: [Vec2; 2],
+    /// Whether the ends lie on the circle.
+    rim: [bool; 2],
+    used: bool,
+}
+
+/// A place where the border crosses the circle.
+#[derive(Debug, Clone, Copy)]
+struct Gate {
+    angle: f64,
+    /// Whether the border enters the circle there.
+    enters: bool,
+    step: usize,
+}
+
+struct Tracer {
+    disc: Disc,
+    /// Parts of the border, by where they start.
+    steps: Vec<Step>,
+    /// Crossings by angle; leaving and entering take turns.
+    gates: Vec<Gate>,
+}
+
+impl Tracer {
+    /// None if rounding leaves the order around the circle open.
+    fn new(disc: Disc, border: &[[Point; 2]]) -> Option<Self> {
+        let r2 = disc.radius * disc.radius;
+        let mut steps = Vec::new();
+        for ends in border {
+            // Adding zero makes the zero without a sign of both.
+            let [a, b] = ends.map(|p| p - disc.centre + Vec2::ZERO);
+            let way = b - a;
+            let is_in = [a, b].map(|p| p.hypot2() < r2);
+            // |a + t way|² = r² at t = middle ± half.
+            let length2 = way.hypot2();
+            let middle = -a.dot(way) / length2;
+            let off = a.cross(way) / length2;
+            let half2 = r2 / length2 - off * off;
+            let half = half2.max(0.0).sqrt();
+            let at = |t: f64| a + way * t.clamp(0.0, 1.0);
+            let step = match is_in {
+                _ if a == b => continue,
+                [true, true] => Step { ends: [a, b], rim: [false, false], used: false },
+                [true, false] => Step { ends: [a, at(middle + half)], rim: [false, true], used: false },
+                [false, true] => Step { ends: [at(middle - half), b], rim: [true, false], used: false },
+                [false, false] if half2 > 0.0 && middle > 0.0 && middle < 1.0 => {
+                    Step { ends: [at(middle - half), at(middle + half)], rim: [true, true], used: false }
+                }
+                [false, false] => continue,
+            };
+            steps.push(step);
+        }
+        steps.sort_by(|s, t| order(s.ends[0], t.ends[0]).then_with(|| order(s.ends[1], t.ends[1])));
+        let mut gates = Vec::new();
+        for (step, Step { ends, rim, .. }) in steps.iter().enumerate() {
+            for end in [0, 1] {
+                if rim[end] {
+                    gates.push(Gate { angle: atan2(ends[end].y, ends[end].x), enters: end == 0, step });
+                }
+            }
+        }
+        gates.sort_by(|a, b| a.angle.total_cmp(&b.angle).then(a.step.cmp(&b.step)));
+        let n = gates.len();
+        let take_turns = (0..n).all(|k| gates[k].enters != gates[(k + 1) % n].enters);
+        take_turns.then_some(Self { disc, steps, gates })
+    }
+
+    fn cut(&mut self, inside: bool, px: f64) -> Option<Cut> {
+        let (mut path, mut area2) = (BezPath::new(), 0.0);
+        for first in 0..self.gates.len() {
+            if self.gates[first].enters && !self.steps[self.gates[first].step].used {
+                area2 += self.follow(first, &mut path, px)?;
+            }
+        }
+        // What remains are loops within the circle; the largest tells what is around them.
+        let mut largest = 0.0_f64;
+        for first in 0..self.steps.len() {
+            if !self.steps[first].used {
+                let (points, last) = self.chain(first)?;
+                if self.steps[last].rim[1] {
+                    return None;
+                }
+                let loop2: f64 = points.windows(2).map(|pair| pair[0].cross(pair[1])).sum();
+                largest = if loop2.abs() > largest.abs() { loop2 } else { largest };
+                area2 += loop2;
+                self.draw_loop(&points, &mut path, px);
+            }
+        }
+        if self.gates.is_empty() {
+            if self.steps.is_empty() {
+                return Some(if inside { Cut::Whole } else { Cut::Nothing });
+            }
+            if largest < 0.0 {
+                area2 += TAU * self.disc.radius * self.disc.radius;
+                self.disc.draw(&mut path, px);
+            }
+        }
+        let crumb = tolerance::DOT_CRUMB_PX * px;
+        let area = area2 / 2.0;
+        Some(if area < crumb * crumb { Cut::Nothing } else { Cut::Part(path, area) })
+    }
+
+    /// Draws the loop that enters the circle at a gate; twice its area.
+    fn follow(&mut self, first: usize, path: &mut BezPath, px: f64) -> Option<f64> {
+        let (mut gate, mut area2) = (first, 0.0);
+        loop {
+            let (points, last) = self.chain(self.gates[gate].step)?;
+            area2 += points.windows(2).map(|pair| pair[0].cross(pair[1])).sum::<f64>();
+            let thin = thinned(&points, tolerance::DOT_PX * px);
+            for (k, point) in thin.iter().enumerate() {
+                match (gate == first, k) {
+                    (true, 0) => path.move_to(self.disc.centre + *point),
+                    // The arc before ends here.
+                    (false, 0) => {}
+                    _ => path.line_to(self.disc.centre + *point),
+                }
+            }
+            let left = self.gates.iter().position(|g| g.step == last && !g.enters)?;
+            let next = (left + 1) % self.gates.len();
+            let (from, to) = (self.gates[left].angle, self.gates[next]);
+            let sweep = if next > left { to.angle - from } else { to.angle - from + TAU };
+            self.disc.arc(path, from, sweep, self.steps[to.step].ends[0], px);
+            area2 += self.disc.radius * self.disc.radius * sweep;
+            if next == first {
+                path.close_path();
+                return Some(area2);
+            }
+            if self.steps[to.step].used {
+                return None;
+            }
+            gate = next;
+        }
+    }
+
+    /// The points of the border from the start of a step to where it leaves the circle or closes, and the
+    /// last step.
+    fn chain(&mut self, first: usize) -> Option<(Vec<Vec2>, usize)> {
+        let start = self.steps[first].ends[0];
+        let closes = !self.steps[first].rim[0];
+        let (mut points, mut at) = (vec![start], first);
+        loop {
+            self.steps[at].used = true;
+            let Step { ends, rim, .. } = self.steps[at];
+            points.push(ends[1]);
+            if rim[1] || (closes && ends[1] == start) {
+                return Some((points, at));
+            }
+            let begin = self.steps.partition_point(|step| order(step.ends[0], ends[1]).is_lt());
+            let from_here = self.steps[begin..].iter().take_while(|step| step.ends[0] == ends[1]);
+            // Where several go on, the first one met when turning from where the border came from, through
+            // the domain.
+            let back = ends[0] - ends[1];
+            let open = from_here.enumerate().filter(|(_, step)| !step.used && !step.rim[0]);
+            let turned = open.map(|(k, step)| (turn(back, step.ends[1] - step.ends[0]), begin + k));
+            at = turned.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))?.1;
+        }
+    }
+
+    /// Adds a closed chain of points, which ends where it begins.
+    fn draw_loop(&self, points: &[Vec2], path: &mut BezPath, px: f64) {
+        let far = |p: &Vec2| (*p - points[0]).hypot2();
+        let Some(middle) = (0..points.len()).max_by(|a, b| far(&points[*a]).total_cmp(&far(&points[*b])))
+        else {
+            return;
+        };
+        let mut thin = thinned(&points[..=middle], tolerance::DOT_PX * px);
+        thin.pop();
+        thin.extend(thinned(&points[middle..], tolerance::DOT_PX * px));
+        thin.pop();
+        for (k, point) in thin.iter().enumerate() {
+            let point = self.disc.centre + *point;
+            if k == 0 { path.move_to(point) } else { path.line_to(point) }
+        }
+        path.close_path();
+    }
+}
+
+fn order(a: Vec2, b: Vec2) -> std::cmp::Ordering {
+    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
+}
+
+/// The angle from one direction to another, turning from y to x, above 0 up to a whole turn.
+fn turn(from: Vec2, to: Vec2) -> f64 {
+    let angle = atan2(to.cross(from), to.dot(from));
+    if angle > 0.0 { angle } else { angle + TAU }
+}
+
+/// A chain without the points that lie nearer than `off` to the line between those kept (Douglas and
+/// Peucker 1973).
+fn thinned(points: &[Vec2], off: f64) -> Vec<Vec2> {
+    let mut keep = vec![false; points.len()];
+    let mut open = vec![(0, points.len() - 1)];
+    while let Some((first, last)) = open.pop() {
+        (keep[first], keep[last]) = (true, true);
+        let (a, way) = (points[first], points[last] - points[first]);
+        let length2 = way.hypot2().max(f64::MIN_POSITIVE);
+        let distance2 = |p: Vec2| {
+            let t = ((p - a).dot(way) / length2).clamp(0.0, 1.0);
+            (a + way * t - p).hypot2()
+        };
+        let farthest =
+            (first + 1..last).map(|k| (distance2(points[k]), k)).max_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((_, k)) = farthest.filter(|(distance2, _)| *distance2 > off * off) {
+            open.extend([(first, k), (k, last)]);
+        }
+    }
+    points.iter().zip(keep).filter(|(_, keep)| *keep).map(|(p, _)| *p).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use kurbo::Shape;
+
+    use super::*;
+    use crate::geometry::numbers::noise::{hash, unit};
+    use crate::geometry::numbers::portable_math::{cos, sin};
+
+    const DISC: Disc = Disc { centre: Point::new(30.0, 20.0), radius: 4.0 };
+
+    /// Cuts, and holds the path against the area.
+    fn cut(border: &[[Point; 2]], inside: bool) -> f64 {
+        match DISC.cut(border, inside, 1.0) {
+            Cut::Whole => PI * 16.0,
+            Cut::Nothing => 0.0,
+            Cut::Part(path, area) => {
+                assert!((path.area() - area).abs() < 0.01 * 25.0, "{area} {}", path.to_svg());
+                for p in path.segments().map(|s| kurbo::ParamCurve::eval(&s, 0.5)) {
+                    assert!((p - DISC.centre).hypot2().sqrt() < 4.01);
+                }
+                area
+            }
+        }
+    }
+
+    fn at(x: f64, y: f64) -> Point {
+        DISC.centre + Vec2::new(x, y)
+    }
+
+    fn round(centre: Point, radius: f64, corners: usize) -> Vec<Point> {
+        let at = |k: usize| TAU * k as f64 / corners as f64;
+        (0..corners).map(|k| centre + Vec2::new(cos(at(k)), sin(at(k))) * radius).collect()
+    }
+
+    fn ring(corners: &[Point]) -> Vec<[Point; 2]> {
+        corners.iter().zip(corners.iter().cycle().skip(1)).map(|(a, b)| [*a, *b]).collect()
+    }
+
+    #[test]
+    fn halves_quarters_and_segments() {
+        let half = [[at(-9.0, 0.0), at(9.0, 0.0)]];
+        assert!((cut(&half, true) - 8.0 * PI).abs() < 1e-9);
+        // In two pieces that meet in the middle, and turned back there.
+        let bent = [[at(-9.0, 0.0), at(0.0, 0.0)], [at(0.0, 0.0), at(0.0, -9.0)]];
+        assert!((cut(&bent, true) - 12.0 * PI).abs() < 1e-9);
+        let back = bent.map(|[a, b]| [b, a]);
+        assert!((cut(&back, true) - 4.0 * PI).abs() < 1e-9);
+        // A strip between two lines, 2 wide.
+        let strip = [[at(-9.0, -1.0), at(9.0, -1.0)], [at(9.0, 1.0), at(-9.0, 1.0)]];
+        let segment = 16.0 * crate::geometry::numbers::portable_math::acos(0.25) - 15.0_f64.sqrt();
+        assert!((cut(&strip, true) - (16.0 * PI - 2.0 * segment)).abs() < 1e-9);
+        // All but the strip.
+        let outside = strip.map(|[a, b]| [b, a]);
+        assert!((cut(&outside, false) - 2.0 * segment).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_only_touches_cuts_nothing_off() {
+        for x in [4.0, 4.0 + 1e-12, 4.0 - 1e-12] {
+            assert!((cut(&[[at(x, -9.0), at(x, 9.0)]], true) - 16.0 * PI).abs() < 2e-3, "{x}");
+            // The corner of a square on the circle, and a side along its tangent.
+            let square = [at(x, 0.0), at(x + 2.0, -2.0), at(x + 4.0, 0.0), at(x + 2.0, 2.0)];
+            let mut hole = ring(&square);
+            hole.iter_mut().for_each(|ends| ends.reverse());
+            assert!((cut(&hole, true) - 16.0 * PI).abs() < 2e-3, "{x}");
+            assert!(cut(&ring(&square), false).abs() < 2e-3, "{x}");
+        }
+    }
+
+    #[test]
+    fn holes_and_islands_within() {
+        let island = ring(&round(at(1.0, 0.0), 1.0, 400));
+        assert!((cut(&island, false) - PI).abs() < 1e-3);
+        let hole: Vec<[Point; 2]> = island.iter().map(|[a, b]| [*b, *a]).collect();
+        assert!((cut(&hole, true) - 15.0 * PI).abs() < 1e-3);
+        // Two triangles that touch in a point.
+        let left = ring(&[at(0.0, 0.0), at(-2.0, 1.0), at(-2.0, -1.0)]);
+        let right = ring(&[at(0.0, 0.0), at(2.0, -1.0), at(2.0, 1.0)]);
+        assert!((cut(&[left, right].concat(), true) - 4.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn stars_are_cut_as_samples_say() {
+        for seed in 0..200_u64 {
+            let chance = |k: u64, n: u64| unit(hash(seed, &[k, n]));
+            let corners = 3 + (chance(0, 0) * 40.0) as u64;
+            let middle = at(chance(1, 0) * 8.0 - 4.0, chance(2, 0) * 8.0 - 4.0);
+            let star: Vec<Point> = (0..corners)
+                .map(|k| {
+                    let angle = TAU * (k as f64 + 0.9 * chance(3, k)) / corners as f64;
+                    let to = Vec2::new(cos(angle), sin(angle)) * (0.3 + 6.0 * chance(4, k));
+                    middle + to
+                })
+                .collect();
+            let mut outline = BezPath::new();
+            outline.move_to(star[0]);
+            star[1..].iter().for_each(|p| outline.line_to(*p));
+            outline.close_path();
+            let n = 100;
+            let samples = (0..n * n).map(|k| {
+                let cell = 8.0 / f64::from(n);
+                at(f64::from(k % n) * cell - 4.0 + cell / 2.0, f64::from(k / n) * cell - 4.0 + cell / 2.0)
+            });
+            let within = samples.filter(|p| (*p - DISC.centre).hypot2() < 16.0 && outline.winding(*p) != 0);
+            let wanted = within.count() as f64 * 64.0 / f64::from(n * n);
+            let inside = outline.winding(DISC.centre) != 0;
+            let got = cut(&ring(&star), inside);
+            assert!((got - wanted).abs() < 0.25, "seed {seed}: {got} {wanted}");
+            let back: Vec<[Point; 2]> = ring(&star).iter().map(|[a, b]| [*b, *a]).collect();
+            let rest = cut(&back, !inside);
+            assert!((got + rest - 16.0 * PI).abs() < 0.03, "seed {seed}: {got} and {rest}");
+        }
+    }
+}

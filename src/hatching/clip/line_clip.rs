@@ -1,0 +1,187 @@
+//! Where lines lie on the ground: cut exactly where they cross its borders.
+//!
+//! A line is compared with the pieces of border in the tiles that it passes; no polygon is built.
+
+use kurbo::{Point, Vec2};
+
+use crate::regions::Ground;
+
+/// A place on a polyline: the number of a segment and the part of it that is behind, as one number.
+pub type Place = f64;
+
+/// A stretch of a line that may be drawn.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretch {
+    /// Where it begins and ends.
+    pub from: Place,
+    /// See `from`.
+    pub to: Place,
+    /// The cell in which it begins.
+    pub cell: u32,
+    /// Whether its start and its end are at a border, and not those of the line.
+    pub cut: [bool; 2],
+}
+
+/// The stretches of a polyline that lie in wanted cells, none of them across the border of a surface.
+#[must_use]
+pub fn stretches(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) -> Vec<Stretch> {
+    let mut crossings: Vec<(f64, u32, bool)> = Vec::new();
+    let mut places: Vec<(Place, u32, bool)> = Vec::new();
+    for (k, pair) in line.windows(2).enumerate() {
+        crossings.clear();
+        ground.crossings(pair[0], pair[1], &mut crossings);
+        places.extend(crossings.iter().map(|(t, piece, along)| (k as f64 + t, *piece, *along)));
+    }
+    let last = line.len().saturating_sub(1) as f64;
+    let sides = |number: u32, along: bool| {
+        let piece = &ground.pieces[number as usize];
+        let [right, left] = piece.sides;
+        if along { (right, left) } else { (left, right) }
+    };
+    // Through a corner of borders several pieces are crossed at one place, in no order to rely on.
+    let is_corner = |k: usize| {
+        let near = |other: Option<&(Place, u32, bool)>| {
+            other.is_some_and(|(place, ..)| (place - places[k].0).abs() < SAME_PLACE)
+        };
+        near(places.get(k + 1)) || near(k.checked_sub(1).and_then(|before| places.get(before)))
+    };
+    let mut out: Vec<Stretch> = Vec::new();
+    let (mut from, mut behind): (Place, Option<u32>) = (0.0, None);
+    let mut parts = true;
+    for k in 0..=places.len() {
+        let next = places.get(k);
+        let to = next.map_or(last, |(place, ..)| *place);
+        let ahead = next.filter(|_| !is_corner(k)).map(|(_, piece, along)| sides(*piece, *along).0);
+        if to - from > SAME_PLACE {
+            let cell = match (behind, ahead) {
+                (Some(a), Some(b)) if a == b => a,
+                (Some(a), None) | (None, Some(a)) => a,
+                _ => ground.cell_at(point_at(line, f64::midpoint(from, to))),
+            };
+            if wanted(cell) {
+                match out.last_mut() {
+                    Some(before) if from - before.to < SAME_PLACE && !parts && from > 0.0 => before.to = to,
+                    _ => out.push(Stretch { from, to, cell, cut: [from > 0.0, true] }),
+                }
+            }
+            parts = false;
+        }
+        if let Some((place, piece, along)) = next {
+            parts |= ground.pieces[*piece as usize].parts_surfaces;
+            behind = (!is_corner(k)).then(|| sides(*piece, *along).1);
+            from = *place;
+        }
+    }
+    if let Some(stretch) = out.last_mut() {
+        stretch.cut[1] = stretch.to < last;
+    }
+    out
+}
+
+/// Places that differ by less are one.
+const SAME_PLACE: f64 = 1e-9;
+
+/// The point at a place of a polyline.
+#[must_use]
+pub fn point_at(line: &[Point], place: Place) -> Point {
+    let k = (place.max(0.0) as usize).min(line.len().saturating_sub(2));
+    match (line.get(k), line.get(k + 1)) {
+        (Some(a), Some(b)) => a.lerp(*b, (place - k as f64).clamp(0.0, 1.0)),
+        (Some(a), None) => *a,
+        _ => Point::ZERO,
+    }
+}
+
+/// The part of a polyline between two places.
+#[must_use]
+pub fn between(line: &[Point], from: Place, to: Place) -> Vec<Point> {
+    let mut points = vec![point_at(line, from)];
+    let first = from.floor() as usize + 1;
+    points.extend((first..line.len()).take_while(|k| (*k as f64) < to).map(|k| line[k]));
+    points.push(point_at(line, to));
+    points.dedup();
+    points
+}
+
+/// Length of a polyline.
+#[must_use]
+pub fn length(line: &[Point]) -> f64 {
+    line.windows(2).map(|pair| norm(pair[1] - pair[0])).sum()
+}
+
+/// Length of a vector, the same on every machine.
+pub(crate) fn norm(v: Vec2) -> f64 {
+    v.hypot2().sqrt()
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use crate::mesh::{MaterialId, PaintId, PartId};
+    use crate::regions::Look;
+    use crate::regions::hatch_regions::hatch_map::{BorderPiece, Cell};
+
+    /// Two squares side by side, 10 wide, from (0, 0): bins 0 and 1, of one facet or of two.
+    pub fn two_squares(parts_surfaces: bool) -> Ground {
+        let look = |bin: u16| Look {
+            part: PartId(0),
+            material: MaterialId(0),
+            paint: PaintId(0),
+            tone: 0,
+            bin,
+            cast: false,
+        };
+        let cell = |bin: u16, facet: u32| Cell { look: look(bin), facet, area: 100.0 };
+        let cells = vec![cell(0, 0), cell(0, 1), cell(1, if parts_surfaces { 2 } else { 1 })];
+        let piece = |a: [f64; 2], b: [f64; 2], sides: [u32; 2], parts_surfaces: bool| BorderPiece {
+            ends: [Point::new(a[0], a[1]), Point::new(b[0], b[1])],
+            sides,
+            parts_surfaces,
+        };
+        let pieces = vec![
+            piece([0.0, 0.0], [10.0, 0.0], [1, 0], true),
+            piece([10.0, 0.0], [20.0, 0.0], [2, 0], true),
+            piece([20.0, 0.0], [20.0, 10.0], [2, 0], true),
+            piece([20.0, 10.0], [10.0, 10.0], [2, 0], true),
+            piece([10.0, 10.0], [0.0, 10.0], [1, 0], true),
+            piece([0.0, 10.0], [0.0, 0.0], [1, 0], true),
+            piece([10.0, 0.0], [10.0, 10.0], [1, 2], parts_surfaces),
+        ];
+        Ground::of_pieces(cells, pieces)
+    }
+
+    #[test]
+    fn points_are_located() {
+        let ground = two_squares(false);
+        for (x, y, cell) in [(5.0, 5.0, 1), (15.0, 5.0, 2), (25.0, 5.0, 0), (-5.0, 5.0, 0), (5.0, 11.0, 0)] {
+            assert_eq!(ground.cell_at(Point::new(x, y)), cell, "{x} {y}");
+        }
+    }
+
+    #[test]
+    fn lines_end_at_borders_of_surfaces() {
+        let line = [Point::new(-5.0, 4.0), Point::new(30.0, 4.0)];
+        let found = |parts: bool, wanted: fn(u32) -> bool| {
+            let stretches = stretches(&two_squares(parts), &line, wanted);
+            let at = |place: f64| (point_at(&line, place).x * 1e9).round() / 1e9;
+            stretches.iter().map(|s| (at(s.from), at(s.to), s.cut)).collect::<Vec<_>>()
+        };
+        assert_eq!(found(false, |cell| cell > 0), [(0.0, 20.0, [true, true])]);
+        assert_eq!(found(true, |cell| cell > 0), [(0.0, 10.0, [true, true]), (10.0, 20.0, [true, true])]);
+        assert_eq!(found(false, |cell| cell == 2), [(10.0, 20.0, [true, true])]);
+        assert_eq!(found(false, |cell| cell == 0), [(-5.0, 0.0, [false, true]), (20.0, 30.0, [true, false])]);
+    }
+
+    #[test]
+    fn lines_through_corners_and_inside() {
+        let ground = two_squares(false);
+        let diagonal = [Point::new(-3.0, -3.0), Point::new(13.0, 13.0)];
+        let found = stretches(&ground, &diagonal, |cell| cell > 0);
+        let total: f64 =
+            found.iter().map(|s| norm(point_at(&diagonal, s.to) - point_at(&diagonal, s.from))).sum();
+        assert!((total - 200.0_f64.sqrt()).abs() < 1e-9, "{found:?}");
+        let inside = [Point::new(2.0, 2.0), Point::new(3.0, 5.0), Point::new(6.0, 6.0)];
+        let found = stretches(&ground, &inside, |cell| cell == 1);
+        assert_eq!(found, [Stretch { from: 0.0, to: 2.0, cell: 1, cut: [false, false] }]);
+    }
+}

@@ -1,0 +1,330 @@
+//! [`snip`]: what a part of the page leaves of a filled shape.
+//!
+//! The borders near the shape are closed along a box around it. Both then lie on a fine grid, are cut where they cross, and
+//! all tests are exact in integers ([`super::polygon_boolean`]), so that what is left is closed whatever they do.
+
+use kurbo::{BezPath, Point, Rect};
+
+use super::polygon_boolean::{At, Edges};
+
+/// Steps of the grid along the longer side of the box.
+const STEPS: f64 = 4_194_304.0;
+
+/// The box leaves at least this part of the shape's size around it; a wider one is tried where a border runs into its corner.
+const MARGINS: [f64; 4] = [0.017, 0.031, 0.053, 0.097];
+
+/// What of it there is on the left, above, on the right and below: borders may run along diagonals.
+const UNEVEN: [f64; 4] = [0.83, 0.62, 0.71, 1.0];
+
+/// What is left of a shape, filled by the nonzero rule, in the part of the page that `border` parts from the rest: at least all of
+/// its pieces that come into the shape's box or near it. `is_in` tells whether a point away from the border lies in that part. None
+/// if nothing is left.
+pub(crate) fn snip(
+    rings: &[Vec<Point>],
+    border: &[[Point; 2]],
+    is_in: impl Fn(Point) -> bool,
+) -> Option<BezPath> {
+    let bounds = box_of(rings)?;
+    let tried = MARGINS.iter().find_map(|margin| {
+        let grid = Grid::around(bounds, *margin)?;
+        let mut edges = Edges::default();
+        for ring in rings {
+            for k in 0..ring.len() {
+                edges.add([ring[k], ring[(k + 1) % ring.len()]].map(|p| grid.at(p)), 1, false);
+            }
+        }
+        grid.add_domain(border, &is_in, &mut edges)?;
+        let rings = edges.cut()?.common();
+        let mut path = BezPath::new();
+        for ring in rings {
+            for (k, p) in ring.into_iter().enumerate() {
+                let p = grid.point(p);
+                if k == 0 { path.move_to(p) } else { path.line_to(p) }
+            }
+            path.close_path();
+        }
+        Some(path)
+    })?;
+    (!tried.elements().is_empty()).then_some(tried)
+}
+
+/// How the inside of a shape is told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Filling {
+    /// Where its border winds around more often one way than the other.
+    NonZero,
+    /// Where its border winds around an odd number of times.
+    EvenOdd,
+}
+
+/// The border of all that lies in any of some shapes, with what is within on one side of it all along. None if there is nothing.
+pub(crate) fn united(shapes: &[(Vec<Vec<Point>>, Filling)]) -> Option<Vec<Vec<Point>>> {
+    let whole: Vec<Vec<Point>> = shapes.iter().flat_map(|(rings, _)| rings).cloned().collect();
+    let grid = Grid::around(box_of(&whole)?, MARGINS[0])?;
+    let [right, bottom] = grid.far;
+    let frame = [[0, 0], [right, 0], [right, bottom], [0, bottom]];
+    let mut all = Edges::default();
+    for (rings, filling) in shapes {
+        let mut edges = Edges::default();
+        for ring in rings {
+            for k in 0..ring.len() {
+                let ends = [ring[k], ring[(k + 1) % ring.len()]].map(|p| grid.at(p));
+                match filling {
+                    Filling::NonZero => edges.add(ends, 1, false),
+                    Filling::EvenOdd => edges.add(ends, 0, true),
+                }
+            }
+        }
+        for k in 0..4 {
+            let ends = [frame[k], frame[(k + 1) % 4]];
+            match filling {
+                Filling::NonZero => edges.add(ends, 0, true),
+                Filling::EvenOdd => edges.add(ends, 1, false),
+            }
+        }
+        for ring in edges.cut()?.common() {
+            (0..ring.len()).for_each(|k| all.add([ring[k], ring[(k + 1) % ring.len()]], 1, false));
+        }
+    }
+    (0..4).for_each(|k| all.add([frame[k], frame[(k + 1) % 4]], 0, true));
+    let rings = all.cut()?.common();
+    Some(rings.iter().map(|ring| ring.iter().map(|p| grid.point(*p)).collect()).collect())
+}
+
+/// How far a border may matter to a shape of a box.
+pub(crate) fn reach(bounds: Rect) -> Rect {
+    let most = bounds.width().max(bounds.height()) * (MARGINS[MARGINS.len() - 1] + 0.01);
+    bounds.inflate(most, most)
+}
+
+/// The box around rings.
+pub(crate) fn box_of(rings: &[Vec<Point>]) -> Option<Rect> {
+    let mut points = rings.iter().flatten();
+    let first = points.next()?;
+    Some(points.fold(Rect::from_points(*first, *first), |found, p| found.union_pt(*p)))
+}
+
+/// The grid of a box around a shape.
+struct Grid {
+    origin: Point,
+    step: f64,
+    /// The far corner of the box; the near one is 0.
+    far: At,
+}
+
+impl Grid {
+    fn around(bounds: Rect, margin: f64) -> Option<Self> {
+        let size = bounds.width().max(bounds.height());
+        let [left, top, right, bottom] = UNEVEN.map(|part| size * margin * part);
+        let bounds = bounds + kurbo::Insets::new(left, top, right, bottom);
+        let step = bounds.width().max(bounds.height()) / STEPS;
+        (step > 0.0 && step.is_finite()).then(|| Self {
+            origin: bounds.origin(),
+            step,
+            far: [bounds.width(), bounds.height()].map(|side| (side / step).round() as i64),
+        })
+    }
+
+    fn at(&self, p: Point) -> At {
+        let from = (p - self.origin) / self.step;
+        [from.x.round() as i64, from.y.round() as i64]
+    }
+
+    fn point(&self, [x, y]: At) -> Point {
+        self.origin + kurbo::Vec2::new(x as f64, y as f64) * self.step
+    }
+
+    /// Adds the border of the domain within the box, closed along the box; none if it runs into a corner.
+    fn add_domain(
+        &self,
+        border: &[[Point; 2]],
+        is_in: &impl Fn(Point) -> bool,
+        edges: &mut Edges,
+    ) -> Option<()> {
+        let [right, bottom] = self.far;
+        // Where borders pass through the box's own border: how far around it, clockwise.
+        let mut gates: Vec<i64> = Vec::new();
+        for [a, b] in border {
+            let Some([from, to]) = self.within([*a, *b]) else { continue };
+            for (p, is_cut) in [from, to] {
+                if is_cut {
+                    gates.push(match p {
+                        [x, 0] => x,
+                        [x, y] if x == right => right + y,
+                        [x, y] if y == bottom => 2 * right + bottom - x,
+                        [_, y] => 2 * (right + bottom) - y,
+                    });
+                }
+            }
+            edges.add([from.0, to.0], 0, true);
+        }
+        let corners = [0, right, right + bottom, 2 * right + bottom, 2 * (right + bottom)];
+        gates.sort_unstable();
+        if gates.len() % 2 == 1 || gates.iter().any(|gate| corners.contains(gate)) {
+            return None;
+        }
+        // The middle of the widest stretch of the box's border between gates tells on which side it is.
+        let round = corners[4];
+        let around = |way: i64| -> At {
+            let way = way.rem_euclid(round);
+            if way < right {
+                [way, 0]
+            } else if way < right + bottom {
+                [right, way - right]
+            } else if way < 2 * right + bottom {
+                [2 * right + bottom - way, bottom]
+            } else {
+                [0, round - way]
+            }
+        };
+        let count = gates.len();
+        let next = |k: usize| if k + 1 < count { gates[k + 1] } else { gates[0] + round };
+        let Some(widest) = (0..count).max_by_key(|k| (next(*k) - gates[*k], *k)) else {
+            if is_in(self.point([0, 0])) {
+                (0..4).for_each(|k| edges.add([corners[k], corners[k + 1]].map(around), 0, true));
+            }
+            return Some(());
+        };
+        let there = is_in(self.point(around(gates[widest].midpoint(next(widest)))));
+        for k in (0..count).filter(|k| there == ((*k % 2) == (widest % 2))) {
+            let mut way = gates[k];
+            let turns = corners.iter().flat_map(|corner| [*corner, corner + round]);
+            let mut stops: Vec<i64> =
+                turns.filter(|at| way < *at && *at < next(k)).chain([next(k)]).collect();
+            stops.sort_unstable();
+            stops.dedup();
+            for stop in stops {
+                edges.add([way, stop].map(around), 0, true);
+                way = stop;
+            }
+        }
+        Some(())
+    }
+
+    /// What lies of a segment in the box, and whether its ends were cut off.
+    fn within(&self, [a, b]: [Point; 2]) -> Option<[(At, bool); 2]> {
+        let [a, b] = [a, b].map(|p| (p - self.origin) / self.step);
+        let way = b - a;
+        let (mut from, mut to) = (0.0_f64, 1.0_f64);
+        for (start, way, far) in [(a.x, way.x, self.far[0]), (a.y, way.y, self.far[1])] {
+            let far = far as f64;
+            if way == 0.0 {
+                if !(0.0..=far).contains(&start) {
+                    return None;
+                }
+                continue;
+            }
+            let (s, t) = (-start / way, (far - start) / way);
+            from = from.max(s.min(t));
+            to = to.min(s.max(t));
+        }
+        let place = |t: f64, is_cut: bool| {
+            let p = a + way * t;
+            let [mut x, mut y] = [p.x.round() as i64, p.y.round() as i64].map(|v| v.max(0));
+            (x, y) = (x.min(self.far[0]), y.min(self.far[1]));
+            if is_cut {
+                // It is on the border, whatever rounding says.
+                let off = [(0, x), (1, self.far[0] - x), (2, y), (3, self.far[1] - y)];
+                match off.into_iter().min_by_key(|(_, off)| *off) {
+                    Some((0, _)) => x = 0,
+                    Some((1, _)) => x = self.far[0],
+                    Some((2, _)) => y = 0,
+                    _ => y = self.far[1],
+                }
+            }
+            ([x, y], is_cut)
+        };
+        (from < to).then(|| [place(from, from > 0.0), place(to, to < 1.0)])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use kurbo::Shape;
+
+    use super::*;
+    use crate::geometry::numbers::noise::{hash, unit};
+    use crate::geometry::numbers::portable_math::{cos, sin};
+
+    /// A star with so many corners, some of them on whole numbers.
+    fn star(case: u64, corners: u64, middle: Point, size: f64) -> Vec<Point> {
+        let corner = |k: u64| {
+            let angle = std::f64::consts::TAU * k as f64 / corners as f64;
+            let far = size * (0.2 + 0.8 * unit(hash(case, &[corners, k])));
+            let p = middle + kurbo::Vec2::new(cos(angle), sin(angle)) * far;
+            if hash(case, &[k, 7]).is_multiple_of(3) { p.round() } else { p }
+        };
+        (0..corners).map(corner).collect()
+    }
+
+    fn path_of(ring: &[Point]) -> BezPath {
+        let mut path = BezPath::new();
+        ring.iter().enumerate().for_each(|(k, p)| if k == 0 { path.move_to(*p) } else { path.line_to(*p) });
+        path.close_path();
+        path
+    }
+
+    #[test]
+    fn what_is_left_of_stars_is_what_lies_in_both() {
+        let mut inside = 0;
+        for case in 0..60 {
+            let middle =
+                |k: u64| Point::new(20.0 * unit(hash(case, &[1, k])), 20.0 * unit(hash(case, &[2, k])));
+            // A star with a smaller one taken out of it, or with one that overlaps it turning the same way.
+            let mut rings = vec![star(case, 9, middle(0), 12.0), star(case, 5, middle(0), 4.0)];
+            if case % 2 == 0 {
+                rings[1].reverse();
+            }
+            let domain = [star(case, 12, middle(1), 15.0), star(case, 7, middle(2), 9.0)];
+            let border: Vec<[Point; 2]> = domain
+                .iter()
+                .flat_map(|ring| (0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()]]))
+                .collect();
+            let shapes: Vec<BezPath> = rings.iter().map(|ring| path_of(ring)).collect();
+            let domains: Vec<BezPath> = domain.iter().map(|ring| path_of(ring)).collect();
+            let is_in = |p: Point| domains.iter().filter(|path| path.contains(p)).count() % 2 == 1;
+            let wanted = |p: Point| shapes.iter().map(|path| path.winding(p)).sum::<i32>() != 0 && is_in(p);
+            let found = snip(&rings, &border, is_in).unwrap_or_default();
+            let near = |p: Point| {
+                let sides = rings.iter().chain(&domain).flat_map(|ring| {
+                    (0..ring.len()).map(|k| {
+                        crate::geometry::plane::planar_distance::distance2(
+                            p,
+                            ring[k],
+                            ring[(k + 1) % ring.len()],
+                        )
+                    })
+                });
+                sides.fold(f64::INFINITY, f64::min) < 1e-6
+            };
+            for k in 0..2500 {
+                let p = Point::new(f64::from(k % 50) * 0.73 - 8.0, f64::from(k / 50) * 0.73 - 8.0);
+                if !near(p) {
+                    let winding = found.winding(p);
+                    assert_eq!(winding != 0, wanted(p), "{case} {p:?} {found:?}");
+                    assert!(winding.abs() <= 1, "all turn alike");
+                    inside += i32::from(winding != 0);
+                }
+            }
+        }
+        assert!(inside > 4_000, "{inside}");
+    }
+
+    #[test]
+    fn borders_that_run_along_a_shape_or_through_its_corners_are_no_trouble() {
+        let square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)];
+        let square: Vec<Point> = square.map(Point::from).to_vec();
+        let left = |x: f64| {
+            let border = [[Point::new(x, -9.0), Point::new(x, 9.0)]];
+            snip(std::slice::from_ref(&square), &border, |p| p.x < x).map_or(0.0, |path| path.area().abs())
+        };
+        for (x, area) in [(-1.0, 0.0), (0.0, 0.0), (1.0, 4.0), (4.0, 16.0), (4.0 + 1e-9, 16.0), (5.0, 16.0)] {
+            assert!((left(x) - area).abs() < 1e-4, "{x}: {}", left(x));
+        }
+        let border = [[Point::new(-9.0, -9.0), Point::new(9.0, 9.0)]];
+        let half = snip(std::slice::from_ref(&square), &border, |p| p.x < p.y).unwrap();
+        assert!((half.area().abs() - 8.0).abs() < 1e-4);
+        let all = snip(std::slice::from_ref(&square), &[], |_| true).unwrap();
+        assert!((all.area().abs() - 16.0).abs() < 1e-4 && snip(&[square], &[], |_| false).is_none());
+    }
+}

@@ -1,0 +1,331 @@
+//! [`dots`]: half-tone screens, dots on a lattice that is fixed on the page, as large as the tone asks.
+//!
+//! A dot takes the size that its lattice point asks for and is cut where its surface ends: the screen is a
+//! texture that each surface shows through. The covered part of the lattice is that of round dots, which
+//! overlap from π/4 on: what stays white then shrinks towards the middles between them, so a darker screen
+//! keeps all ink of a lighter one.
+
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
+
+use crate::parallel::prelude::*;
+use kurbo::{BezPath, Point};
+
+use super::lattice_scan::{Lattice, Scan};
+use crate::geometry::numbers::portable_math::acos;
+use crate::geometry::numbers::tolerance;
+use crate::hatching::clip::circle_clip::Cut;
+use crate::hatching::clip::disc::Disc;
+use crate::hatching::clip::domain::{BLANK, Domains, border, nearest};
+use crate::regions::Ground;
+use crate::regions::hatch_regions::hatch_map::PAPER;
+
+/// A screen of dots; lengths in user units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DotScreen {
+    /// From one dot to the next.
+    pub pitch: f64,
+    /// Of the rows against the x axis, radians, turning from x to y.
+    pub angle: f64,
+    /// A point of the lattice.
+    pub origin: Point,
+    /// What becomes of dots on the border between two tones of one surface.
+    pub tone_borders: ToneBorders,
+    /// The length of a px.
+    pub px: f64,
+}
+
+/// What becomes of dots on the border between two tones of one surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ToneBorders {
+    /// They stay whole, as large as the tone at their middle asks. Only a border to blank paper cuts them.
+    #[default]
+    Whole,
+    /// Each tone cuts its own dots, as shading film is cut.
+    Cut,
+}
+
+/// The marks of a cell.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CellDots {
+    /// The cell in which the middles of the marks lie, or from which they were cut.
+    pub cell: u32,
+    /// All of them, turning from x to y; to be filled by the nonzero rule.
+    pub path: BezPath,
+}
+
+/// The dots of a screen, by cells. `coverage` is the part of the area (0 to 1) to be inked in a cell at a
+/// point; it is asked at middles of dots within the cell, and for dots that reach in from elsewhere, at the
+/// nearest point of the cell's border. Cells where it is 0 wherever asked stay blank.
+#[must_use]
+pub fn dots(
+    ground: &Ground,
+    screen: &DotScreen,
+    coverage: &(dyn Fn(u32, Point) -> f64 + Sync),
+) -> Vec<CellDots> {
+    let area: f64 = ground.cells.iter().map(|cell| cell.area).sum();
+    let pitch = screen.pitch.max((area / MOST_DOTS).sqrt());
+    let grid = Lattice::new(screen.origin, screen.angle, pitch);
+    let scan = Scan::new(ground, &grid);
+    let least = tolerance::DOT_PX * screen.px / pitch;
+    let size = Size { coverage, least };
+
+    // The size that each lattice point asks for in its own cell, row by row.
+    let rows: Vec<Vec<Spot>> =
+        (0..scan.rows()).into_par_iter().map(|row| spots(&scan, row, &grid, &size)).collect();
+    let mut inked = vec![false; ground.cells.len()];
+    rows.iter().flatten().for_each(|spot| inked[spot.cell as usize] |= spot.radius > 0.0);
+    for piece in &ground.pieces {
+        for cell in piece.sides.into_iter().filter(|cell| *cell != PAPER) {
+            let inked = &mut inked[cell as usize];
+            *inked = *inked || size.radius(cell, piece.ends[0].midpoint(piece.ends[1])) > 0.0;
+        }
+    }
+    let domains = match screen.tone_borders {
+        ToneBorders::Whole => Domains::of_facets(ground, &inked),
+        ToneBorders::Cut => Domains::of_cells(&inked),
+    };
+
+    let meetings = meetings(ground, &grid, &domains);
+    let cutter = Cutter { ground, grid, domains: &domains, size, px: screen.px };
+    let first = |row: i64| meetings.partition_point(|m| m.row < row);
+    let numbers = meetings.first().map_or(scan.first, |m| m.row.min(scan.first))
+        ..=meetings.last().map_or(scan.first, |m| m.row).max(scan.first + scan.rows() as i64 - 1);
+    let numbers: Vec<i64> = numbers.collect();
+    let marks: Vec<Vec<Dot>> = numbers
+        .into_par_iter()
+        .map(|row| {
+            let own = usize::try_from(row - scan.first).ok().and_then(|k| rows.get(k));
+            cutter.row(row, own.map_or(&[], Vec::as_slice), &meetings[first(row)..first(row + 1)])
+        })
+        .collect();
+    gathered(ground.cells.len(), &marks, screen.px)
+}
+
+/// Screens of more dots than this are too fine to be seen, and are made coarser.
+pub(crate) const MOST_DOTS: f64 = 4e6;
+
+/// A lattice point in a cell.
+#[derive(Debug, Clone, Copy)]
+struct Spot {
+    column: i64,
+    cell: u32,
+    /// In steps of the lattice; 0 for none.
+    radius: f64,
+}
+
+fn spots(scan: &Scan, row: usize, grid: &Lattice, size: &Size) -> Vec<Spot> {
+    let y = (scan.first + row as i64) as f64;
+    let mut spots = Vec::new();
+    for (from, to, cell) in scan.stretches(row) {
+        spots.extend((from.floor() as i64 + 1..=to.floor() as i64).map(|column| {
+            let radius = size.radius(cell, grid.point(column as f64, y));
+            Spot { column, cell, radius }
+        }));
+    }
+    spots
+}
+
+/// How large dots are.
+struct Size<'a> {
+    coverage: &'a (dyn Fn(u32, Point) -> f64 + Sync),
+    least: f64,
+}
+
+impl Size<'_> {
+    /// In steps of the lattice; 0 for none.
+    fn radius(&self, cell: u32, p: Point) -> f64 {
+        let radius = radius((self.coverage)(cell, p));
+        if radius < self.least { 0.0 } else { radius }
+    }
+}
+
+/// The radius at which discs around the points of a square lattice of step 1 cover a part of the page.
+fn radius(coverage: f64) -> f64 {
+    if coverage.is_nan() || coverage <= 0.0 {
+        return 0.0;
+    }
+    if coverage <= FRAC_PI_4 {
+        return (coverage / PI).sqrt();
+    }
+    if coverage >= 1.0 {
+        return LARGEST;
+    }
+    // Covered is the disc without the four segments that its neighbours cover as well.
+    let covered = |r: f64| PI * r * r - 4.0 * (r * r * acos(0.5 / r) - 0.5 * (r * r - 0.25).sqrt());
+    let (mut low, mut high) = (0.5, FRAC_1_SQRT_2);
+    for _ in 0..RADIUS_STEPS {
+        let middle = f64::midpoint(low, high);
+        if covered(middle) < coverage { low = middle } else { high = middle }
+    }
+    high
+}
+
+/// Halves the interval of radii to a millionth.
+const RADIUS_STEPS: u32 = 20;
+
+/// Covers all, a little more than half the diagonal of a square.
+const LARGEST: f64 = FRAC_1_SQRT_2 + 1e-4;
+
+/// A lattice point from which a dot may reach over a piece of border of a domain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Meeting {
+    row: i64,
+    column: i64,
+    domain: u32,
+    piece: u32,
+}
+
+fn meetings(ground: &Ground, grid: &Lattice, domains: &Domains) -> Vec<Meeting> {
+    let of_piece = |(piece, parted): (usize, [u32; 2])| {
+        let [a, b] = ground.pieces[piece].ends.map(|p| grid.place(p));
+        let (low, high) = if a.y < b.y { (a, b) } else { (b, a) };
+        let way = high - low;
+        let mut found = Vec::new();
+        for row in (low.y - LARGEST).ceil() as i64..=(high.y + LARGEST).floor() as i64 {
+            // The stretch of the piece that this row may reach.
+            let at = |y: f64| low.x + way.x * ((y - low.y) / way.y).clamp(0.0, 1.0);
+            let (from, to) = if way.y > 0.0 {
+                (at(row as f64 - LARGEST), at(row as f64 + LARGEST))
+            } else {
+                (low.x, high.x)
+            };
+            for column in (from.min(to) - LARGEST).ceil() as i64..=(from.max(to) + LARGEST).floor() as i64 {
+                let spot = Point::new(column as f64, row as f64);
+                if (nearest([a, b], spot) - spot).hypot2() < LARGEST * LARGEST {
+                    let of_domain = |domain| Meeting { row, column, domain, piece: piece as u32 };
+                    found.extend(parted.into_iter().filter(|domain| *domain != BLANK).map(of_domain));
+                }
+            }
+        }
+        found
+    };
+    let parting: Vec<(usize, [u32; 2])> = (ground.pieces.iter().enumerate())
+        .filter_map(|(k, piece)| domains.parted(piece).map(|parted| (k, parted)))
+        .collect();
+    let mut all: Vec<Meeting> = parting.into_par_iter().with_min_len(64).flat_map_iter(of_piece).collect();
+    all.par_sort_unstable();
+    all
+}
+
+/// A dot or what is left of it.
+enum Dot {
+    Whole(u32, Disc),
+    Part(u32, BezPath),
+}
+
+struct Cutter<'a> {
+    ground: &'a Ground,
+    grid: Lattice,
+    domains: &'a Domains,
+    size: Size<'a>,
+    px: f64,
+}
+
+impl Cutter<'_> {
+    /// The dots around the lattice points of a row: those in cells, and those that reach in.
+    fn row(&self, row: i64, spots: &[Spot], meetings: &[Meeting]) -> Vec<Dot> {
+        let mut dots = Vec::new();
+        let mut spots = spots.iter().peekable();
+        for at_column in meetings.chunk_by(|a, b| a.column == b.column) {
+            let column = at_column[0].column;
+            while let Some(spot) = spots.next_if(|spot| spot.column < column) {
+                self.whole(row, spot, &mut dots);
+            }
+            let spot = spots.next_if(|spot| spot.column == column);
+            let own = spot.map(|spot| self.domains.of(spot.cell));
+            let mut is_met = false;
+            for met in at_column.chunk_by(|a, b| a.domain == b.domain) {
+                is_met |= own == Some(met[0].domain);
+                dots.extend(self.cut(met, spot.filter(|_| own == Some(met[0].domain))));
+            }
+            if let Some(spot) = spot.filter(|_| !is_met) {
+                self.whole(row, spot, &mut dots);
+            }
+        }
+        spots.for_each(|spot| self.whole(row, spot, &mut dots));
+        dots
+    }
+
+    fn whole(&self, row: i64, spot: &Spot, dots: &mut Vec<Dot>) {
+        if spot.radius > 0.0 {
+            let centre = self.grid.point(spot.column as f64, row as f64);
+            dots.push(Dot::Whole(spot.cell, Disc { centre, radius: spot.radius * self.grid.step }));
+        }
+    }
+
+    /// The dot of a lattice point in a domain whose border it meets; `own` if the point lies within.
+    fn cut(&self, met: &[Meeting], own: Option<&Spot>) -> Option<Dot> {
+        let Meeting { row, column, domain, .. } = met[0];
+        let centre = self.grid.point(column as f64, row as f64);
+        let pieces: Vec<([Point; 2], u32)> = met
+            .iter()
+            .filter_map(|m| {
+                border(&self.ground.pieces[m.piece as usize], |cell| self.domains.of(cell) == domain)
+            })
+            .collect();
+        let (cell, radius) = match own {
+            Some(spot) => (spot.cell, spot.radius),
+            None => {
+                let near = pieces.iter().map(|(ends, cell)| (nearest(*ends, centre), *cell));
+                let distance = |p: Point| (p - centre).hypot2();
+                let (p, cell) = near.min_by(|a, b| distance(a.0).total_cmp(&distance(b.0)))?;
+                (cell, self.size.radius(cell, p))
+            }
+        };
+        let disc = Disc { centre, radius: radius * self.grid.step };
+        let ends: Vec<[Point; 2]> = pieces.into_iter().map(|(ends, _)| ends).collect();
+        match disc.cut(&ends, own.is_some(), self.px) {
+            _ if radius <= 0.0 => None,
+            Cut::Whole => Some(Dot::Whole(cell, disc)),
+            Cut::Part(path, _) => Some(Dot::Part(cell, path)),
+            Cut::Nothing => None,
+        }
+    }
+}
+
+/// Dots joined to one path a cell.
+fn gathered(cells: usize, rows: &[Vec<Dot>], px: f64) -> Vec<CellDots> {
+    let mut of_cell: Vec<Vec<&Dot>> = vec![Vec::new(); cells];
+    for dot in rows.iter().flatten() {
+        let (Dot::Whole(cell, _) | Dot::Part(cell, _)) = dot;
+        of_cell[*cell as usize].push(dot);
+    }
+    let drawn = |(cell, dots): (usize, Vec<&Dot>)| {
+        let mut path = BezPath::new();
+        for dot in dots {
+            match dot {
+                Dot::Whole(_, disc) => disc.draw(&mut path, px),
+                Dot::Part(_, part) => path.extend(part.iter()),
+            }
+        }
+        CellDots { cell: cell as u32, path }
+    };
+    of_cell.into_par_iter().enumerate().filter(|(_, dots)| !dots.is_empty()).map(drawn).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn discs_on_a_lattice_cover_what_is_asked() {
+        assert_eq!(radius(0.0), 0.0);
+        assert!((radius(FRAC_PI_4) - 0.5).abs() < 1e-6);
+        assert!(radius(1.0) > FRAC_1_SQRT_2 && radius(2.0) > FRAC_1_SQRT_2 && radius(f64::NAN) == 0.0);
+        let mut before = 0.0;
+        for percent in 1..100 {
+            let asked = f64::from(percent) / 100.0;
+            let r = radius(asked);
+            assert!(r > before);
+            before = r;
+            // The square around a lattice point by samples; its neighbours reach in no farther than it does.
+            let n = 400;
+            let within = (0..n * n).filter(|k| {
+                let [x, y] = [k % n, k / n].map(|k| (f64::from(k) + 0.5) / f64::from(n) - 0.5);
+                x * x + y * y < r * r
+            });
+            let covered = within.count() as f64 / f64::from(n * n);
+            assert!((covered - asked).abs() < 2e-3, "{asked}: {covered}");
+        }
+    }
+}

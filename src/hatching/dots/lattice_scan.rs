@@ -1,0 +1,204 @@
+//! [`Scan`]: the cells that the rows of a turned grid run through.
+//!
+//! Each row is met with the pieces of border that cross it, so what it costs to know the cells of all
+//! points of a grid depends on the borders, not on the points.
+
+use crate::parallel::prelude::*;
+use kurbo::{Point, Vec2};
+
+use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use crate::geometry::numbers::portable_math::{cos, sin};
+use crate::geometry::numbers::tolerance;
+use crate::regions::Ground;
+use crate::regions::hatch_regions::hatch_map::PAPER;
+
+/// A square grid, turned and laid on the page.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Lattice {
+    pub origin: Point,
+    /// Unit vector along its rows; columns run a quarter turn from it, from x to y.
+    along: Vec2,
+    /// User units from one point to the next.
+    pub step: f64,
+}
+
+impl Lattice {
+    /// A grid whose rows run at `angle` radians from the x axis, turning from x to y.
+    pub fn new(origin: Point, angle: f64, step: f64) -> Self {
+        Self { origin, along: Vec2::new(cos(angle), sin(angle)), step }
+    }
+
+    /// The place of a point, in steps along rows and columns.
+    pub fn place(&self, p: Point) -> Point {
+        let from = p - self.origin;
+        Point::new(self.along.dot(from) / self.step, self.along.cross(from) / self.step)
+    }
+
+    /// The point of the page at a place of the grid.
+    pub fn point(&self, x: f64, y: f64) -> Point {
+        let across = Vec2::new(-self.along.y, self.along.x);
+        self.origin + (self.along * x + across * y) * self.step
+    }
+}
+
+/// Where a row goes over from one cell to the next.
+#[derive(Debug, Clone, Copy)]
+struct Crossing {
+    x: f64,
+    /// How x changes with y: what crosses at the same place is ordered as it goes on.
+    slope: f64,
+    before: u32,
+    after: u32,
+}
+
+/// The rows of a grid, and in which cells they run.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Scan {
+    /// The number of the first row.
+    pub first: i64,
+    crossings: Grouped<Crossing>,
+}
+
+impl Scan {
+    /// Scans a ground along the rows of a grid.
+    pub fn new(ground: &Ground, grid: &Lattice) -> Self {
+        let placed: Vec<[Point; 2]> = ground
+            .pieces
+            .par_iter()
+            .with_min_len(256)
+            .map(|piece| piece.ends.map(|p| grid.place(p)))
+            .collect();
+        let heights = || placed.iter().flatten().map(|p| p.y);
+        let low = heights().fold(f64::INFINITY, f64::min).ceil();
+        let high = heights().fold(f64::NEG_INFINITY, f64::max).floor();
+        if !(low <= high && high - low < MOST_ROWS) {
+            return Self::default();
+        }
+        let first = low as i64;
+        // A row belongs to a piece from its lower end on, up to its upper end but without it.
+        let rows = |[a, b]: [Point; 2]| {
+            let (low, high) = (a.y.min(b.y).ceil() as i64, a.y.max(b.y).ceil() as i64);
+            (low - first) as usize..(high - first) as usize
+        };
+        let mut crossings = grouped((high as i64 - first) as usize + 1, |put| {
+            for (piece, ends) in ground.pieces.iter().zip(&placed) {
+                // What runs towards greater y has its first side where x is less.
+                let [a, b] = *ends;
+                let (low, high, [before, after]) =
+                    if a.y < b.y { (a, b, piece.sides) } else { (b, a, [piece.sides[1], piece.sides[0]]) };
+                let slope = (high.x - low.x) / (high.y - low.y);
+                for row in rows(*ends) {
+                    let y = (first + row as i64) as f64;
+                    put(row, Crossing { x: low.x + (y - low.y) * slope, slope, before, after });
+                }
+            }
+        });
+        for row in 0..crossings.count() {
+            order(crossings.of_mut(row));
+        }
+        Self { first, crossings }
+    }
+
+    /// How many rows there are.
+    pub fn rows(&self) -> usize {
+        self.crossings.count()
+    }
+
+    /// The stretches of a row that lie in cells other than paper: from where to where along it, and the
+    /// cell.
+    pub fn stretches(&self, row: usize) -> impl Iterator<Item = (f64, f64, u32)> + '_ {
+        let own = self.crossings.of(row);
+        let pairs = own.windows(2).map(|pair| (pair[0].x, pair[1].x, pair[0].after));
+        pairs.filter(|(from, to, cell)| *cell != PAPER && from < to)
+    }
+}
+
+/// Orders the crossings of a row; where rounding leaves their order open, cells decide.
+fn order(row: &mut [Crossing]) {
+    row.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.slope.total_cmp(&b.slope)).then(a.after.cmp(&b.after)));
+    let mut cell = PAPER;
+    for k in 0..row.len() {
+        if row[k].before != cell {
+            let near = |c: &Crossing| c.x - row[k].x < tolerance::SCAN_OF_STEP;
+            let fits = row[k..].iter().take_while(|c| near(c)).position(|c| c.before == cell);
+            if let Some(ahead) = fits {
+                row[k..=k + ahead].rotate_right(1);
+            }
+        }
+        cell = row[k].after;
+    }
+}
+
+/// A grid with more rows than this is too fine to be drawn.
+const MOST_ROWS: f64 = 65_536.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::numbers::noise::{hash, unit};
+    use crate::mesh::{MaterialId, PaintId, PartId};
+    use crate::regions::Look;
+    use crate::regions::hatch_regions::hatch_map::{BorderPiece, Cell};
+
+    const CELL: Cell = Cell {
+        look: Look {
+            part: PartId(0),
+            material: MaterialId(0),
+            paint: PaintId(0),
+            tone: 0,
+            bin: 0,
+            cast: false,
+        },
+        facet: 1,
+        area: 1.0,
+    };
+
+    /// Sectors around a point: cell k from corner k - 1 to corner k, paper around.
+    fn sectors(corners: u64) -> Ground {
+        let middle = Point::new(50.0, 40.0);
+        let corner = |k: u64| {
+            let angle = std::f64::consts::TAU * (k % corners) as f64 / corners as f64;
+            let far = 10.0 + 25.0 * unit(hash(corners, &[k % corners]));
+            middle + Vec2::new(cos(angle), sin(angle)) * far
+        };
+        let cell = |k: u64| ((k + corners - 1) % corners + 1) as u32;
+        let pieces = (1..=corners).flat_map(|k| {
+            let spoke = BorderPiece {
+                ends: [middle, corner(k)],
+                sides: [cell(k + 1), cell(k)],
+                parts_surfaces: true,
+            };
+            let rim = BorderPiece {
+                ends: [corner(k - 1), corner(k)],
+                sides: [cell(k), PAPER],
+                parts_surfaces: true,
+            };
+            [spoke, rim]
+        });
+        Ground::of_pieces(vec![CELL; corners as usize + 1], pieces.collect())
+    }
+
+    #[test]
+    fn rows_run_through_the_cells_that_points_lie_in() {
+        for corners in [3, 5, 12, 80] {
+            let ground = sectors(corners);
+            for (angle, step) in [(0.0, 1.0), (0.7, 0.31), (-2.0, 2.5)] {
+                // Rows of the first grid pass exactly through the middle.
+                let grid = Lattice::new(Point::new(0.0, 0.0), angle, step);
+                let scan = Scan::new(&ground, &grid);
+                let mut inside = 0;
+                for row in 0..scan.rows() {
+                    let y = (scan.first + row as i64) as f64;
+                    for (from, to, cell) in scan.stretches(row).filter(|(from, to, _)| to - from > 1e-3) {
+                        for part in [0.01, 0.5, 0.99] {
+                            let p = grid.point(from + (to - from) * part, y);
+                            assert_eq!(ground.cell_at(p), cell, "{corners} {angle} {p:?}");
+                            inside += 1;
+                        }
+                    }
+                }
+                assert!(inside > 20);
+            }
+        }
+    }
+}

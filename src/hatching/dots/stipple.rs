@@ -1,0 +1,342 @@
+//! [`stipple`]: dots of one size strewn evenly, as dense as the tone asks.
+//!
+//! Source: Secord, Weighted Voronoi stippling, NPAR 2002. Unlike there, shares are weighed by the square of
+//! the ink wanted: dots at rest then lie as dense as it asks, not as its root. Every surface is stippled
+//! for itself, from a seed that only its own shape decides. At last each dot is made as large as the ink
+//! wanted in its share of the surface, which differs little from dot to dot; where it is so dark that
+//! dots run into each other, what they have in common is made up for.
+
+use std::f64::consts::PI;
+
+use crate::parallel::prelude::*;
+use kurbo::{BezPath, Point};
+use rustc_hash::FxHashMap;
+
+use super::halftone::MOST_DOTS;
+use super::lattice_scan::{Lattice, Scan};
+use super::weighted_voronoi::{BLACK, NOBODY, Patch};
+use crate::geometry::numbers::noise::{hash, unit};
+use crate::hatching::CellDots;
+use crate::hatching::clip::circle_clip::Cut;
+use crate::hatching::clip::disc::Disc;
+use crate::hatching::clip::domain::{border, nearest};
+use crate::regions::Ground;
+
+/// How surfaces are stippled; lengths in user units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stipple {
+    /// Mean radius of a dot.
+    pub radius: f64,
+    /// How much the areas of dots differ by chance, as a part of them.
+    pub uneven: f64,
+    /// How often all dots are moved to the middles of their shares; many rounds make lattices.
+    pub rounds: u32,
+    /// The hand.
+    pub seed: u64,
+    /// The length of a px.
+    pub px: f64,
+}
+
+/// The dots of a stippled page, by cells. `coverage` is the part of the area (0 to 1) to be inked in a cell
+/// at a point within it; where it is 0 nothing is.
+#[must_use]
+pub fn stipple(
+    ground: &Ground,
+    options: &Stipple,
+    coverage: &(dyn Fn(u32, Point) -> f64 + Sync),
+) -> Vec<CellDots> {
+    let area: f64 = ground.cells.iter().map(|cell| cell.area).sum();
+    let least = (area / (PI * MOST_DOTS)).sqrt();
+    let options = &Stipple { radius: options.radius.max(least), ..*options };
+    let side = (options.radius * SQUARE_OF_RADIUS).max((area / MOST_SQUARES).sqrt());
+    if side.is_nan() || side <= 0.0 {
+        return Vec::new();
+    }
+    let grid = Lattice::new(Point::new(side / 2.0, side / 2.0), 0.0, side);
+    let scan = Scan::new(ground, &grid);
+    let mut runs: Vec<RowSpan> = (0..scan.rows()).flat_map(|row| runs(ground, &scan, row)).collect();
+    runs.par_sort_by_key(|run| run.facet);
+    let facets: Vec<&[RowSpan]> = runs.chunk_by(|a, b| a.facet == b.facet).collect();
+    let found: Vec<Vec<(u32, Disc, Cut)>> = facets
+        .par_iter()
+        .map(|runs| Facet::new(runs, &grid, coverage).stippled(ground, &grid, options))
+        .collect();
+
+    let mut paths: Vec<BezPath> = vec![BezPath::new(); ground.cells.len()];
+    for (cell, disc, cut) in found.into_iter().flatten() {
+        let path = &mut paths[cell as usize];
+        match cut {
+            Cut::Whole => disc.draw(path, options.px),
+            Cut::Part(part, _) => path.extend(part.iter()),
+            Cut::Nothing => {}
+        }
+    }
+    let cells = (0u32..).zip(paths).filter(|(_, path)| !path.elements().is_empty());
+    cells.map(|(cell, path)| CellDots { cell, path }).collect()
+}
+
+/// The side of the squares in which ink is weighed, as a part of the radius of a dot.
+const SQUARE_OF_RADIUS: f64 = 0.45;
+
+/// Larger pages are weighed in larger squares.
+const MOST_SQUARES: f64 = 1.6e7;
+
+/// Squares side by side in a row, of one cell.
+#[derive(Debug, Clone, Copy)]
+struct RowSpan {
+    facet: u32,
+    row: i64,
+    from: i64,
+    /// Without this one.
+    to: i64,
+    cell: u32,
+}
+
+fn runs<'a>(ground: &'a Ground, scan: &'a Scan, row: usize) -> impl Iterator<Item = RowSpan> + 'a {
+    let of = move |(from, to, cell): (f64, f64, u32)| RowSpan {
+        facet: ground.cells[cell as usize].facet,
+        row: scan.first + row as i64,
+        from: from.floor() as i64 + 1,
+        to: to.floor() as i64 + 1,
+        cell,
+    };
+    scan.stretches(row).map(of).filter(|run| run.from < run.to)
+}
+
+/// A stretch of surface to be stippled.
+struct Facet<'a> {
+    runs: &'a [RowSpan],
+    /// The first square of the patch.
+    corner: [i64; 2],
+    patch: Patch,
+    /// Cells where ink is wanted.
+    inked: Vec<u32>,
+}
+
+impl<'a> Facet<'a> {
+    fn new(runs: &'a [RowSpan], grid: &Lattice, coverage: &(dyn Fn(u32, Point) -> f64 + Sync)) -> Self {
+        let left = runs.iter().map(|run| run.from).min().unwrap_or_default();
+        let right = runs.iter().map(|run| run.to).max().unwrap_or_default();
+        let top = runs.first().map_or(0, |run| run.row);
+        let bottom = runs.last().map_or(0, |run| run.row + 1);
+        let [width, height] = [right - left, bottom - top].map(|size| size as usize);
+        let mut ink = vec![0u16; width * height];
+        let mut inked: Vec<u32> = Vec::new();
+        // The tone is asked for once in a block of squares for each cell there, where it is met first.
+        let band = |run: &RowSpan| run.row.div_euclid(ASKED_APART);
+        let bands: Vec<&[RowSpan]> = runs.chunk_by(|a, b| band(a) == band(b)).collect();
+        let asked: Vec<Vec<(usize, u16)>> = bands
+            .into_par_iter()
+            .map(|runs| {
+                let mut known: FxHashMap<(i64, u32), u16> = FxHashMap::default();
+                let squares = runs.iter().flat_map(|run| (run.from..run.to).map(move |column| (run, column)));
+                squares
+                    .map(|(run, column)| {
+                        let ink =
+                            known.entry((column.div_euclid(ASKED_APART), run.cell)).or_insert_with(|| {
+                                let wanted = coverage(run.cell, grid.point(column as f64, run.row as f64));
+                                (wanted.clamp(0.0, 1.0) * f64::from(BLACK)).round() as u16
+                            });
+                        ((run.row - top) as usize * width + (column - left) as usize, *ink)
+                    })
+                    .collect()
+            })
+            .collect();
+        for (square, wanted) in asked.into_iter().flatten() {
+            ink[square] = wanted;
+        }
+        for run in runs {
+            let first = (run.row - top) as usize * width + (run.from - left) as usize;
+            if ink[first..first + (run.to - run.from) as usize].iter().any(|ink| *ink > 0) {
+                inked.push(run.cell);
+            }
+        }
+        inked.sort_unstable();
+        inked.dedup();
+        Self { runs, corner: [left, top], patch: Patch { width, height, ink }, inked }
+    }
+
+    /// Its dots: the cell of each, the disc, and what is left of it.
+    fn stippled(&self, ground: &Ground, grid: &Lattice, options: &Stipple) -> Vec<(u32, Disc, Cut)> {
+        let dot = PI * options.radius * options.radius / (grid.step * grid.step);
+        let [left, top] = self.corner.map(i64::cast_unsigned);
+        let words = [left, top, self.patch.width as u64, self.patch.height as u64];
+        let seed = hash(options.seed, &words);
+        let chance = |word: u64| unit(hash(seed, &[word]));
+        let count = (self.patch.total() / dot + chance(u64::MAX)) as usize;
+        if count == 0 {
+            return Vec::new();
+        }
+        let mut sites =
+            self.patch.strewn(count, |k| [0, 1, 2].map(|word| unit(hash(seed, &[k as u64, word]))));
+        self.patch.relax(&mut sites, options.rounds);
+
+        let differs = |k: usize| 1.0 + options.uneven * (2.0 * chance(k as u64) - 1.0);
+        let radii = Shares::new(&self.patch, &sites).radii(&sites, differs);
+        let fence = Fence { ground, inked: &self.inked };
+        let drawn = |(k, site): (usize, &[f64; 2])| {
+            let (radius, is_dense) = radii[k];
+            let [x, y] = [0, 1].map(|axis| site[axis] - 0.5 + self.corner[axis] as f64);
+            let cell = self.cell(x.round() as i64, y.round() as i64);
+            let disc = Disc { centre: grid.point(x, y), radius: radius * grid.step };
+            let (disc, cut) = fence.fitted(disc, is_dense, options.px);
+            (cut != Cut::Nothing).then_some((cell, disc, cut))
+        };
+        sites.par_iter().enumerate().with_min_len(64).filter_map(drawn).collect()
+    }
+
+    /// The cell of a square.
+    fn cell(&self, column: i64, row: i64) -> u32 {
+        let next = self.runs.partition_point(|run| (run.row, run.from) <= (row, column));
+        let run = self.runs.get(next.saturating_sub(1)).or(self.runs.first());
+        run.map_or(0, |run| run.cell)
+    }
+}
+
+/// The tone is asked for in blocks of this many squares a side.
+const ASKED_APART: i64 = 4;
+
+/// What belongs to each site.
+struct Shares<'a> {
+    patch: &'a Patch,
+    owners: Vec<u32>,
+    inks: Vec<f64>,
+    areas: Vec<f64>,
+}
+
+impl<'a> Shares<'a> {
+    fn new(patch: &'a Patch, sites: &[[f64; 2]]) -> Self {
+        let owners = patch.owners(sites);
+        let inks = patch.inks(&owners, sites.len());
+        let mut areas = vec![0.0; sites.len()];
+        for owner in owners.iter().filter(|owner| **owner != NOBODY) {
+            areas[*owner as usize] += 1.0;
+        }
+        Self { patch, owners, inks, areas }
+    }
+
+    /// The radius of each site's dot, in squares, and whether dots are dense there.
+    fn radii(&self, sites: &[[f64; 2]], differs: impl Fn(usize) -> f64 + Sync) -> Vec<(f64, bool)> {
+        let of = |wanted: &[f64]| -> Vec<(f64, bool)> {
+            let one = |(k, site): (usize, &[f64; 2])| {
+                let alone = (self.inks[k] * differs(k) / PI).sqrt();
+                let is_dense = self.inks[k] > DENSE * self.areas[k];
+                (if is_dense { self.grown(k, *site, alone, wanted[k]) } else { alone }, is_dense)
+            };
+            sites.par_iter().enumerate().with_min_len(64).map(one).collect()
+        };
+        let first = of(&self.inks);
+        // Larger dots ink some of their neighbours' shares; that is taken off what these have to ink.
+        let mut inked = vec![0.0_f64; self.owners.len()];
+        for ((radius, _), site) in first.iter().zip(sites).filter(|((_, is_dense), _)| *is_dense) {
+            self.each_square(*site, *radius, |square, distance| {
+                inked[square] = inked[square].max((radius - distance + 0.5).clamp(0.0, 1.0));
+            });
+        }
+        let mut wanted: Vec<f64> = self.inks.iter().map(|ink| 2.0 * ink).collect();
+        for (owner, inked) in self.owners.iter().zip(inked).filter(|(owner, _)| **owner != NOBODY) {
+            wanted[*owner as usize] -= inked;
+        }
+        of(&wanted)
+    }
+
+    /// Calls for the squares around a place, with how far they are.
+    fn each_square(&self, at: [f64; 2], radius: f64, mut call: impl FnMut(usize, f64)) {
+        let range = |axis: usize, size: usize| {
+            let (low, high) = ((at[axis] - radius - 1.0).floor(), (at[axis] + radius + 1.0).ceil());
+            low.max(0.0) as usize..(high.max(0.0) as usize).min(size)
+        };
+        for y in range(1, self.patch.height) {
+            for x in range(0, self.patch.width) {
+                let [dx, dy] = [x as f64 + 0.5 - at[0], y as f64 + 0.5 - at[1]];
+                call(y * self.patch.width + x, (dx * dx + dy * dy).sqrt());
+            }
+        }
+    }
+
+    /// The radius at which a dot inks as much of its own share as is `wanted`, where others are near.
+    fn grown(&self, site: usize, at: [f64; 2], alone: f64, wanted: f64) -> f64 {
+        let (least, most) = (alone / MOST_GROWTH, alone * MOST_GROWTH);
+        let mut foreign = Vec::new();
+        self.each_square(at, most, |square, distance| {
+            if self.owners[square] != site as u32 {
+                foreign.push(distance);
+            }
+        });
+        // A square is inked by the part of it that lies within, were the circle straight.
+        let inked = |r: f64| {
+            let lost: f64 = foreign.iter().map(|distance| (r - distance + 0.5).clamp(0.0, 1.0)).sum();
+            PI * r * r - lost
+        };
+        let (mut low, mut high) = (least, most);
+        for _ in 0..GROWTH_STEPS {
+            let middle = f64::midpoint(low, high);
+            if inked(middle) < wanted { low = middle } else { high = middle }
+        }
+        low
+    }
+}
+
+/// Where more of the paper than this is to be inked, dots run into each other.
+const DENSE: f64 = 0.5;
+
+/// A dot that runs into others is at most this much wider than one that stands alone.
+const MOST_GROWTH: f64 = 1.6;
+
+/// Halves the growth to a thousandth.
+const GROWTH_STEPS: u32 = 10;
+
+/// What dots of a facet do not leave.
+struct Fence<'a> {
+    ground: &'a Ground,
+    /// The cells within, ascending.
+    inked: &'a [u32],
+}
+
+impl Fence<'_> {
+    fn is_within(&self, cell: u32) -> bool {
+        self.inked.binary_search(&cell).is_ok()
+    }
+
+    /// A dot within the fence: moved inward if there is room, else cut. Dense dots are cut as they are.
+    fn fitted(&self, disc: Disc, is_dense: bool, px: f64) -> (Disc, Cut) {
+        let near = |disc: Disc| -> Vec<[Point; 2]> {
+            let pieces = self.ground.pieces_near(disc.centre, disc.radius);
+            let fence = |piece: u32| border(&self.ground.pieces[piece as usize], |cell| self.is_within(cell));
+            pieces.into_iter().filter_map(|piece| Some(fence(piece)?.0)).collect()
+        };
+        let mut moved = disc;
+        let mut border = near(disc);
+        for _ in 0..if is_dense { 0 } else { MOVES } {
+            let offs = border.iter().map(|ends| (nearest(*ends, moved.centre), ends));
+            let distance = |p: Point| (p - moved.centre).hypot2();
+            let Some((p, [a, b])) = offs.min_by(|a, b| distance(a.0).total_cmp(&distance(b.0))) else {
+                break;
+            };
+            let is_within = (*b - *a).cross(moved.centre - *a) > 0.0;
+            let off = distance(p).sqrt();
+            if (is_within && off >= moved.radius) || off <= 0.0 {
+                break;
+            }
+            let outward = (p - moved.centre) / off * if is_within { 1.0 } else { -1.0 };
+            moved.centre = p - outward * moved.radius * (1.0 + HAIR);
+            border = near(moved);
+        }
+        let inside = self.is_within(self.ground.cell_at(moved.centre));
+        let cut = moved.cut(&border, inside, px);
+        let is_scrap = |cut: &Cut| match cut {
+            Cut::Part(_, area) => !is_dense && *area < SCRAP * PI * moved.radius * moved.radius,
+            _ => false,
+        };
+        if is_scrap(&cut) { (moved, Cut::Nothing) } else { (moved, cut) }
+    }
+}
+
+/// How often a dot is moved off borders before it is cut by them.
+const MOVES: u32 = 4;
+
+/// How far beside a border a dot comes to rest, as a part of its radius.
+const HAIR: f64 = 1e-3;
+
+/// Less of a dot than this is not drawn.
+const SCRAP: f64 = 0.4;

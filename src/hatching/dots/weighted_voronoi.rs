@@ -1,0 +1,370 @@
+//! [`Patch`]: a piece of page in small squares of ink wanted, shared out among sites and these moved to
+//! the middle of their shares.
+//!
+//! Source: Secord, Weighted Voronoi stippling, NPAR 2002: Lloyd's method with the weighted centroids of
+//! Voronoi cells. There the density itself is the weight; sites at rest then lie as dense as the square root
+//! of it (Gersho, Asymptotically optimal block quantization, 1979). Here the square of the density is
+//! the weight, so sites lie as dense as it asks. All sums are of whole numbers: threads do not
+//! matter.
+
+use crate::parallel::prelude::*;
+
+use crate::geometry::lists::csr_lists::{Grouped, grouped};
+
+/// Ink wanted is counted in parts of this for a square that is all black.
+pub(crate) const BLACK: u16 = 16_384;
+
+/// A box of squares; places are in squares, from the corner of the box.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Patch {
+    pub width: usize,
+    pub height: usize,
+    /// Ink wanted in each square, row by row, up to [`BLACK`]; 0 also for what is not part of the patch.
+    pub ink: Vec<u16>,
+}
+
+/// In [`Patch::owners`]: nobody's.
+pub(crate) const NOBODY: u32 = u32::MAX;
+
+/// What the share of a site adds up to.
+#[derive(Debug, Clone, Copy, Default)]
+struct Sum {
+    weight: u64,
+    x: u64,
+    y: u64,
+}
+
+impl Patch {
+    /// All ink wanted, in squares that are black.
+    pub fn total(&self) -> f64 {
+        self.ink.iter().map(|ink| u64::from(*ink)).sum::<u64>() as f64 / f64::from(BLACK)
+    }
+
+    /// `count` places, each in the middle of about as much ink as the others: the ink is lined up along
+    /// Hilbert's curve, which keeps near what is near, and every place is taken by `chance` (0 to 1)
+    /// within its stretch.
+    pub fn strewn(&self, count: usize, chance: impl Fn(usize) -> [f64; 3]) -> Vec<[f64; 2]> {
+        let levels = self.width.max(self.height).next_power_of_two().trailing_zeros();
+        let mut squares: Vec<(u64, u32)> = (0..self.ink.len())
+            .into_par_iter()
+            .filter(|k| self.ink[*k] > 0)
+            .map(|k| (along_hilbert(levels, (k % self.width) as u32, (k / self.width) as u32), k as u32))
+            .collect();
+        squares.par_sort_unstable();
+        let total: u64 = squares.iter().map(|(_, k)| u64::from(self.ink[*k as usize])).sum();
+        let mut places = Vec::with_capacity(count);
+        let (mut passed, mut square) = (0u64, 0);
+        for k in 0..count {
+            let [along, x, y] = chance(k);
+            let wanted = (k as f64 + along) / count as f64 * total as f64;
+            while square + 1 < squares.len() {
+                let own = u64::from(self.ink[squares[square].1 as usize]);
+                if (passed + own) as f64 > wanted {
+                    break;
+                }
+                passed += own;
+                square += 1;
+            }
+            if let Some((_, square)) = squares.get(square) {
+                let at = *square as usize;
+                places.push([(at % self.width) as f64 + x, (at / self.width) as f64 + y]);
+            }
+        }
+        places
+    }
+
+    /// Moves sites to the middles of their shares, `rounds` times. Sites without a share stay.
+    pub fn relax(&self, sites: &mut [[f64; 2]], rounds: u32) {
+        for _ in 0..rounds {
+            let owners = self.owners(sites);
+            let sums = self.sums(&owners, sites.len());
+            for (site, sum) in sites.iter_mut().zip(sums) {
+                if sum.weight > 0 {
+                    let middle = [sum.x, sum.y].map(|of| of as f64 / sum.weight as f64 + 0.5);
+                    // Going on beyond the middle, sites come to rest in fewer rounds.
+                    *site = [0, 1].map(|axis| site[axis] + (middle[axis] - site[axis]) * OVERSHOOT);
+                }
+            }
+        }
+    }
+
+    /// The ink in the share of each site, in squares that are black.
+    pub fn inks(&self, owners: &[u32], sites: usize) -> Vec<f64> {
+        let mut inks = vec![0u64; sites];
+        for (owner, ink) in owners.iter().zip(&self.ink) {
+            if *owner != NOBODY {
+                inks[*owner as usize] += u64::from(*ink);
+            }
+        }
+        inks.into_iter().map(|ink| ink as f64 / f64::from(BLACK)).collect()
+    }
+
+    fn sums(&self, owners: &[u32], sites: usize) -> Vec<Sum> {
+        let rows = self.height.div_ceil(SUMMED_APART).max(1);
+        let width = self.width.max(1);
+        let bands = owners.par_chunks(rows * width).zip(self.ink.par_chunks(rows * width)).enumerate();
+        let apart: Vec<Vec<Sum>> = bands
+            .map(|(band, (owners, ink))| {
+                let mut sums = vec![Sum::default(); sites];
+                for (row, (owners, ink)) in owners.chunks(width).zip(ink.chunks(width)).enumerate() {
+                    let y = (band * rows + row) as u64;
+                    for (x, (owner, ink)) in owners.iter().zip(ink).enumerate() {
+                        if let Some(sum) = sums.get_mut(*owner as usize) {
+                            let weight = u64::from(*ink) * u64::from(*ink);
+                            sum.weight += weight;
+                            sum.x += weight * x as u64;
+                            sum.y += weight * y;
+                        }
+                    }
+                }
+                sums
+            })
+            .collect();
+        let mut all = vec![Sum::default(); sites];
+        for sums in &apart {
+            for (all, sum) in all.iter_mut().zip(sums) {
+                all.weight += sum.weight;
+                all.x += sum.x;
+                all.y += sum.y;
+            }
+        }
+        all
+    }
+
+    /// The site nearest to the middle of each square, where ink is wanted.
+    pub fn owners(&self, sites: &[[f64; 2]]) -> Vec<u32> {
+        let mut owners = vec![NOBODY; self.ink.len()];
+        if sites.is_empty() || self.width == 0 {
+            return owners;
+        }
+        let width = self.width;
+        let buckets = Buckets::new(self, sites);
+        let bands = owners.par_chunks_mut(BLOCK * width).zip(self.ink.par_chunks(BLOCK * width));
+        bands.enumerate().for_each_init(Vec::new, |near, (band, (owners, ink))| {
+            let (rows, top) = (owners.len() / width, band * BLOCK);
+            for left in (0..width).step_by(BLOCK) {
+                let right = (left + BLOCK).min(width);
+                let of_row = |row: usize| row * width + left..row * width + right;
+                if (0..rows).all(|row| ink[of_row(row)].iter().all(|ink| *ink == 0)) {
+                    continue;
+                }
+                let centre = [left, top].map(|low| low as f64 + BLOCK as f64 / 2.0);
+                buckets.near(centre, near);
+                let nearest = nearest(near, centre);
+                for (row, nearest) in nearest.iter().enumerate().take(rows) {
+                    let squares = owners[of_row(row)].iter_mut().zip(&ink[of_row(row)]);
+                    for ((owner, ink), nearest) in squares.zip(nearest) {
+                        *owner = if *ink > 0 { *nearest } else { NOBODY };
+                    }
+                }
+            }
+        });
+        owners
+    }
+}
+
+/// The nearest of these sites for each square of a block, row by row.
+fn nearest(sites: &[([f64; 2], u32)], centre: [f64; 2]) -> [[u32; BLOCK]; BLOCK] {
+    // Seen from the middle of the block, single precision is enough.
+    let at: [f32; BLOCK] = std::array::from_fn(|k| k as f32 + 0.5 - BLOCK as f32 / 2.0);
+    let (mut best, mut owners) = ([[f32::INFINITY; BLOCK]; BLOCK], [[NOBODY; BLOCK]; BLOCK]);
+    for (site, number) in sites {
+        let [x, y] = [0, 1].map(|axis| (site[axis] - centre[axis]) as f32);
+        let across = at.map(|at| (at - x) * (at - x));
+        for row in 0..BLOCK {
+            let down = (at[row] - y) * (at[row] - y);
+            for column in 0..BLOCK {
+                let distance2 = across[column] + down;
+                let is_nearer = distance2 < best[row][column];
+                best[row][column] = if is_nearer { distance2 } else { best[row][column] };
+                owners[row][column] = if is_nearer { *number } else { owners[row][column] };
+            }
+        }
+    }
+    owners
+}
+
+/// Squares whose nearest sites are sought together, along a side.
+const BLOCK: usize = 4;
+
+/// How far sites move, as a part of the way to the middle.
+const OVERSHOOT: f64 = 1.6;
+
+/// Into how many bands of rows a patch is summed.
+const SUMMED_APART: usize = 4;
+
+fn distance2(a: [f64; 2], b: [f64; 2]) -> f64 {
+    (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
+}
+
+/// Sites by the bucket of the box that they lie in.
+struct Buckets {
+    side: f64,
+    across: [usize; 2],
+    sites: Grouped<([f64; 2], u32)>,
+}
+
+impl Buckets {
+    fn new(patch: &Patch, sites: &[[f64; 2]]) -> Self {
+        let size = [patch.width as f64, patch.height as f64];
+        // Two sites a bucket, were the box full.
+        let side =
+            (2.0 * size[0] * size[1] / sites.len() as f64).sqrt().clamp(2.0, size[0].max(size[1]).max(2.0));
+        let across = size.map(|size| (size / side) as usize + 1);
+        let mut buckets = Self { side, across, sites: Grouped::default() };
+        let of: Vec<usize> = sites.iter().map(|site| buckets.bucket(*site)).collect();
+        buckets.sites = grouped(across[0] * across[1], |put| {
+            sites
+                .iter()
+                .zip(&of)
+                .enumerate()
+                .for_each(|(number, (site, bucket))| put(*bucket, (*site, number as u32)));
+        });
+        buckets
+    }
+
+    fn bucket(&self, site: [f64; 2]) -> usize {
+        let [column, row] = self.column_and_row(site);
+        row * self.across[0] + column
+    }
+
+    fn column_and_row(&self, at: [f64; 2]) -> [usize; 2] {
+        [0, 1].map(|axis| ((at[axis].max(0.0) / self.side) as usize).min(self.across[axis] - 1))
+    }
+
+    fn of_bucket(&self, column: usize, row: usize) -> &[([f64; 2], u32)] {
+        self.sites.of(row * self.across[0] + column)
+    }
+
+    /// All sites that may be the nearest one to the middle of a square of the block around a centre.
+    fn near(&self, centre: [f64; 2], near: &mut Vec<([f64; 2], u32)>) {
+        let reach = (BLOCK as f64 - 1.0) / 2.0 * std::f64::consts::SQRT_2;
+        // The nearest one to such a point is no farther from it than the one nearest to the centre.
+        let limit = self.nearest(centre) + 2.0 * reach + 1e-3;
+        let [left, top] = self.column_and_row(centre.map(|c| c - limit));
+        let [right, bottom] = self.column_and_row(centre.map(|c| c + limit));
+        near.clear();
+        for row in top..=bottom {
+            // The buckets of a row lie one after the other.
+            let row = row * self.across[0];
+            for site in self.sites.of_all(row + left..row + right + 1) {
+                if distance2(site.0, centre) <= limit * limit {
+                    near.push(*site);
+                }
+            }
+        }
+    }
+
+    /// How far the nearest site is: ring after ring of buckets.
+    fn nearest(&self, centre: [f64; 2]) -> f64 {
+        let [column, row] = self.column_and_row(centre).map(|k| k as i64);
+        let [columns, rows] = self.across.map(|k| k as i64);
+        let mut best = f64::INFINITY;
+        for ring in 0..=columns.max(rows) {
+            // Whatever lies beyond this ring is farther away than all rings within it are wide.
+            let beyond = (ring - 1).max(0) as f64 * self.side;
+            if best <= beyond * beyond {
+                break;
+            }
+            for y in (row - ring).max(0)..=(row + ring).min(rows - 1) {
+                let on_edge = (y - row).abs() == ring;
+                let step = if on_edge || ring == 0 { 1 } else { 2 * ring };
+                let mut x = column - ring;
+                while x <= column + ring {
+                    if (0..columns).contains(&x) {
+                        for (site, _) in self.of_bucket(x as usize, y as usize) {
+                            best = best.min(distance2(*site, centre));
+                        }
+                    }
+                    x += step;
+                }
+            }
+        }
+        best.sqrt()
+    }
+}
+
+/// The place of a square along Hilbert's curve through a box of 2^levels squares a side.
+fn along_hilbert(levels: u32, x: u32, y: u32) -> u64 {
+    let (mut x, mut y, mut along) = (x, y, 0u64);
+    for level in (0..levels).rev() {
+        let (right, down) = ((x >> level) & 1, (y >> level) & 1);
+        along = along << 2 | u64::from((3 * right) ^ down);
+        // The quarters at the ends are turned over.
+        if down == 0 {
+            if right == 1 {
+                let most = (1 << level) - 1;
+                (x, y) = (most - (x & most), most - (y & most));
+            }
+            std::mem::swap(&mut x, &mut y);
+        }
+    }
+    along
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Wanted ink that rises to the right, with a hole.
+    fn patch(width: usize, height: usize) -> Patch {
+        let ink = |k: usize| {
+            let (x, y) = (k % width, k / width);
+            let is_hole = x.abs_diff(width / 3) < 9 && y.abs_diff(height / 2) < 7;
+            if is_hole { 0 } else { (x * usize::from(BLACK) / width) as u16 }
+        };
+        Patch { width, height, ink: (0..width * height).map(ink).collect() }
+    }
+
+    fn chance(k: usize) -> [f64; 3] {
+        use crate::geometry::numbers::noise::{hash, unit};
+        [0, 1, 2].map(|word| unit(hash(7, &[k as u64, word])))
+    }
+
+    #[test]
+    fn squares_belong_to_the_nearest_site() {
+        let patch = patch(97, 61);
+        for count in [1, 2, 40, 700] {
+            let sites = patch.strewn(count, chance);
+            assert_eq!(sites.len(), count);
+            for (k, owner) in patch.owners(&sites).into_iter().enumerate() {
+                if patch.ink[k] == 0 {
+                    assert_eq!(owner, NOBODY);
+                    continue;
+                }
+                let at = [(k % 97) as f64 + 0.5, (k / 97) as f64 + 0.5];
+                let least = sites.iter().map(|site| distance2(*site, at)).fold(f64::INFINITY, f64::min);
+                assert!(distance2(sites[owner as usize], at) < least + 1e-4, "{count} {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn shares_at_rest_hold_the_same_ink() {
+        let patch = patch(240, 200);
+        let count = 600;
+        let mut sites = patch.strewn(count, chance);
+        let spread = |sites: &[[f64; 2]]| {
+            let inks = patch.inks(&patch.owners(sites), count);
+            let mean = patch.total() / count as f64;
+            (inks.iter().map(|ink| (ink - mean) * (ink - mean)).sum::<f64>() / count as f64).sqrt() / mean
+        };
+        let before = spread(&sites);
+        patch.relax(&mut sites, 30);
+        let after = spread(&sites);
+        assert!(before > 0.2 && after < 0.12, "{before} {after}");
+    }
+
+    #[test]
+    fn hilberts_curve_goes_from_square_to_square() {
+        let mut at = vec![[0i64; 2]; 64 * 64];
+        for y in 0..64 {
+            for x in 0..64 {
+                at[along_hilbert(6, x, y) as usize] = [i64::from(x), i64::from(y)];
+            }
+        }
+        let is_step =
+            |pair: &[[i64; 2]]| (pair[0][0] - pair[1][0]).abs() + (pair[0][1] - pair[1][1]).abs() == 1;
+        assert!(at.windows(2).all(is_step));
+    }
+}

@@ -1,0 +1,84 @@
+//! Guides along curves that are fixed to the model: they move with it, and hatching does not swim when the
+//! model or the eye turns.
+//!
+//! Such curves crowd where the surface turns away from the eye. There guides of a high rank make room, so
+//! that the distance of those that are left is right for the tone everywhere; as the view changes, strokes
+//! come and go, and none jumps. Source: Praun, Hoppe, Webb and Finkelstein, "Real-time hatching", SIGGRAPH
+//! 2001, section 4, where levels of detail of textures do the same.
+
+use glam::DVec3;
+use kurbo::Point;
+use rustc_hash::FxHashMap;
+
+use super::guide::{Guide, Scope, rank};
+use crate::geometry::numbers::noise::hash;
+use crate::hatching::clip::line_clip::{between, stretches};
+use crate::mesh::PartId;
+use crate::regions::Ground;
+use crate::regions::surface_curves::level_curves::LevelCurve;
+
+/// Guides along the visible parts of level curves, `pitch` (page units) apart where they are densest.
+/// `are_seen` tells of points of the page, with a nearness each, whether nothing is in front there; `place_of`
+/// gives a number to a part and where about in it a point of it lies.
+#[must_use]
+pub fn guides(
+    ground: &Ground,
+    curves: &[LevelCurve],
+    are_seen: impl Fn(&[(Point, f64)]) -> Vec<bool>,
+    place_of: impl Fn(PartId, DVec3) -> u64,
+    pitch: f64,
+    seed: u64,
+) -> Vec<Guide> {
+    let mut pieces: Vec<(u32, f64, f64, u32)> = Vec::new();
+    for (number, curve) in curves.iter().enumerate() {
+        let on_part = |cell: u32| {
+            let cell = &ground.cells[cell as usize];
+            cell.facet != 0 && cell.look.part == curve.part
+        };
+        for stretch in stretches(ground, &curve.line, on_part) {
+            pieces.push((number as u32, stretch.from, stretch.to, ground.cells[stretch.cell as usize].facet));
+        }
+    }
+    let middles: Vec<(Point, f64)> = pieces
+        .iter()
+        .map(|(curve, from, to, _)| {
+            let curve = &curves[*curve as usize];
+            let place = f64::midpoint(*from, *to);
+            (crate::hatching::clip::line_clip::point_at(&curve.line, place), value_at(&curve.nearness, place))
+        })
+        .collect();
+    let seen = are_seen(&middles);
+    let mut counts: FxHashMap<u64, u64> = FxHashMap::default();
+    let mut guides = Vec::new();
+    for ((number, from, to, facet), _) in pieces.into_iter().zip(seen).filter(|(_, seen)| *seen) {
+        let curve = &curves[number as usize];
+        let line = between(&curve.line, from, to);
+        if line.len() < 2 {
+            continue;
+        }
+        // One crowding for each point that is left.
+        let mut crowding = vec![value_at(&curve.density, from) * pitch];
+        let inner = (from.floor() as usize + 1..curve.line.len()).take_while(|k| (*k as f64) < to);
+        crowding.extend(inner.map(|k| curve.density[k] * pitch));
+        crowding.push(value_at(&curve.density, to) * pitch);
+        crowding.resize(line.len(), value_at(&curve.density, to) * pitch);
+        // A piece is known by its part, its level, and where in the model it lies, roughly.
+        let middle = point_at(&curve.points, f64::midpoint(from, to));
+        let name = hash(seed, &[place_of(curve.part, middle), curve.level.cast_unsigned()]);
+        let count = counts.entry(name).or_default();
+        let id = hash(name, &[*count]);
+        *count += 1;
+        guides.push(Guide { line, rank: rank(curve.level), id, scope: Scope::Facet(facet), crowding });
+    }
+    guides
+}
+
+fn value_at(values: &[f64], place: f64) -> f64 {
+    let k = (place as usize).min(values.len() - 2);
+    values[k] + (values[k + 1] - values[k]) * (place - k as f64)
+}
+
+fn point_at(points: &[DVec3], place: f64) -> DVec3 {
+    let k = (place as usize).min(points.len() - 2);
+    points[k].lerp(points[k + 1], place - k as f64)
+}

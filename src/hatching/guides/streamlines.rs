@@ -1,0 +1,269 @@
+//! Guides along a flow, evenly spaced on the page.
+//!
+//! Source: Jobard and Lefer, "Creating evenly-spaced streamlines of arbitrary density", Visualization in
+//! Scientific Computing '97: lines are grown both ways until they come near others, and new ones are
+//! seeded beside those that there are. Here that is done at several distances, the widest first: lines
+//! of the wider sets stay in the narrower ones, which makes them nested. Ranks are the part of the
+//! surface that is hatched when a line is reached, so that they count ink rightly however long lines
+//! are.
+
+use std::collections::VecDeque;
+
+use crate::parallel::prelude::*;
+use kurbo::{Point, Vec2};
+
+use super::direction_field::Flow;
+use super::guide::{Guide, Scope};
+use super::stroke_layout::arcs;
+use crate::geometry::numbers::noise::hash;
+use crate::hatching::clip::line_clip::norm;
+use crate::regions::Ground;
+
+/// How streamlines are laid; lengths in page units.
+#[derive(Debug, Clone, Copy)]
+pub struct Spacing {
+    /// Distance of lines where they are densest.
+    pub pitch: f64,
+    /// How many times that distance is doubled before: 0 = all lines are alike.
+    pub doublings: u32,
+    /// A CSS px.
+    pub px: f64,
+    /// The hand.
+    pub seed: u64,
+}
+
+/// A line ends where another one is nearer than this part of their distance.
+const NEAREST: f64 = 0.62;
+
+/// Lines are grown in steps of this length, px.
+const STEP_PX: f64 = 1.5;
+
+/// A line goes on while it turns by less than 60 degrees a step.
+const TURN: f64 = 0.5;
+
+/// Shorter lines than this many distances are left out.
+const SHORTEST: f64 = 1.5;
+
+/// No line has more points than this.
+const LONGEST: usize = 20_000;
+
+/// Guides along a flow on all facets with wanted cells.
+#[must_use]
+pub fn streamlines(
+    ground: &Ground,
+    flow: &Flow,
+    wanted: impl Fn(u32) -> bool,
+    is_inked: &(impl Fn(u32, Point) -> bool + Sync),
+    spacing: &Spacing,
+) -> Vec<Guide> {
+    let samples = flow.samples();
+    let mut facet_wanted = vec![false; ground.facets as usize];
+    for (number, cell) in ground.cells.iter().enumerate() {
+        facet_wanted[cell.facet as usize] |= cell.facet != 0 && wanted(number as u32);
+    }
+    let mut of_facet: Vec<Vec<u32>> = vec![Vec::new(); ground.facets as usize];
+    for (k, facet) in samples.facets.iter().enumerate() {
+        if facet_wanted[*facet as usize] {
+            of_facet[*facet as usize].push(k as u32);
+        }
+    }
+    let facets: Vec<(u32, Vec<u32>)> = of_facet
+        .into_iter()
+        .enumerate()
+        .map(|(f, points)| (f as u32, points))
+        .filter(|(_, p)| !p.is_empty())
+        .collect();
+    let grown: Vec<Vec<Guide>> = facets
+        .par_iter()
+        .map(|(facet, points)| {
+            let mut grower = Grower::new(flow, *facet, points, is_inked, spacing);
+            for doubling in (0..=spacing.doublings).rev() {
+                grower.grow(points, spacing.pitch * f64::from(1u32 << doubling), doubling);
+            }
+            let inked = points.iter().filter(|k| is_inked(*facet, samples.point(**k as usize))).count();
+            grower.guides(inked as f64 * samples.pitch * samples.pitch)
+        })
+        .collect();
+    grown.into_iter().flatten().collect()
+}
+
+struct Grower<'a, F> {
+    flow: &'a Flow<'a>,
+    facet: u32,
+    is_inked: &'a F,
+    spacing: &'a Spacing,
+    /// Lines, and the doubling at which each was grown.
+    lines: Vec<(Vec<Point>, u32)>,
+    low: Point,
+    across: [usize; 2],
+    /// For each tile of the side of a pitch, the points of lines in it.
+    tiles: Vec<Vec<Point>>,
+}
+
+impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
+    fn new(flow: &'a Flow, facet: u32, points: &[u32], is_inked: &'a F, spacing: &'a Spacing) -> Self {
+        let samples = flow.samples();
+        let at = |k: &u32| samples.point(*k as usize);
+        let first = at(&points[0]);
+        let (low, high) = points.iter().map(at).fold((first, first), |(low, high), p| {
+            (Point::new(low.x.min(p.x), low.y.min(p.y)), Point::new(high.x.max(p.x), high.y.max(p.y)))
+        });
+        let margin = samples.pitch + spacing.pitch;
+        let low = low - Vec2::new(margin, margin);
+        let size = high - low + Vec2::new(margin, margin);
+        let across = [size.x, size.y].map(|x| (x / spacing.pitch) as usize + 1);
+        let tiles = vec![Vec::new(); across[0] * across[1]];
+        Self { flow, facet, is_inked, spacing, lines: Vec::new(), low, across, tiles }
+    }
+
+    fn tile(&self, p: Point) -> [isize; 2] {
+        let at = (p - self.low) / self.spacing.pitch;
+        [at.x.floor() as isize, at.y.floor() as isize]
+    }
+
+    /// Whether a point is at least `distance` from all lines.
+    fn is_free(&self, p: Point, distance: f64) -> bool {
+        let reach = (distance / self.spacing.pitch).ceil() as isize;
+        let [x, y] = self.tile(p);
+        let [columns, rows] = self.across.map(|n| n as isize);
+        for row in (y - reach).max(0)..=(y + reach).min(rows - 1) {
+            for column in (x - reach).max(0)..=(x + reach).min(columns - 1) {
+                let near = &self.tiles[(row * columns + column) as usize];
+                if near.iter().any(|q| (*q - p).hypot2() < distance * distance) {
+                    return false;
+                }
+            }
+        }
+        true
+    }
+
+    fn put(&mut self, line: &[Point]) {
+        for p in line {
+            let [x, y] = self.tile(*p);
+            if x >= 0 && y >= 0 && (x as usize) < self.across[0] && (y as usize) < self.across[1] {
+                self.tiles[y as usize * self.across[0] + x as usize].push(*p);
+            }
+        }
+    }
+
+    fn is_ground(&self, p: Point) -> bool {
+        self.flow.at(self.facet, p).is_some() && (self.is_inked)(self.facet, p)
+    }
+
+    /// Grows lines at a distance until there is no room.
+    fn grow(&mut self, points: &[u32], distance: f64, doubling: u32) {
+        let mut queue: VecDeque<usize> = (0..self.lines.len()).collect();
+        let mut scanned = 0;
+        loop {
+            while let Some(line) = queue.pop_front() {
+                let every = (distance / 2.0 / (STEP_PX * self.spacing.px)).max(1.0) as usize;
+                let along = self.lines[line].0.clone();
+                for k in (0..along.len()).step_by(every) {
+                    let way = along[(k + 1).min(along.len() - 1)] - along[k.saturating_sub(1)];
+                    let long = norm(way);
+                    if long <= 0.0 {
+                        continue;
+                    }
+                    let across = Vec2::new(-way.y, way.x) / long * distance;
+                    for seed in [along[k] + across, along[k] - across] {
+                        self.seed(seed, distance, doubling, &mut queue);
+                    }
+                }
+            }
+            // What no line leads to: the next point of the lattice that is free.
+            let next = points[scanned..].iter().position(|k| {
+                let p = self.flow.samples().point(*k as usize);
+                self.is_ground(p) && self.is_free(p, distance)
+            });
+            let Some(next) = next else { return };
+            let p = self.flow.samples().point(points[scanned + next] as usize);
+            scanned += next + 1;
+            self.seed(p, distance, doubling, &mut queue);
+        }
+    }
+
+    /// Grows a line from a point, if there is room for it.
+    fn seed(&mut self, p: Point, distance: f64, doubling: u32, queue: &mut VecDeque<usize>) {
+        if !self.is_ground(p) || !self.is_free(p, distance * SEEDS) {
+            return;
+        }
+        let Some(way) = self.flow.at(self.facet, p) else { return };
+        let mut line = self.half(p, -way, distance, &[]);
+        line.reverse();
+        line.push(p);
+        let ahead = self.half(p, way, distance, &line);
+        line.extend(ahead);
+        let step = STEP_PX * self.spacing.px;
+        if (line.len() as f64 - 1.0) * step < (SHORTEST * self.spacing.pitch).max(2.0 * step) {
+            return;
+        }
+        self.put(&line);
+        queue.push_back(self.lines.len());
+        self.lines.push((line, doubling));
+    }
+
+    /// One half of a line: the points after its seed. `behind` is the other half.
+    fn half(&self, seed: Point, way: Vec2, distance: f64, behind: &[Point]) -> Vec<Point> {
+        let step = STEP_PX * self.spacing.px;
+        let nearest = distance * NEAREST;
+        let (mut p, mut way) = (seed, way);
+        let mut line: Vec<Point> = Vec::new();
+        // A line must not run into itself: far along it, but near on the page.
+        let far = (distance * 2.0 / step).ceil() as usize;
+        while line.len() < LONGEST {
+            let Some(middle) = self.flow.at(self.facet, p + way * (step / 2.0)) else { break };
+            let middle = if middle.dot(way) < 0.0 { -middle } else { middle };
+            if middle.dot(way) < TURN {
+                break;
+            }
+            let next = p + middle * step;
+            if !self.is_ground(next) || !self.is_free(next, nearest) {
+                break;
+            }
+            let own = &line[..line.len().saturating_sub(far)];
+            let other = if line.len() >= far {
+                behind
+            } else {
+                &behind[..behind.len().saturating_sub(far - line.len())]
+            };
+            if [own, other].iter().any(|part| part.iter().any(|q| (*q - next).hypot2() < nearest * nearest)) {
+                break;
+            }
+            p = next;
+            way = middle;
+            line.push(p);
+        }
+        line
+    }
+
+    /// The lines with their ranks; `area` is that which is hatched.
+    fn guides(self, area: f64) -> Vec<Guide> {
+        let Self { facet, spacing, lines, .. } = self;
+        let mut guides: Vec<(u32, u64, Guide, f64)> = lines
+            .into_iter()
+            .map(|(line, doubling)| {
+                // What is known of a line is where it began, within a px.
+                let place = line[line.len() / 2];
+                let steps = [place.x, place.y].map(|x| ((x / spacing.px).round() as i64).cast_unsigned());
+                let id = hash(spacing.seed, &[u64::from(facet), steps[0], steps[1]]);
+                let length = arcs(&line).last().copied().unwrap_or_default();
+                let guide = Guide { line, rank: 0.0, id, scope: Scope::Facet(facet), crowding: Vec::new() };
+                (doubling, hash(id, &[1]), guide, length)
+            })
+            .collect();
+        if spacing.doublings == 0 {
+            return guides.into_iter().map(|(_, _, guide, _)| guide).collect();
+        }
+        guides.sort_by_key(|(doubling, chance, ..)| (std::cmp::Reverse(*doubling), *chance));
+        let whole = (area / spacing.pitch).max(f64::MIN_POSITIVE);
+        let mut covered = 0.0;
+        for (.., guide, length) in &mut guides {
+            guide.rank = ((covered + *length / 2.0) / whole).min(1.0);
+            covered += *length;
+        }
+        guides.into_iter().map(|(_, _, guide, _)| guide).collect()
+    }
+}
+
+/// Seeds may be this much nearer to lines than lines are to each other, against rounding.
+const SEEDS: f64 = 0.98;

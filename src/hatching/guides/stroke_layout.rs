@@ -1,0 +1,371 @@
+//! Strokes laid along guides by a hand: broken, bowed, trembling, and cut at the borders of the tone.
+
+use kurbo::{Point, Vec2};
+
+use super::guide::{Guide, Scope};
+use crate::geometry::numbers::noise::{hash, smooth, unit};
+use crate::geometry::numbers::portable_math::tan;
+use crate::hatching::clip::line_clip::{between, norm, stretches};
+use crate::regions::Ground;
+
+/// A stroke of a hatching.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HatchStroke {
+    /// Its middle line, page units.
+    pub points: Vec<Point>,
+    /// The cell in which it begins.
+    pub cell: u32,
+    /// How hard the pen was pressed, 0 to 1.
+    pub pressure: f64,
+    /// What it is known by: guide, stroke, and piece of the stroke. The same in all drawings of the same
+    /// thing by the same hand.
+    pub id: u64,
+    /// The rank of its guide.
+    pub rank: f64,
+}
+
+/// How a hand lays strokes; lengths in page units.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Hand {
+    /// Length of a stroke; 0 = without break.
+    pub length: f64,
+    /// Between strokes of one line.
+    pub gap: f64,
+    /// How much length and place differ, 0 to 1.
+    pub uneven: f64,
+    /// How far strokes are from their line at most.
+    pub stray: f64,
+    /// By how much they are turned at most, radians.
+    pub turn: f64,
+    /// How far their middle bends away at most.
+    pub bow: f64,
+    /// How far lines tremble.
+    pub tremor: f64,
+    /// How much pressure differs, 0 to 1.
+    pub pressure: f64,
+    /// How far strokes run over borders.
+    pub overrun: f64,
+    /// How far they fall short of them.
+    pub short: f64,
+    /// How much that differs.
+    pub ragged: f64,
+    /// Shorter pieces are left out.
+    pub least: f64,
+    /// A CSS px.
+    pub px: f64,
+    /// The hand.
+    pub seed: u64,
+}
+
+/// Length of a wave of tremor, px.
+const TREMOR_PX: f64 = 24.0;
+
+/// Distance of points on a stroke that is not straight, px.
+const STEP_PX: f64 = 4.0;
+
+impl Hand {
+    /// Whether strokes are other than the guide itself.
+    fn is_plain(&self) -> bool {
+        self.length <= 0.0 && self.is_straight()
+    }
+
+    fn is_straight(&self) -> bool {
+        self.bow <= 0.0 && self.tremor <= 0.0
+    }
+
+    /// How far a point of a stroke may be from its guide.
+    fn reach(&self) -> f64 {
+        self.stray + self.bow + self.tremor + self.length * tan(self.turn.min(1.0))
+    }
+
+    /// Lays strokes along a guide where `density` of its cells asks for them: the part of all guides that is
+    /// wanted in each cell.
+    #[must_use]
+    pub fn lay(&self, guide: &Guide, ground: &Ground, density: &[f64]) -> Vec<HatchStroke> {
+        let in_scope = |cell: u32| match guide.scope {
+            Scope::Part(part) => {
+                let own = &ground.cells[cell as usize];
+                own.facet != 0 && own.look.part == part
+            }
+            Scope::Facet(facet) => ground.cells[cell as usize].facet == facet,
+        };
+        let asked = |cell: u32| if in_scope(cell) { density[cell as usize] } else { 0.0 };
+        let wanted = |cell: u32| asked(cell) > guide.rank;
+        let on_guide = stretches(ground, &guide.line, wanted);
+        if on_guide.is_empty() {
+            return Vec::new();
+        }
+        let mut out = Vec::new();
+        if self.is_plain() && guide.crowding.is_empty() {
+            for (piece, stretch) in on_guide.into_iter().enumerate() {
+                let points = between(&guide.line, stretch.from, stretch.to);
+                let id = hash(guide.id, &[0, piece as u64]);
+                out.extend(self.ended(points, stretch.cut, HatchStroke { id, ..blank(guide, stretch.cell) }));
+            }
+            return out;
+        }
+        let arcs = arcs(&guide.line);
+        let at_arc = |place: f64| {
+            let k = (place as usize).min(arcs.len() - 2);
+            arcs[k] + (arcs[k + 1] - arcs[k]) * (place - k as f64)
+        };
+        let reach = self.reach();
+        let spans: Vec<(f64, f64)> =
+            on_guide.iter().map(|s| (at_arc(s.from) - reach, at_arc(s.to) + reach)).collect();
+        for (number, (start, end)) in self.strokes(guide, *arcs.last().unwrap_or(&0.0), &spans) {
+            let id = hash(guide.id, &[number.cast_unsigned()]);
+            let points = self.drawn(guide, &arcs, start, end, id);
+            if points.len() < 2 {
+                continue;
+            }
+            let mut piece = 0;
+            for stretch in stretches(ground, &points, wanted) {
+                for (from, to) in
+                    uncrowded(guide, &arcs, &points, (start, end), stretch.from, stretch.to, |c| {
+                        asked(stretch.cell) > guide.rank * c
+                    })
+                {
+                    let cut = [stretch.cut[0] && from == stretch.from, stretch.cut[1] && to == stretch.to];
+                    let own = HatchStroke { id: hash(id, &[piece]), ..blank(guide, stretch.cell) };
+                    piece += 1;
+                    out.extend(self.ended(between(&points, from, to), cut, own));
+                }
+            }
+        }
+        out
+    }
+
+    /// Numbers and reach of the strokes of a guide that touch any of some spans.
+    fn strokes(&self, guide: &Guide, total: f64, spans: &[(f64, f64)]) -> Vec<(i64, (f64, f64))> {
+        if self.length <= 0.0 {
+            return vec![(0, (0.0, total))];
+        }
+        let period = self.length + self.gap;
+        let shift = unit(hash(guide.id, &[START])) * period;
+        let first = (-shift / period).floor() as i64 - 1;
+        let last = ((total - shift) / period).ceil() as i64 + 1;
+        let mut strokes = Vec::new();
+        for number in first..=last {
+            // Each end differs by itself, but for the gap both would share.
+            let end = |side: u64, n: i64| {
+                self.uneven * period * 0.5 * (unit(hash(guide.id, &[ENDS, side, n.cast_unsigned()])) - 0.5)
+            };
+            let middle = shift + number as f64 * period;
+            let start = (middle + end(0, number)).max(0.0);
+            let stop = (middle + self.length + end(1, number)).min(total);
+            if stop > start && spans.iter().any(|(a, b)| start < *b && stop > *a) {
+                strokes.push((number, (start, stop)));
+            }
+        }
+        strokes
+    }
+
+    /// The middle line of a stroke between two arc lengths of its guide.
+    fn drawn(&self, guide: &Guide, arcs: &[f64], start: f64, end: f64, id: u64) -> Vec<Point> {
+        let chance = |what: u64| 2.0 * unit(hash(self.seed, &[id, what])) - 1.0;
+        let (aside, turn) = (self.stray * chance(1), tan(self.turn.min(1.0)) * chance(2));
+        let bow = self.bow * chance(3);
+        let tremor = hash(self.seed, &[id, 4]);
+        let total = end - start;
+        let straight = guide.line.len() == 2 && self.is_straight();
+        let count =
+            if straight { 1 } else { (total / (STEP_PX * self.px)).ceil().clamp(2.0, 4000.0) as usize };
+        let mut k = 0;
+        (0..=count)
+            .map(|i| {
+                let t = i as f64 / count as f64;
+                let s = start + total * t;
+                while k + 2 < arcs.len() && arcs[k + 1] < s {
+                    k += 1;
+                }
+                let (a, b) = (guide.line[k], guide.line[k + 1]);
+                let way = b - a;
+                let long = arcs[k + 1] - arcs[k];
+                let p = a + way * if long > 0.0 { (s - arcs[k]) / long } else { 0.0 };
+                let across = if long > 0.0 { Vec2::new(-way.y, way.x) / long } else { Vec2::ZERO };
+                let waver = self.tremor * smooth(tremor, s / (TREMOR_PX * self.px));
+                let off = aside + turn * (s - start - total / 2.0) + bow * 4.0 * t * (1.0 - t) + waver;
+                p + across * off
+            })
+            .collect()
+    }
+
+    /// A piece of a stroke with these points, longer or shorter where it was cut at a border; `None` if
+    /// nothing is left of it.
+    fn ended(&self, mut points: Vec<Point>, cut: [bool; 2], stroke: HatchStroke) -> Option<HatchStroke> {
+        let chance = |what: u64| unit(hash(self.seed, &[stroke.id, what]));
+        for (end, is_cut) in cut.into_iter().enumerate() {
+            if is_cut {
+                lengthen(
+                    &mut points,
+                    end == 1,
+                    self.overrun - self.short - self.ragged * chance(5 + end as u64),
+                );
+            }
+        }
+        let is_long =
+            points.len() >= 2 && crate::hatching::clip::line_clip::length(&points) >= self.least.max(LEAST);
+        let pressure = 1.0 - self.pressure * chance(7);
+        is_long.then_some(HatchStroke { points, pressure, ..stroke })
+    }
+}
+
+/// A stroke of a guide without points.
+const fn blank(guide: &Guide, cell: u32) -> HatchStroke {
+    HatchStroke { points: Vec::new(), cell, pressure: 1.0, id: guide.id, rank: guide.rank }
+}
+
+/// Strokes of less length are none.
+const LEAST: f64 = 1e-6;
+
+/// What the seeds of a guide's strokes are for.
+const START: u64 = 0x5354_4152;
+const ENDS: u64 = 0x454e_4453;
+
+/// Arc length at each point.
+pub(crate) fn arcs(line: &[Point]) -> Vec<f64> {
+    let mut sum = 0.0;
+    let mut arcs = vec![0.0];
+    arcs.extend(line.windows(2).map(|pair| {
+        sum += norm(pair[1] - pair[0]);
+        sum
+    }));
+    arcs
+}
+
+/// The parts of a stretch of a stroke where its guide is wanted for all the guides beside it.
+fn uncrowded(
+    guide: &Guide,
+    arcs: &[f64],
+    points: &[Point],
+    (start, end): (f64, f64),
+    from: f64,
+    to: f64,
+    is_wanted: impl Fn(f64) -> bool,
+) -> Vec<(f64, f64)> {
+    if guide.crowding.is_empty() {
+        return vec![(from, to)];
+    }
+    let count = (points.len() - 1) as f64;
+    let crowding = |place: f64| {
+        let s = start + (end - start) * place / count;
+        let k = arcs.partition_point(|arc| *arc <= s).clamp(1, arcs.len() - 1) - 1;
+        let long = arcs[k + 1] - arcs[k];
+        let t = if long > 0.0 { ((s - arcs[k]) / long).clamp(0.0, 1.0) } else { 0.0 };
+        guide.crowding[k] + (guide.crowding[k + 1] - guide.crowding[k]) * t
+    };
+    // Crowding changes slowly: it is asked at the points, and the crossing found between them.
+    let mut places = vec![from];
+    places.extend((from.floor() as usize + 1..points.len()).map(|k| k as f64).take_while(|p| *p < to));
+    places.push(to);
+    let mut out: Vec<(f64, f64)> = Vec::new();
+    for pair in places.windows(2) {
+        let (mut a, mut b) = (pair[0], pair[1]);
+        match (is_wanted(crowding(a)), is_wanted(crowding(b))) {
+            (false, false) => continue,
+            (true, true) => {}
+            (starts, _) => {
+                let (mut low, mut high) = (a, b);
+                for _ in 0..HALVINGS {
+                    let middle = f64::midpoint(low, high);
+                    if is_wanted(crowding(middle)) == starts { low = middle } else { high = middle }
+                }
+                if starts { b = low } else { a = high }
+            }
+        }
+        match out.last_mut() {
+            Some(last) if last.1 == a => last.1 = b,
+            _ => out.push((a, b)),
+        }
+    }
+    out
+}
+
+/// Bisections that find where a stroke ends among others.
+const HALVINGS: usize = 12;
+
+/// Moves an end of a polyline on along its last direction, or back along itself.
+fn lengthen(points: &mut Vec<Point>, at_end: bool, by: f64) {
+    if by == 0.0 || points.len() < 2 {
+        return;
+    }
+    if !at_end {
+        points.reverse();
+    }
+    let n = points.len();
+    if by > 0.0 {
+        let way = points[n - 1] - points[n - 2];
+        let long = norm(way);
+        if long > 0.0 {
+            points[n - 1] += way / long * by;
+        }
+    } else {
+        let mut left = -by;
+        while points.len() >= 2 {
+            let n = points.len();
+            let way = points[n - 2] - points[n - 1];
+            let long = norm(way);
+            if long > left {
+                points[n - 1] += way / long * left;
+                break;
+            }
+            left -= long;
+            points.pop();
+        }
+    }
+    if !at_end {
+        points.reverse();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hatching::clip::line_clip::tests::two_squares;
+    use crate::mesh::PartId;
+
+    fn guide(rank: f64) -> Guide {
+        Guide {
+            line: vec![Point::new(-5.0, 4.0), Point::new(30.0, 4.0)],
+            rank,
+            id: 7,
+            scope: Scope::Part(PartId(0)),
+            crowding: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn darker_tones_keep_the_strokes_of_lighter_ones() {
+        let hand = Hand { px: 1.0, ..Hand::default() };
+        let ground = two_squares(false);
+        let ends = |rank: f64| {
+            let strokes = hand.lay(&guide(rank), &ground, &[0.0, 0.6, 0.3]);
+            strokes.iter().map(|s| (s.points[0].x, s.points[s.points.len() - 1].x)).collect::<Vec<_>>()
+        };
+        assert_eq!(ends(0.1), [(0.0, 20.0)]);
+        assert_eq!(ends(0.5), [(0.0, 10.0)]);
+        assert_eq!(ends(0.7), []);
+    }
+
+    #[test]
+    fn ends_fall_short_and_run_over() {
+        let ground = two_squares(true);
+        let hand = Hand { px: 1.0, overrun: 2.0, ..Hand::default() };
+        let strokes = hand.lay(&guide(0.0), &ground, &[0.0, 1.0, 0.0]);
+        assert_eq!((strokes[0].points[0].x, strokes[0].points[1].x), (-2.0, 12.0));
+        let hand = Hand { px: 1.0, short: 1.0, ..Hand::default() };
+        let strokes = hand.lay(&guide(0.0), &ground, &[0.0, 1.0, 0.0]);
+        assert_eq!((strokes[0].points[0].x, strokes[0].points[1].x), (1.0, 9.0));
+    }
+
+    #[test]
+    fn crowded_guides_make_room() {
+        let ground = two_squares(false);
+        let hand = Hand { px: 1.0, ..Hand::default() };
+        let crowded = Guide { crowding: vec![1.0, 8.0], ..guide(0.2) };
+        let strokes = hand.lay(&crowded, &ground, &[0.0, 0.6, 0.6]);
+        // Wanted while 0.2 times the crowding is below 0.6: up to 3, two sevenths of the way.
+        let end = strokes[0].points.last().expect("a point").x;
+        assert!((end - (-5.0 + 35.0 * 2.0 / 7.0)).abs() < 0.05, "{end}");
+    }
+}

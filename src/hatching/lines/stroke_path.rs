@@ -1,0 +1,140 @@
+//! Strokes of a hatching as marks: one compound path a facet and pressure, so that drawings stay small
+//! and a surface's hatching can be picked with one click.
+
+use kurbo::{BezPath, Point, Vec2};
+
+use crate::chains::fit::bezier_fit::{end_tangent, fit};
+use crate::drawing::Unit;
+use crate::hatching::clip::line_clip::norm;
+use crate::hatching::guides::stroke_layout::{HatchStroke, arcs};
+use crate::hatching::options::HatchLayer;
+
+/// How strokes are inked; lengths in page units.
+#[derive(Debug, Clone, Copy)]
+pub struct Nib {
+    /// Width of a stroke that is pressed hard.
+    pub width: f64,
+    /// How much of it is lost at the ends, 0 to 1.
+    pub taper: f64,
+    /// A CSS px.
+    pub px: f64,
+}
+
+/// Degrees of pressure: more could not be told apart.
+pub const PRESSURES: usize = 4;
+
+/// Length of a taper in widths of the stroke; strokes that are shorter taper to their middle.
+const TAPER_WIDTHS: f64 = 24.0;
+
+/// The mean width of a layer's strokes, as a part of that of one that is pressed hard.
+#[must_use]
+pub fn mean_width(layer: &HatchLayer, unit: Unit) -> f64 {
+    let [length, width] = [layer.length, layer.width].map(|length| length.in_unit(unit));
+    let tapered = if length > 0.0 { (2.0 * TAPER_WIDTHS * width / length).min(1.0) } else { 0.0 };
+    // The mean of 1 - taper (1 - x (2 - x)) over the way from the end, and of the degrees of pressure.
+    let pressed = if layer.pressure > 0.0 {
+        let share = |degree: usize| {
+            let (low, high) = (degree as f64 / PRESSURES as f64, pressure(degree));
+            (high.min(1.0) - low.max(1.0 - layer.pressure)).max(0.0) / layer.pressure
+        };
+        (0..PRESSURES).map(|degree| share(degree) * pressure(degree)).sum()
+    } else {
+        1.0
+    };
+    pressed * (1.0 - layer.taper * tapered / 3.0)
+}
+
+/// How far drawn curves may be from the strokes, px.
+const TOLERANCE_PX: f64 = 0.05;
+
+/// The degree of a stroke's pressure, 0 to [`PRESSURES`] - 1.
+#[must_use]
+pub fn degree(pressure: f64) -> usize {
+    ((pressure * PRESSURES as f64) as usize).min(PRESSURES - 1)
+}
+
+/// The pressure that a degree stands for.
+#[must_use]
+pub fn pressure(degree: usize) -> f64 {
+    (degree as f64 + 1.0) / PRESSURES as f64
+}
+
+/// Adds the middle line of a stroke to a path.
+pub fn add_line(stroke: &HatchStroke, px: f64, path: &mut BezPath) {
+    let points = &stroke.points;
+    path.move_to(points[0]);
+    add_curve(points, px, path);
+}
+
+/// Goes on from the first of some points through the others.
+fn add_curve(points: &[Point], px: f64, path: &mut BezPath) {
+    let n = points.len();
+    if n < 3 {
+        points[1..].iter().for_each(|p| path.line_to(*p));
+        return;
+    }
+    let start = end_tangent(|i| points[i], n);
+    let end = -end_tangent(|i| points[n - 1 - i], n);
+    fit(points, start, end, TOLERANCE_PX * px, path);
+}
+
+/// Adds the outline of a stroke whose width varies: that of its nib, or what `width` gives at its points. `tapers` says which
+/// of its ends taper.
+pub fn add_outline(
+    stroke: &HatchStroke,
+    nib: &Nib,
+    tapers: [bool; 2],
+    width: Option<&dyn Fn(Point) -> f64>,
+    path: &mut BezPath,
+) {
+    let points = dense(&stroke.points, nib, width.is_some());
+    let arcs = arcs(&points);
+    let n = points.len();
+    let total = arcs[n - 1];
+    let count = tapers.iter().filter(|tapers| **tapers).count();
+    let taper = (TAPER_WIDTHS * nib.width).min(total / count.max(1) as f64);
+    let from_end = |arc: f64| {
+        let ways = [arc, total - arc].into_iter().zip(tapers).filter(|(_, tapers)| *tapers);
+        ways.map(|(way, _)| way).fold(f64::INFINITY, f64::min)
+    };
+    let half = |i: usize| {
+        let own = width.map_or(nib.width, |width| width(points[i]));
+        let way = if taper > 0.0 { (from_end(arcs[i]) / taper).min(1.0) } else { 1.0 };
+        let kept = 1.0 - nib.taper * (1.0 - way * (2.0 - way));
+        own * kept / 2.0
+    };
+    let side = |sign: f64| -> Vec<Point> {
+        (0..n)
+            .map(|i| {
+                let way = points[(i + 1).min(n - 1)] - points[i.saturating_sub(1)];
+                let long = norm(way);
+                let across = if long > 0.0 { Vec2::new(way.y, -way.x) / long } else { Vec2::ZERO };
+                points[i] + across * (half(i) * sign)
+            })
+            .collect()
+    };
+    let (left, mut right) = (side(1.0), side(-1.0));
+    right.reverse();
+    path.move_to(left[0]);
+    add_curve(&left, nib.px, path);
+    if left[n - 1] != right[0] {
+        path.line_to(right[0]);
+    }
+    add_curve(&right, nib.px, path);
+    path.close_path();
+}
+
+/// Points near enough to each other that a width can follow them.
+fn dense(points: &[Point], nib: &Nib, swells: bool) -> Vec<Point> {
+    let step =
+        if swells { SWELL_PX * nib.px } else { crate::hatching::clip::line_clip::length(points) / 6.0 };
+    let mut out = vec![points[0]];
+    for pair in points.windows(2) {
+        let count = (norm(pair[1] - pair[0]) / step.max(nib.px * 0.5)).ceil().clamp(1.0, 1e5) as usize;
+        out.extend((1..=count).map(|k| pair[0].lerp(pair[1], k as f64 / count as f64)));
+    }
+    out
+}
+
+/// Distance of the points at which a swelling stroke asks for its width, px.
+const SWELL_PX: f64 = 3.0;

@@ -1,0 +1,257 @@
+//! Hatching: lines, dots and solid blacks that shade surfaces by tone; also patterns and paper.
+//!
+//! Source: Lake, Marshall, Harris and Blackstein, Stylized rendering techniques for scalable real-time 3D
+//! animation, 2000, section 3.3, with strokes in place of textures.
+//! 1. Each bin of light asks for a share of the paper ([`tone`]), which crossing layers divide
+//!    ([`layer_shares`]).
+//! 2. A layer of lines lays strokes along ranked guides, so darker tones keep the strokes of lighter ones
+//!    ([`guides`]). A layer of dots places half-tone or stipple dots ([`dots`]).
+//! 3. Both are clipped to the cells that they shade ([`clip`]) and become marks ([`lines`]).
+//!
+//! Files, in reading order: [`options`]; [`context`] names and colours; [`tone`]; [`layer_shares`];
+//! [`guides`]; [`clip`]; [`lines`]; [`dots`]; [`patterns`] over tones; [`paper`] sheet and grain.
+
+pub mod clip;
+mod context;
+pub mod dots;
+pub mod guides;
+mod layer_shares;
+pub mod lines;
+pub mod options;
+pub mod paper;
+pub mod patterns;
+pub mod tone;
+
+use std::sync::Arc;
+
+use crate::parallel::prelude::*;
+use kurbo::{BezPath, Point};
+
+pub use clip::polygon_clip::Filling;
+pub use context::HatchContext;
+pub use dots::halftone::{CellDots, DotScreen, ToneBorders, dots};
+pub use dots::stipple::{Stipple, stipple};
+pub use guides::direction_field::Flow;
+pub use guides::guide::{Guide, Scope};
+pub use guides::stroke_layout::{Hand, HatchStroke};
+pub use layer_shares::most_covered;
+pub use options::{Direction, HatchLayer, HatchOptions, Kind};
+pub use paper::grain::{Grain, Tooth, grain, speckle};
+pub use paper::sheet::{Paper, paper, tooth};
+pub use patterns::pattern_marks::{OnSurface, pattern};
+pub use patterns::pattern_options::{Pattern, PatternFixed, PatternKind};
+pub use patterns::tile::Tile;
+pub use tone::Tone;
+
+use crate::colour::srgb::Colour;
+use crate::drawing::{Layer, LayerKind, Length, Mark, Paint, Provenance};
+use crate::geometry::names::name_ids::identities;
+use crate::geometry::numbers::noise::hash;
+use crate::regions::{Ground, Look};
+use crate::strokes::Ink;
+use guides::streamlines::{Spacing, streamlines};
+use layer_shares::{Shares, shares};
+
+/// Strokes of one layer of hatching, as they lie on the page.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Hatched {
+    /// The strokes, in the order of their guides.
+    pub strokes: Vec<HatchStroke>,
+}
+
+/// The strokes of each layer that is made of lines; none for the others.
+#[must_use]
+pub fn strokes(ground: &Ground, context: &HatchContext, options: &HatchOptions) -> Vec<Hatched> {
+    let layers = options.layers.iter().enumerate();
+    layers
+        .map(|(number, layer)| {
+            if layer.kind != Kind::Lines {
+                return Hatched::default();
+            }
+            let shares = shares(ground, context, options, number);
+            let hand = hand(layer, context, number);
+            let guides = guides(ground, layer, number, context, &shares, hand.seed);
+            let laid: Vec<Vec<HatchStroke>> = guides
+                .par_iter()
+                .with_min_len(4)
+                .map(|guide| {
+                    hand.lay(guide, ground, if layer.swell { &shares.covered } else { &shares.density })
+                })
+                .collect();
+            Hatched { strokes: laid.into_iter().flatten().collect() }
+        })
+        .collect()
+}
+
+/// The layer `hatching` of a drawing; `None` if nothing is hatched. Spot blacks, given by their outlines and
+/// what is seen there, come first, in the colour of the first layer.
+#[must_use]
+pub fn fill(
+    ground: &Ground,
+    context: &HatchContext,
+    options: &HatchOptions,
+    blacks: Vec<(BezPath, Look)>,
+) -> Option<Layer> {
+    let hatched = strokes(ground, context, options);
+    let ink = options.layers.first().map_or(Ink::Fixed(Colour::BLACK), |layer| layer.colour);
+    let black = |(path, look): (BezPath, Look)| {
+        let paint = Paint::Fill(colour(ink, look, context));
+        Mark { path, paint, provenance: provenance(look, context) }
+    };
+    let mut marks: Vec<Mark> = blacks.into_iter().map(black).collect();
+    for (number, (layer, hatched)) in options.layers.iter().zip(&hatched).enumerate() {
+        match layer.kind {
+            Kind::Lines => {
+                marks.extend(lines::line_layer::lines(ground, context, options, number, layer, hatched))
+            }
+            Kind::Dots | Kind::Stipple => marks.extend(spots(ground, context, options, number, layer)),
+        }
+    }
+    (!marks.is_empty()).then_some(Layer { kind: LayerKind::Hatching, pen: None, ordered: false, marks })
+}
+
+/// The part of the paper that a layer covers at a point of a cell: as the light is there, or the bin.
+fn covered_at(ground: &Ground, context: &HatchContext, layer: &HatchLayer, cell: u32, p: Point) -> f64 {
+    let own = &ground.cells[cell as usize];
+    let Some(tone) = context.tones.get(own.look.paint.index()).or(context.tones.last()) else { return 0.0 };
+    let samples = context.samples.filter(|_| layer.graded);
+    match samples.and_then(|samples| samples.light(own.facet, p)) {
+        Some(light) => tone.of_light(light),
+        None => tone.of_bin(own.look.bin),
+    }
+}
+
+/// The marks of a layer of dots: one for each cell.
+fn spots(
+    ground: &Ground,
+    context: &HatchContext,
+    options: &HatchOptions,
+    number: usize,
+    layer: &HatchLayer,
+) -> Vec<Mark> {
+    let long = |length: Length| length.in_unit(context.unit);
+    let fullest: Vec<f64> =
+        options.layers.iter().map(|layer| layer_shares::fullest(layer, context.unit)).collect();
+    let inked = shares(ground, context, options, number);
+    let coverage = |cell: u32, p: Point| {
+        if inked.covered[cell as usize] <= 0.0 {
+            return 0.0;
+        }
+        let covered = covered_at(ground, context, layer, cell, p);
+        tone::shares(covered, &fullest).get(number).copied().unwrap_or_default()
+    };
+    let px = long(Length::px(1.0));
+    let seed = hash(context.seed, &[number as u64]);
+    let cells = if layer.kind == Kind::Dots {
+        let tone_borders = if layer.graded { ToneBorders::Whole } else { ToneBorders::Cut };
+        // The page's y points down, so that angles turn the other way.
+        let angle = -layer.angle.to_radians();
+        let screen = DotScreen { pitch: long(layer.pitch()), angle, origin: Point::ZERO, tone_borders, px };
+        dots(ground, &screen, &coverage)
+    } else {
+        let (radius, uneven) = (long(layer.width) / 2.0, layer.uneven);
+        stipple(ground, &Stipple { radius, uneven, rounds: ROUNDS, seed, px }, &coverage)
+    };
+    let mark = |dots: CellDots| {
+        let look = ground.cells[dots.cell as usize].look;
+        let mut colour = colour(layer.colour, look, context);
+        colour.a = (f64::from(colour.a) * layer.opacity).round() as u8;
+        Mark { path: dots.path, paint: Paint::Fill(colour), provenance: provenance(look, context) }
+    };
+    cells.into_iter().map(mark).collect()
+}
+
+/// Rounds of relaxing a stippling: enough to be even, too few to become a lattice.
+const ROUNDS: u32 = 8;
+
+/// Guides in the direction of a layer.
+fn guides(
+    ground: &Ground,
+    layer: &HatchLayer,
+    number: usize,
+    context: &HatchContext,
+    shares: &Shares,
+    seed: u64,
+) -> Vec<Guide> {
+    let wanted = |cell: u32| shares.covered[cell as usize] > 0.0;
+    let pitch = layer.pitch().in_unit(context.unit);
+    let [angle, turn] = [layer.angle, layer.turn_parts].map(f64::to_radians);
+    if let Some(fixed) = context.fixed.get(number).and_then(Option::as_ref) {
+        return fixed.clone();
+    }
+    let mut guides = match context.flows.get(number).and_then(Option::as_ref) {
+        Some(flow) => {
+            let samples = flow.samples();
+            let is_inked = |facet: u32, p: Point| {
+                samples
+                    .around(p)
+                    .iter()
+                    .any(|(k, _)| samples.facets[*k] == facet && wanted(samples.cells[*k]))
+            };
+            let doublings = if layer.swell { 0 } else { DOUBLINGS };
+            let px = Length::px(1.0).in_unit(context.unit);
+            streamlines(ground, flow, wanted, &is_inked, &Spacing { pitch, doublings, px, seed })
+        }
+        None => {
+            let names = identities(context.parts.iter().map(|name| &**name));
+            guides::guide::straight(ground, wanted, &names, angle, turn, pitch, seed)
+        }
+    };
+    if layer.swell {
+        // All lines are there; their width tells the tone.
+        guides.iter_mut().for_each(|guide| guide.rank = 0.0);
+    }
+    guides
+}
+
+/// The lightest tones have curved strokes four times as far from each other as the darkest.
+const DOUBLINGS: u32 = 2;
+
+/// How a layer's strokes are laid.
+fn hand(layer: &HatchLayer, context: &HatchContext, number: usize) -> Hand {
+    let long = |length: Length| length.in_unit(context.unit);
+    Hand {
+        length: long(layer.length),
+        gap: long(layer.gap),
+        uneven: layer.uneven,
+        stray: layer.stray * long(layer.pitch()),
+        turn: layer.turn.to_radians(),
+        bow: long(layer.bow),
+        tremor: long(layer.tremor),
+        pressure: layer.pressure,
+        overrun: long(layer.overrun),
+        short: long(layer.short),
+        ragged: long(layer.ragged),
+        least: long(layer.least),
+        px: long(Length::px(1.0)),
+        seed: hash(context.seed, &[number as u64]),
+    }
+}
+
+/// The colour of an ink on what looks so.
+fn colour(ink: Ink, look: Look, context: &HatchContext) -> Colour {
+    match ink {
+        Ink::Fixed(colour) => colour,
+        Ink::Shade(shade) => {
+            let material = context.materials.get(look.material.index()).map(|(_, base)| *base);
+            let base = context.paints.get(look.paint.index()).copied().or(material);
+            base.map_or(Colour::BLACK, |base| base.darker(shade))
+        }
+    }
+}
+
+/// The class and names of a mark on what looks so.
+fn provenance(look: Look, context: &HatchContext) -> Provenance {
+    let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
+    Provenance {
+        identity: 0,
+        places: Arc::default(),
+        classes: vec!["hatch"],
+        tone: None,
+        part: context.parts.get(look.part.index()).and_then(name),
+        material: context.materials.get(look.material.index()).and_then(|(text, _)| name(text)),
+        invisibility: 0,
+        note: None,
+        text: None,
+    }
+}

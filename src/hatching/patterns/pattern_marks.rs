@@ -1,0 +1,293 @@
+//! Patterns over tones: dots, lines, crosses and tiles, cut where their tone ends.
+//!
+//! Dots on the page are cut as those of half-tone screens are, lines as strokes are, other shapes as polygons: exactly, where they
+//! cross the borders of the ground.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use crate::parallel::prelude::*;
+use kurbo::{BezPath, Point, Vec2};
+
+use super::pattern_options::{Pattern, PatternKind};
+use super::pattern_shapes::{Shape, shown};
+use super::tile::Tile;
+use crate::drawing::{Cap, Join, Length, Mark, Paint, Provenance, StrokePaint};
+use crate::hatching::clip::domain::Domains;
+use crate::hatching::clip::line_clip::{between, stretches};
+use crate::hatching::dots::halftone::{DotScreen, ToneBorders, dots};
+use crate::hatching::guides::guide::{Guide, axes};
+use crate::hatching::{HatchContext, colour, provenance};
+use crate::mesh::{MaterialId, PartId};
+use crate::regions::surface_curves::decals::Decal;
+use crate::regions::{Ground, Look};
+
+/// Patterns of more lines, crosses or tiles than this are too fine to be seen, and are made coarser.
+const MOST: f64 = 2e5;
+
+/// The arms of a cross, as part of its square.
+const ARM: f64 = 0.3;
+
+/// What a pattern that is fixed to the surface is made of.
+#[derive(Debug, Clone)]
+pub enum OnSurface {
+    /// Lines and crosses.
+    Guides(Vec<Guide>),
+    /// Dots and tiles: as seen, and whether those of each figure are filled.
+    Decals(Vec<Decal>, Vec<bool>),
+}
+
+/// The marks of a pattern, one for each part, material and tone. `tones` says how many tones there are where something looks so;
+/// `fixed` is what is fixed to the surface.
+#[must_use]
+pub fn pattern(
+    ground: &Ground,
+    context: &HatchContext,
+    own: &Pattern,
+    tones: impl Fn(&Look) -> u16,
+    fixed: Option<&OnSurface>,
+) -> Vec<Mark> {
+    let wanted: Vec<bool> = ground
+        .cells
+        .iter()
+        .map(|cell| {
+            let name = context.materials.get(cell.look.material.index()).map_or("", |(name, _)| name);
+            cell.facet != 0 && own.is_for(name, cell.look.tone, tones(&cell.look))
+        })
+        .collect();
+    let Some([low, high]) = extent(ground, &wanted) else { return Vec::new() };
+    let long = |length: Length| length.in_unit(context.unit);
+    let size = long(own.size).max(((high.x - low.x) * (high.y - low.y) / MOST).sqrt());
+    let angle = own.angle.to_radians();
+    if let Some(OnSurface::Decals(decals, filled)) = fixed {
+        return on_surface(ground, context, own, &wanted, decals, filled);
+    }
+    if own.kind == PatternKind::Dots {
+        let radius = long(own.width) / 2.0 / size;
+        let covered = (PI * radius * radius).min(1.0);
+        let screen = DotScreen {
+            pitch: size,
+            angle: -angle,
+            origin: Point::ZERO,
+            tone_borders: ToneBorders::Cut,
+            px: long(Length::px(1.0)),
+        };
+        let coverage = |cell: u32, _: Point| if wanted[cell as usize] { covered } else { 0.0 };
+        let found = dots(ground, &screen, &coverage).into_iter();
+        return gathered(found.map(|dots| (dots.cell, dots.path)), ground, context, own, None);
+    }
+    let lines: Vec<Vec<Point>> = match fixed {
+        Some(OnSurface::Guides(guides)) => guides.iter().map(|guide| guide.line.clone()).collect(),
+        _ => on_page(own, size, angle, [low, high]),
+    };
+    let cut = |line: &Vec<Point>| cut_line(ground, line, |cell| wanted[cell as usize]);
+    let cut: Vec<Vec<(u32, BezPath)>> = lines.par_iter().with_min_len(16).map(cut).collect();
+    let mut marks = gathered(cut.into_iter().flatten(), ground, context, own, Some(long(own.width)));
+    if own.kind == PatternKind::Tile && !own.tile.shapes.is_empty() {
+        let domains = Domains::of_looks(ground, &wanted);
+        let shapes = Placing::new(size, angle, own.tile.height, [low, high]).shapes(&own.tile);
+        let cut = |rings: Vec<Vec<Point>>| shown(ground, &domains, |_| true, Shape { rings, whole: None });
+        let cut: Vec<Vec<(u32, BezPath)>> = shapes.into_par_iter().with_min_len(16).map(cut).collect();
+        marks.extend(gathered(cut.into_iter().flatten(), ground, context, own, None));
+    }
+    marks
+}
+
+/// What cells leave of a line.
+fn cut_line(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) -> Vec<(u32, BezPath)> {
+    let seen = stretches(ground, line, wanted);
+    seen.into_iter().map(|s| (s.cell, polyline(&between(line, s.from, s.to)))).collect()
+}
+
+/// The marks of figures on the surface: each on the facets on which it is seen.
+fn on_surface(
+    ground: &Ground,
+    context: &HatchContext,
+    own: &Pattern,
+    wanted: &[bool],
+    decals: &[Decal],
+    filled: &[bool],
+) -> Vec<Mark> {
+    let domains = Domains::of_facets(ground, wanted);
+    let mut first = vec![0; ground.facets as usize];
+    for (cell, known) in ground.cells.iter().enumerate().rev() {
+        first[known.facet as usize] = cell as u32;
+    }
+    let is_filled = |decal: &&Decal| filled.get(decal.figure as usize).copied().unwrap_or(false);
+    let shapes: Vec<Vec<(u32, BezPath)>> = decals
+        .par_iter()
+        .with_min_len(16)
+        .filter(is_filled)
+        .map(|decal| {
+            let whole = (own.kind == PatternKind::Dots).then(|| rounded(decal)).flatten();
+            let shape = Shape { rings: decal.lines.clone(), whole };
+            let seen = |facet: u32| decal.facets.binary_search(&facet).is_ok();
+            let shown = shown(ground, &domains, seen, shape);
+            shown.into_iter().map(|(facet, path)| (first[facet as usize], path)).collect()
+        })
+        .collect();
+    let lines: Vec<Vec<(u32, BezPath)>> = decals
+        .par_iter()
+        .with_min_len(16)
+        .filter(|decal| !is_filled(decal))
+        .map(|decal| {
+            let seen = |cell: u32| {
+                let facet = ground.cells[cell as usize].facet;
+                wanted[cell as usize] && decal.facets.binary_search(&facet).is_ok()
+            };
+            decal.lines.iter().flat_map(|line| cut_line(ground, line, seen)).collect()
+        })
+        .collect();
+    let width = own.width.in_unit(context.unit);
+    let mut marks = gathered(lines.into_iter().flatten(), ground, context, own, Some(width));
+    marks.extend(gathered(shapes.into_iter().flatten(), ground, context, own, None));
+    marks
+}
+
+/// A closed curve through the points of a dot.
+fn rounded(decal: &Decal) -> Option<BezPath> {
+    let [ring] = &decal.lines[..] else { return None };
+    let n = ring.len();
+    let at = |k: usize| ring[k % n];
+    let mut path = BezPath::new();
+    path.move_to(*ring.first()?);
+    // Quarters of it: from end to end, as far out as the point between them is.
+    for k in 0..4 {
+        let (a, b, c) = (at(k * n / 4), at((2 * k + 1) * n / 8), at((k + 1) * n / 4));
+        let bulge = (b - a.midpoint(c)) * (4.0 / 3.0);
+        let (from, to) = (a.lerp(c, QUARTER), c.lerp(a, QUARTER));
+        path.curve_to(from + bulge, to + bulge, c);
+    }
+    path.close_path();
+    Some(path)
+}
+
+/// Where along the chord of a quarter of a circle the handles of its curve are.
+const QUARTER: f64 = 0.276_142_374_915_397;
+
+/// The box around the wanted cells.
+fn extent(ground: &Ground, wanted: &[bool]) -> Option<[Point; 2]> {
+    let pieces = ground.pieces.iter().filter(|piece| piece.sides.iter().any(|cell| wanted[*cell as usize]));
+    let ends = pieces.flat_map(|piece| piece.ends);
+    ends.fold(None, |found: Option<[Point; 2]>, p| {
+        let [low, high] = found.unwrap_or([p, p]);
+        Some([Point::new(low.x.min(p.x), low.y.min(p.y)), Point::new(high.x.max(p.x), high.y.max(p.y))])
+    })
+}
+
+/// Where the squares of a pattern that is fixed to the page are, over a box of it.
+struct Placing {
+    size: f64,
+    along: Vec2,
+    across: Vec2,
+    height: f64,
+    columns: std::ops::RangeInclusive<i64>,
+    rows: std::ops::RangeInclusive<i64>,
+}
+
+impl Placing {
+    fn new(size: f64, angle: f64, height: f64, [low, high]: [Point; 2]) -> Self {
+        let [along, across] = axes(angle);
+        let corners = [low, Point::new(high.x, low.y), high, Point::new(low.x, high.y)].map(Point::to_vec2);
+        let range = |axis: Vec2, step: f64| {
+            let values = corners.map(|corner| corner.dot(axis) / step);
+            let least = values.into_iter().fold(f64::INFINITY, f64::min).floor() as i64;
+            least - 1..=values.into_iter().fold(f64::NEG_INFINITY, f64::max).ceil() as i64
+        };
+        let (columns, rows) = (range(along, size), range(across, size * height));
+        Self { size, along, across, height, columns, rows }
+    }
+
+    fn at(&self, x: f64, y: f64) -> Point {
+        ((self.along * x + self.across * y) * self.size).to_point()
+    }
+
+    /// The first corners of all squares: columns run along, rows across, which is down the page as in SVG.
+    fn cells(&self) -> impl Iterator<Item = [f64; 2]> {
+        let of_row =
+            move |row: i64| self.columns.clone().map(move |column| [column as f64, row as f64 * self.height]);
+        self.rows.clone().flat_map(of_row)
+    }
+
+    /// The shapes of all tiles.
+    fn shapes(&self, tile: &Tile) -> Vec<Vec<Vec<Point>>> {
+        let placed = |[x, y]: [f64; 2]| {
+            let point = move |p: &Point| self.at(x + p.x, y + p.y);
+            let rings = move |rings: &Vec<Vec<Point>>| {
+                rings.iter().map(|ring| ring.iter().map(point).collect()).collect::<Vec<_>>()
+            };
+            tile.shapes.iter().map(rings).collect::<Vec<_>>()
+        };
+        self.cells().flat_map(placed).collect()
+    }
+}
+
+/// The lines of a pattern that is fixed to the page, over a box of it.
+fn on_page(own: &Pattern, size: f64, angle: f64, corners: [Point; 2]) -> Vec<Vec<Point>> {
+    let height = if own.kind == PatternKind::Tile { own.tile.height } else { 1.0 };
+    if height <= 0.0 {
+        return Vec::new();
+    }
+    let placing = Placing::new(size, angle, height, corners);
+    let at = |x: f64, y: f64| placing.at(x, y);
+    let tile: Vec<Vec<Point>> = match own.kind {
+        PatternKind::Lines | PatternKind::Dots => {
+            let (from, to) = (*placing.columns.start() as f64, *placing.columns.end() as f64);
+            let rows = placing.rows.clone();
+            return rows.map(|row| vec![at(from, row as f64), at(to, row as f64)]).collect();
+        }
+        PatternKind::Crosses => {
+            let arm = |x: f64, y: f64| vec![Point::new(0.5 - x, 0.5 - y), Point::new(0.5 + x, 0.5 + y)];
+            vec![arm(ARM, 0.0), arm(0.0, ARM)]
+        }
+        PatternKind::Tile => own.tile.lines.clone(),
+    };
+    let placed = |[x, y]: [f64; 2]| {
+        tile.iter().map(move |line| line.iter().map(|p| at(x + p.x, y + p.y)).collect()).collect::<Vec<_>>()
+    };
+    placing.cells().flat_map(placed).collect()
+}
+
+fn polyline(points: &[Point]) -> BezPath {
+    let mut path = BezPath::new();
+    let mut points = points.iter();
+    if let Some(first) = points.next() {
+        path.move_to(*first);
+        points.for_each(|p| path.line_to(*p));
+    }
+    path
+}
+
+/// Paths in cells as marks; filled unless they have a width.
+fn gathered(
+    paths: impl Iterator<Item = (u32, BezPath)>,
+    ground: &Ground,
+    context: &HatchContext,
+    own: &Pattern,
+    width: Option<f64>,
+) -> Vec<Mark> {
+    let mut sets: BTreeMap<(PartId, MaterialId, u16), (Look, BezPath)> = BTreeMap::new();
+    for (cell, path) in paths {
+        let look = ground.cells[cell as usize].look;
+        let set = sets.entry((look.part, look.material, look.tone)).or_insert_with(|| (look, BezPath::new()));
+        set.1.extend(path);
+    }
+    let mark = |(look, path): (Look, BezPath)| {
+        let mut ink = colour(own.colour, look, context);
+        ink.a = (f64::from(ink.a) * own.opacity).round() as u8;
+        let paint = match width {
+            None => Paint::Fill(ink),
+            Some(width) => Paint::Stroke(StrokePaint {
+                width,
+                colour: ink,
+                cap: Cap::Butt,
+                join: Join::Round,
+                dash: Vec::new(),
+                dash_offset: 0.0,
+            }),
+        };
+        let provenance = Provenance { classes: vec!["pattern"], ..provenance(look, context) };
+        Mark { path, paint, provenance }
+    };
+    sets.into_values().map(mark).collect()
+}

@@ -1,0 +1,152 @@
+//! [`Pattern`]: what is laid over one tone of one material: a table `[[fills.pattern]]` of a style sheet.
+
+use std::path::PathBuf;
+
+use kurbo::BezPath;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
+
+use super::tile::Tile;
+use crate::colour::srgb::Colour;
+use crate::drawing::Length;
+use crate::geometry::names::glob::Glob;
+use crate::strokes::Ink;
+
+/// What a pattern is made of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PatternKind {
+    /// Round dots in rows.
+    #[default]
+    Dots,
+    /// Parallel lines.
+    Lines,
+    /// Small upright crosses in rows; fixed to the surface, lines that cross.
+    Crosses,
+    /// A tile of one's own: path data, an SVG file or a picture.
+    Tile,
+}
+
+/// What a pattern keeps its place on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PatternFixed {
+    /// The page: the same size everywhere, through which surfaces show.
+    #[default]
+    Page,
+    /// The surface: it turns and shrinks with it.
+    Surface,
+}
+
+/// A pattern over one tone of one material.
+///
+/// Source: Claes et al., Fast 3D cartoon rendering with improved quality by exploiting graphics hardware, 2001, section 3.4 and figure 5d:
+/// a texture in place of the colour of a tone.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Pattern {
+    /// Names of the materials it is for. Default: all.
+    pub material: Glob,
+    /// The tones it is for: 0 is the darkest, −1 the lightest; empty = all. Default: all.
+    pub tones: Vec<i32>,
+    /// What it is made of. Default: dots.
+    pub kind: PatternKind,
+    /// From one dot, line, cross or tile to the next. Default: 8 px.
+    #[serde(deserialize_with = "size")]
+    pub size: Length,
+    /// Width of lines, diameter of dots. Default: 1.5 px.
+    #[serde(deserialize_with = "size")]
+    pub width: Length,
+    /// Degrees that it is turned by, counter-clockwise. Default: 0.
+    pub angle: f64,
+    /// Its colour. Default: `#1a1a1a`.
+    #[serde(alias = "color")]
+    pub colour: Ink,
+    /// How opaque it is, 0 to 1. Default: 1.
+    #[serde(deserialize_with = "fraction")]
+    pub opacity: f64,
+    /// What it keeps its place on. Default: the page.
+    pub fixed: PatternFixed,
+    /// A tile as SVG path data in a square of side 10.
+    #[serde(deserialize_with = "tile")]
+    pub path: Option<BezPath>,
+    /// Whether the path is filled; else it is drawn as lines. Default: no.
+    pub fill: bool,
+    /// A tile as an SVG file, whose filled and stroked paths are taken.
+    pub file: Option<PathBuf>,
+    /// A tile as a PNG, JPEG or WebP picture, whose dark parts are traced.
+    pub image: Option<PathBuf>,
+    /// What is darker than this in the picture is drawn, 0 (white) to 1. Default: 0.5.
+    #[serde(deserialize_with = "fraction")]
+    pub level: f64,
+    /// Whether it is laid where no tones are painted, too.
+    #[serde(skip)]
+    pub unpainted: bool,
+    /// The tile itself, once it is read.
+    #[serde(skip)]
+    pub tile: Tile,
+}
+
+impl Default for Pattern {
+    fn default() -> Self {
+        Self {
+            material: Glob::new("*"),
+            tones: Vec::new(),
+            kind: PatternKind::Dots,
+            size: Length::px(8.0),
+            width: Length::px(1.5),
+            angle: 0.0,
+            colour: Ink::Fixed(Colour::rgb(0x1a, 0x1a, 0x1a)),
+            opacity: 1.0,
+            fixed: PatternFixed::Page,
+            path: None,
+            fill: false,
+            file: None,
+            image: None,
+            level: 0.5,
+            unpainted: false,
+            tile: Tile::default(),
+        }
+    }
+}
+
+impl Pattern {
+    /// Whether it is for a tone, 0 the darkest, of a material that has `count` of them.
+    #[must_use]
+    pub fn is_for(&self, material: &str, tone: u16, count: u16) -> bool {
+        let (tone, count) = (i32::from(tone), i32::from(count));
+        let of = |own: &i32| *own == tone || *own + count == tone;
+        self.material.matches(material) && (self.tones.is_empty() || self.tones.iter().any(of))
+    }
+}
+
+/// Path data of which a tile can be made.
+fn tile<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<BezPath>, D::Error> {
+    let text = String::deserialize(deserializer)?;
+    let wrong = |what: String| {
+        D::Error::custom(format!(
+            "the tile {what}; write SVG path data in a square of 10, such as \"M0 0L10 10\""
+        ))
+    };
+    let path = BezPath::from_svg(&text).map_err(|error| wrong(format!("is not a path ({error})")))?;
+    Tile::of_path(&path, None).map_err(wrong)?;
+    Ok(Some(path))
+}
+
+fn size<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Length, D::Error> {
+    let length = Length::deserialize(deserializer)?;
+    if length.value > 0.0 && length.value.is_finite() {
+        Ok(length)
+    } else {
+        Err(D::Error::custom("a pattern has a size above 0; write such as 8 or \"2mm\""))
+    }
+}
+
+fn fraction<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    let value = f64::deserialize(deserializer)?;
+    if (0.0..=1.0).contains(&value) {
+        Ok(value)
+    } else {
+        Err(D::Error::custom(format!("{value} is not a share; write a number from 0 to 1")))
+    }
+}

@@ -1,0 +1,78 @@
+//! Filled shapes of patterns, cut where their part of the page ends.
+
+use kurbo::{BezPath, Point, Shape as _};
+
+use crate::hatching::clip::domain::{BLANK, Domains, border};
+use crate::hatching::clip::polygon_clip::{box_of, reach, snip};
+use crate::regions::Ground;
+
+/// A filled shape on the page.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Shape {
+    /// Its outlines as polygons, filled by the nonzero rule.
+    pub rings: Vec<Vec<Point>>,
+    /// What is drawn where nothing cuts it, if that is not the polygons.
+    pub whole: Option<BezPath>,
+}
+
+impl Shape {
+    fn uncut(self) -> BezPath {
+        self.whole.unwrap_or_else(|| {
+            let mut path = BezPath::new();
+            for ring in &self.rings {
+                for (k, p) in ring.iter().enumerate() {
+                    if k == 0 { path.move_to(*p) } else { path.line_to(*p) }
+                }
+                path.close_path();
+            }
+            path
+        })
+    }
+}
+
+/// What domains leave of a shape. Only `wanted` ones count.
+pub(crate) fn shown(
+    ground: &Ground,
+    domains: &Domains,
+    wanted: impl Fn(u32) -> bool,
+    shape: Shape,
+) -> Vec<(u32, BezPath)> {
+    let Some(bounds) = box_of(&shape.rings) else { return Vec::new() };
+    let around = reach(bounds);
+    let own = |cell: u32| Some(domains.of(cell)).filter(|domain| *domain != BLANK && wanted(*domain));
+    let near: Vec<u32> = ground
+        .pieces_near(around.center(), around.width().max(around.height()) / 2.0)
+        .into_iter()
+        .filter(|number| {
+            let piece = &ground.pieces[*number as usize];
+            let [a, b] = piece.ends;
+            let [left, right] = piece.sides.map(own);
+            let apart = a.x.max(b.x) < around.x0
+                || a.x.min(b.x) > around.x1
+                || a.y.max(b.y) < around.y0
+                || a.y.min(b.y) > around.y1;
+            left != right && !apart
+        })
+        .collect();
+    if near.is_empty() {
+        let cell = shape.rings.first().and_then(|ring| ring.first()).map(|p| ground.cell_at(*p));
+        return cell.and_then(own).map(|domain| (domain, shape.uncut())).into_iter().collect();
+    }
+    let mut found: Vec<u32> =
+        near.iter().flat_map(|number| ground.pieces[*number as usize].sides).filter_map(own).collect();
+    found.sort_unstable();
+    found.dedup();
+    let turn = shape.clone().uncut().area();
+    let of = |domain: u32| {
+        let is_own = |cell: u32| own(cell) == Some(domain);
+        let edges: Vec<[Point; 2]> = near
+            .iter()
+            .filter_map(|number| Some(border(&ground.pieces[*number as usize], is_own)?.0))
+            .collect();
+        let path = snip(&shape.rings, &edges, |p| is_own(ground.cell_at(p)))?;
+        // Where shapes overlap, those that turn unlike would take each other out.
+        let is_turned = path.area() * turn < 0.0;
+        Some((domain, if is_turned { path.reverse_subpaths() } else { path }))
+    };
+    found.into_iter().filter_map(of).collect()
+}

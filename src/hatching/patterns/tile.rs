@@ -1,0 +1,237 @@
+//! [`Tile`]: what a pattern repeats: lines, and filled shapes.
+
+use kurbo::{BezPath, Point, Shape};
+
+use crate::colour::darkness_map::{Shades, Tracing};
+use crate::colour::pixel_picture::Picture;
+use crate::hatching::clip::polygon_clip::{Filling, united};
+
+/// A tile of a pattern, 1 wide; y runs down.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Tile {
+    /// Lines that are drawn with the pattern's width.
+    pub lines: Vec<Vec<Point>>,
+    /// Filled shapes: each an island and its holes, which turn the other way; all islands turn alike.
+    pub shapes: Vec<Vec<Vec<Point>>>,
+    /// How high it is.
+    pub height: f64,
+}
+
+/// Side of the square that the path of a tile is drawn in.
+const SIDE: f64 = 10.0;
+
+/// How far the lines of a tile may be from its curves, as part of its side; and filled shapes, which are larger.
+const FLAT: f64 = 0.002;
+const FLAT_SHAPE: f64 = 0.0005;
+
+/// Points of all lines and shapes of a tile.
+const MOST_POINTS: usize = 10_000;
+
+/// Pictures are traced with no more pixels than this.
+const MOST_PIXELS: usize = 1 << 18;
+
+/// How far the outlines of a picture may be off at first, pixels; twice as far until there are few enough points.
+const TOLERANCE: f64 = 0.1;
+
+/// Islands and holes of pictures with less area than this are left out, pixels.
+const SPECK: f64 = 1.5;
+
+impl Tile {
+    /// A tile of SVG path data in a square of side 10: of lines, or filled.
+    ///
+    /// # Errors
+    /// Says what is wrong with the path.
+    pub fn of_path(path: &BezPath, filling: Option<Filling>) -> Result<Self, String> {
+        if let Some(filling) = filling {
+            return Self::of_shapes(&[(path.clone(), filling)], [SIDE; 2]);
+        }
+        let mut lines = flattened(path, FLAT * SIDE, SIDE)?;
+        lines.iter_mut().flatten().for_each(|p| *p = Point::new(p.x / SIDE, p.y / SIDE));
+        Self { lines, shapes: Vec::new(), height: 1.0 }.checked()
+    }
+
+    /// A tile of filled shapes in a box from (0, 0) to a size.
+    ///
+    /// # Errors
+    /// Says what is wrong with them.
+    pub fn of_shapes(shapes: &[(BezPath, Filling)], [width, height]: [f64; 2]) -> Result<Self, String> {
+        if !(width > 0.0 && height > 0.0 && (1e-3..=1e3).contains(&(height / width))) {
+            return Err("has no size to repeat".to_owned());
+        }
+        let rings = |(path, filling): &(BezPath, Filling)| {
+            let mut rings = flattened(path, FLAT_SHAPE * width.min(height), width.max(height))?;
+            for ring in &mut rings {
+                ring.iter_mut().for_each(|p| *p = Point::new(p.x / width, p.y / width));
+                if ring.len() > 1 && ring.first() == ring.last() {
+                    ring.pop();
+                }
+            }
+            Ok((rings, *filling))
+        };
+        let shapes: Vec<(Vec<Vec<Point>>, Filling)> =
+            shapes.iter().map(rings).collect::<Result<_, String>>()?;
+        let count: usize = shapes.iter().flat_map(|(rings, _)| rings).map(Vec::len).sum();
+        if count > MOST_POINTS {
+            return Err("has too many curves".to_owned());
+        }
+        if shapes.iter().flat_map(|(rings, _)| rings).flatten().any(|p| !is_near(*p)) {
+            return Err(FAR.to_owned());
+        }
+        let rings = united(&shapes).unwrap_or_default();
+        if rings.is_empty() {
+            return Err("has no dark area".to_owned());
+        }
+        Self { lines: Vec::new(), shapes: islands(rings), height: height / width }.checked()
+    }
+
+    /// A tile of what is darker in a picture than a level, 0 to 1.
+    ///
+    /// # Errors
+    /// Says what is wrong with the picture.
+    pub fn of_picture(picture: &Picture, level: f64) -> Result<Self, String> {
+        let whole = Shades::of(picture);
+        let times = (MOST_PIXELS as f64 / (whole.width * whole.height) as f64).sqrt().min(1.0);
+        let [width, height] =
+            [whole.width, whole.height].map(|count| (count as f64 * times).floor() as usize);
+        let shades = whole.at_most(width, height);
+        let wide = shades.width as f64;
+        let mut tracing =
+            Tracing { level, scale: [1.0; 2], tolerance: TOLERANCE, speck: SPECK, repeats: true };
+        while tracing.tolerance < wide {
+            let rings = shades.outlines(&tracing).ok_or("has an outline with too many corners")?;
+            if rings.is_empty() {
+                return Err(format!("has nothing darker than {level}"));
+            }
+            if rings.iter().map(Vec::len).sum::<usize>() <= MOST_POINTS {
+                let place = |p: &Point| Point::new(p.x / wide, p.y / wide);
+                let rings = rings.iter().map(|ring| ring.iter().map(place).collect()).collect();
+                let height = shades.height as f64 / wide;
+                return Ok(Self { lines: Vec::new(), shapes: islands(rings), height });
+            }
+            (tracing.tolerance, tracing.speck) = (2.0 * tracing.tolerance, 4.0 * tracing.speck);
+        }
+        Err("has an outline with too many corners".to_owned())
+    }
+
+    fn checked(self) -> Result<Self, String> {
+        let points = || self.lines.iter().chain(self.shapes.iter().flatten()).flatten();
+        match points().count() {
+            1..=MOST_POINTS if points().all(|p| is_near(*p)) => Ok(self),
+            1..=MOST_POINTS => Err(FAR.to_owned()),
+            _ => Err("has no lines, or too many".to_owned()),
+        }
+    }
+}
+
+/// Control points of curves may be this many sizes of the tile away.
+const FARTHEST: f64 = 100.0;
+
+const FAR: &str = "extends far outside its square";
+
+fn is_near(p: Point) -> bool {
+    p.is_finite() && p.x.abs() <= SIDE && p.y.abs() <= SIDE
+}
+
+/// The lines of a path, each at least two points; an error if it is out of all proportion to the size of the tile.
+fn flattened(path: &BezPath, tolerance: f64, size: f64) -> Result<Vec<Vec<Point>>, String> {
+    let extent = path.control_box();
+    let far = [extent.x0, extent.y0, extent.x1, extent.y1].map(f64::abs).into_iter().fold(0.0, f64::max);
+    if !(path.is_finite() && far <= FARTHEST * size) {
+        return Err(FAR.to_owned());
+    }
+    let mut lines: Vec<Vec<Point>> = Vec::new();
+    kurbo::flatten(path, tolerance, |element| match element {
+        kurbo::PathEl::MoveTo(p) => lines.push(vec![p]),
+        kurbo::PathEl::LineTo(p) => lines.last_mut().into_iter().for_each(|line| line.push(p)),
+        kurbo::PathEl::ClosePath => lines.last_mut().into_iter().for_each(|line| line.push(line[0])),
+        kurbo::PathEl::QuadTo(..) | kurbo::PathEl::CurveTo(..) => {}
+    });
+    lines.retain(|line| line.len() > 1);
+    Ok(lines)
+}
+
+/// Rings as islands, each with the holes that lie in it.
+fn islands(rings: Vec<Vec<Point>>) -> Vec<Vec<Vec<Point>>> {
+    let path = |ring: &[Point]| {
+        let mut path = BezPath::new();
+        ring.iter().enumerate().for_each(|(k, p)| if k == 0 { path.move_to(*p) } else { path.line_to(*p) });
+        path.close_path();
+        path
+    };
+    let areas: Vec<f64> = rings.iter().map(|ring| path(ring).area()).collect();
+    // All islands together are larger than what is taken out of them.
+    let turn = areas.iter().sum::<f64>().signum();
+    let (outer, holes): (Vec<usize>, Vec<usize>) = (0..rings.len()).partition(|k| areas[*k] * turn > 0.0);
+    let outlines: Vec<BezPath> = outer.iter().map(|k| path(&rings[*k])).collect();
+    let mut islands: Vec<Vec<Vec<Point>>> = outer.iter().map(|k| vec![rings[*k].clone()]).collect();
+    for hole in holes {
+        // A place within the hole, beside its first side.
+        let Some(p) = within(&rings[hole], &path(&rings[hole])) else { continue };
+        let around = (0..outer.len()).filter(|k| outlines[*k].contains(p));
+        let least = around.min_by(|a, b| areas[outer[*a]].abs().total_cmp(&areas[outer[*b]].abs()));
+        if let Some(island) = least {
+            islands[island].push(rings[hole].clone());
+        }
+    }
+    islands
+}
+
+/// A point within a ring.
+fn within(ring: &[Point], path: &BezPath) -> Option<Point> {
+    let sides = (0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()]]);
+    let beside = sides.flat_map(|[a, b]| {
+        let across = (b - a) * 1e-3;
+        let across = kurbo::Vec2::new(-across.y, across.x);
+        [a.midpoint(b) + across, a.midpoint(b) - across]
+    });
+    beside.into_iter().find(|p| path.contains(*p))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::colour::srgb::Colour;
+
+    fn area(tile: &Tile) -> f64 {
+        let ring = |ring: &Vec<Point>| {
+            let next = |k: usize| ring[(k + 1) % ring.len()];
+            (0..ring.len()).map(|k| ring[k].to_vec2().cross(next(k).to_vec2())).sum::<f64>() / 2.0
+        };
+        tile.shapes.iter().flatten().map(ring).sum::<f64>().abs()
+    }
+
+    #[test]
+    fn shapes_that_overlap_are_one_and_holes_belong_to_their_islands() {
+        let path = |text: &str| BezPath::from_svg(text).unwrap();
+        // Two squares that overlap, turning unlike ways, and a frame with a square in it.
+        let shapes = [
+            (path("M0 0H4V4H0Z"), Filling::NonZero),
+            (path("M2 2V6H6V2Z"), Filling::NonZero),
+            (path("M10 10H18V18H10ZM12 12H16V16H12ZM13 13H15V15H13Z"), Filling::EvenOdd),
+        ];
+        let tile = Tile::of_shapes(&shapes, [20.0, 40.0]).unwrap();
+        let mut rings: Vec<usize> = tile.shapes.iter().map(Vec::len).collect();
+        rings.sort_unstable();
+        assert_eq!((rings, tile.height), (vec![1, 1, 2], 2.0));
+        assert!((area(&tile) * 400.0 - (28.0 + 48.0 + 4.0)).abs() < 1e-3, "{}", area(&tile) * 400.0);
+    }
+
+    #[test]
+    fn a_picture_is_traced_to_as_much_ink_as_it_has() {
+        let size = 48;
+        let shade = |k: usize| {
+            let [x, y] = [k % size, k / size].map(|v| v as f64 + 0.5 - 24.0);
+            let far = (x * x + y * y).sqrt();
+            let ink = (14.5 - far).clamp(0.0, 1.0).min((far - 5.5).clamp(0.0, 1.0));
+            let grey = (255.0 - 255.0 * ink).round() as u8;
+            Colour::rgb(grey, grey, grey)
+        };
+        let picture = Picture { width: size, height: size, pixels: (0..size * size).map(shade).collect() };
+        let tile = Tile::of_picture(&picture, 0.5).unwrap();
+        assert!(tile.shapes.len() == 1 && tile.shapes[0].len() == 2);
+        let wanted = std::f64::consts::PI * (14.0 * 14.0 - 6.0 * 6.0) / (48.0 * 48.0);
+        assert!((area(&tile) / wanted - 1.0).abs() < 0.01, "{} {wanted}", area(&tile));
+        let white = Picture { width: 2, height: 2, pixels: vec![Colour::WHITE; 4] };
+        assert!(Tile::of_picture(&white, 0.5).unwrap_err().contains("nothing darker"));
+    }
+}

@@ -1,0 +1,157 @@
+//! [`Affinity`]: the affine map that brings a picture nearest to where a set of points shows it.
+
+use glam::{DMat2, DVec2};
+
+use crate::images::facets::facet::Corner;
+
+/// An affine map from the page to the plane of a picture's texels, and back.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Affinity {
+    /// On the page, and the place seen there.
+    centre: [DVec2; 2],
+    place_from_page: DMat2,
+    page_from_place: DMat2,
+}
+
+impl Affinity {
+    /// Where a point of the page shows the picture.
+    pub fn place(&self, page: DVec2) -> DVec2 {
+        self.centre[1] + self.place_from_page * (page - self.centre[0])
+    }
+
+    /// The matrix from places to the page, and where the origin of the places comes to lie.
+    pub fn to_page(self) -> (DMat2, DVec2) {
+        (self.page_from_place, self.centre[0] - self.page_from_place * self.centre[1])
+    }
+
+    /// How far on the page a corner is from where the map brings its place, and how far off its place is.
+    pub fn miss(&self, corner: &Corner) -> (f64, f64) {
+        let off = corner.place - self.place(corner.image.truncate());
+        ((self.page_from_place * off).length(), off.length())
+    }
+}
+
+/// Sums over points, from which the map follows by least squares.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Sums {
+    origin: [DVec2; 2],
+    count: f64,
+    page: DVec2,
+    place: DVec2,
+    /// Of x², xy and y² on the page.
+    squares: [f64; 3],
+    /// Of x and of y times the place.
+    products: [DVec2; 2],
+}
+
+/// What is less wide than this many texels over all the points is of one colour along that way.
+const NARROW_TEXELS: f64 = 0.25;
+
+impl Sums {
+    /// Sums about a point, so that no digits are lost.
+    pub fn about(corner: &Corner) -> Self {
+        Self { origin: [corner.image.truncate(), corner.place], ..Self::default() }
+    }
+
+    pub fn add(&mut self, corner: &Corner) {
+        let (p, t) = (corner.image.truncate() - self.origin[0], corner.place - self.origin[1]);
+        self.count += 1.0;
+        self.page += p;
+        self.place += t;
+        self.squares.iter_mut().zip([p.x * p.x, p.x * p.y, p.y * p.y]).for_each(|(sum, own)| *sum += own);
+        self.products.iter_mut().zip([t * p.x, t * p.y]).for_each(|(sum, own)| *sum += own);
+    }
+
+    /// The map, if the points span an area on the page.
+    pub fn solved(&self) -> Option<Affinity> {
+        let (page, place) = (self.page / self.count, self.place / self.count);
+        let n = self.count;
+        let (xx, xy, yy) = (
+            self.squares[0] - n * page.x * page.x,
+            self.squares[1] - n * page.x * page.y,
+            self.squares[2] - n * page.y * page.y,
+        );
+        let whole = xx * yy - xy * xy;
+        if whole.is_nan() || whole <= (xx + yy).powi(2) * 1e-12 {
+            return None;
+        }
+        let [x, y] = [self.products[0] - place * (n * page.x), self.products[1] - place * (n * page.y)];
+        let found = DMat2::from_cols((x * yy - y * xy) / whole, (y * xx - x * xy) / whole);
+        let extent = ((xx + yy) / n).sqrt() * 2.0;
+        let place_from_page = widened(found, NARROW_TEXELS / extent);
+        let inverse = place_from_page.inverse();
+        let centre = [page + self.origin[0], place + self.origin[1]];
+        inverse.is_finite().then_some(Affinity { centre, place_from_page, page_from_place: inverse })
+    }
+}
+
+/// A matrix that stretches nothing by less than `least`, in whichever direction.
+fn widened(matrix: DMat2, least: f64) -> DMat2 {
+    // The sum of a turn with a stretch and of a mirrored one: their sizes are half the sum and half the difference of the two
+    // singular values.
+    let [[a, b], [c, d]] = matrix.transpose().to_cols_array_2d();
+    let (e, h, f, g) = ((a + d) / 2.0, (c - b) / 2.0, (a - d) / 2.0, (c + b) / 2.0);
+    let (turned, mirrored) = ((e * e + h * h).sqrt(), (f * f + g * g).sqrt());
+    let (large, small) = (turned + mirrored, turned - mirrored);
+    if small.abs() >= least {
+        return matrix;
+    }
+    let (large, small) = (large.max(least), least.copysign(small));
+    let (new_turned, new_mirrored) = (f64::midpoint(large, small), (large - small) / 2.0);
+    let (e, h) =
+        if turned > 0.0 { (e * new_turned / turned, h * new_turned / turned) } else { (new_turned, 0.0) };
+    let (f, g) = if mirrored > 0.0 {
+        (f * new_mirrored / mirrored, g * new_mirrored / mirrored)
+    } else {
+        (new_mirrored, 0.0)
+    };
+    DMat2::from_cols_array_2d(&[[e + f, h + g], [g - h, e - f]])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn corner(x: f64, y: f64, u: f64, v: f64) -> Corner {
+        Corner { image: DVec2::new(x, y).extend(1.0), place: DVec2::new(u, v) }
+    }
+
+    fn solved(corners: &[Corner]) -> Option<Affinity> {
+        let mut sums = Sums::about(&corners[0]);
+        corners.iter().for_each(|corner| sums.add(corner));
+        sums.solved()
+    }
+
+    #[test]
+    fn affine_maps_are_found_exactly() {
+        let affine = |x: f64, y: f64| corner(x, y, 2.0 * x - y + 700.0, 0.5 * y + x - 3.0);
+        let map =
+            solved(&[affine(1.0, 2.0), affine(30.0, -4.0), affine(9.0, 50.0), affine(3.0, 3.0)]).unwrap();
+        let (page, off) = map.miss(&affine(500.0, 77.0));
+        assert!(page < 1e-9 && off < 1e-9, "{page} {off}");
+        let (matrix, origin) = map.to_page();
+        let there = matrix * DVec2::new(701.0, -1.5) + origin;
+        assert!((there - DVec2::new(1.0, 1.0)).length() < 1e-9, "{there}");
+    }
+
+    #[test]
+    fn pictures_squeezed_to_a_line_are_widened() {
+        let line = |x: f64, y: f64| corner(x, y, 5.0 + x, 7.0);
+        let corners = [line(0.0, 0.0), line(10.0, 0.0), line(0.0, 10.0)];
+        let map = solved(&corners).unwrap();
+        let (matrix, _) = map.to_page();
+        assert!(matrix.is_finite() && matrix.determinant() != 0.0);
+        assert!(corners.iter().all(|corner| map.miss(corner).1 < 0.3));
+        assert!((map.place(DVec2::new(4.0, 0.0)).x - 9.0).abs() < 0.1);
+        assert!(solved(&[line(0.0, 0.0), line(1.0, 1.0), line(2.0, 2.0)]).is_none());
+    }
+
+    #[test]
+    fn widening_leaves_the_wide_way_alone() {
+        let wide = widened(DMat2::from_cols_array(&[3.0, 0.0, 0.0, 0.001]), 0.5);
+        assert!((wide.x_axis - DVec2::new(3.0, 0.0)).length() < 1e-12);
+        assert!((wide.y_axis - DVec2::new(0.0, 0.5)).length() < 1e-12, "{wide}");
+        let mirrored = widened(DMat2::from_cols_array(&[0.0, 2.0, 0.01, 0.0]), 0.1);
+        assert!((mirrored.y_axis.length() - 0.1).abs() < 1e-12 && mirrored.determinant() < 0.0);
+    }
+}

@@ -1,0 +1,66 @@
+//! The order in which clusters are painted, so that each covers those behind it.
+
+use super::facet_cluster::Cluster;
+use crate::images::facets::facet::Facet;
+use crate::images::facets::visible_faces::{SAME_NEARNESS, inside, pixel_of};
+use crate::view::raster::{Screen, painter_order};
+
+/// The order in which clusters are painted.
+pub(crate) struct Order {
+    /// The numbers of all clusters, the farthest first where it makes no difference.
+    pub numbers: Vec<u32>,
+    /// The clusters that cover others and are covered by them in turn, by their numbers, so that no order is right for them.
+    pub in_turn: Vec<u32>,
+}
+
+/// The order that paints what is in front.
+pub(crate) fn back_to_front(screen: &Screen, facets: &[Facet], clusters: &[Cluster]) -> Order {
+    const NOTHING: (f32, u32) = (f32::NEG_INFINITY, u32::MAX);
+    let mut front: Vec<(f32, u32)> = vec![NOTHING; screen.columns * screen.rows];
+    let corners = |facet: u32| facets[facet as usize].corners.map(|corner| screen.point(corner.image));
+    let each = |call: &mut dyn FnMut(u32, usize, f32)| {
+        for (number, cluster) in clusters.iter().enumerate() {
+            for facet in &cluster.facets {
+                screen.cover(&corners(*facet), |pixel, near| call(number as u32, pixel, near));
+            }
+        }
+    };
+    each(&mut |cluster, pixel, near| {
+        if near > front[pixel].0 {
+            front[pixel] = (near, cluster);
+        }
+    });
+    let mut over: Vec<[u32; 2]> = Vec::new();
+    each(&mut |cluster, pixel, near| {
+        let (nearest, other) = front[pixel];
+        if other != cluster && nearest - near > SAME_NEARNESS && over.last() != Some(&[cluster, other]) {
+            over.push([cluster, other]);
+        }
+    });
+    for (number, cluster) in clusters.iter().enumerate() {
+        // Pieces of cut faces may lie between the middles of pixels.
+        let cut = cluster.facets.iter().filter(|facet| facets[**facet as usize].is_cut());
+        for point in cut.flat_map(|facet| inside(corners(*facet))) {
+            let (nearest, other) = pixel_of(screen, point).map_or(NOTHING, |pixel| front[pixel]);
+            if other as usize != number && nearest - point[2] > SAME_NEARNESS {
+                over.push([number as u32, other]);
+            }
+        }
+    }
+    over.sort_unstable();
+    over.dedup();
+    let middle = |facet: &u32| {
+        let [a, b, c] = corners(*facet).map(|corner| corner[2]);
+        ((a + b + c) / 3.0).max(0.0).to_bits()
+    };
+    let nearness: Vec<u32> =
+        clusters.iter().map(|cluster| cluster.facets.iter().map(middle).max().unwrap_or_default()).collect();
+    let numbers = painter_order::sorted(&nearness, &over);
+    let mut place = vec![0; clusters.len()];
+    numbers.iter().enumerate().for_each(|(at, number)| place[*number as usize] = at);
+    let against = over.iter().filter(|[below, above]| place[*below as usize] > place[*above as usize]);
+    let mut in_turn: Vec<u32> = against.flatten().copied().collect();
+    in_turn.sort_unstable();
+    in_turn.dedup();
+    Order { numbers, in_turn }
+}

@@ -1,0 +1,165 @@
+//! The outlines of clusters, a little wider than these, so that nothing shines through between neighbours.
+
+use kurbo::{BezPath, Point, Vec2};
+use rustc_hash::FxHashMap;
+
+use super::facet_cluster::{Cluster, Neighbours};
+use crate::geometry::numbers::portable_math::atan2;
+use crate::images::facets::facet::Facet;
+
+/// A loop of points loses those that lie no farther than this beside the way past them, px.
+const STRAIGHT_PX: f64 = 0.02;
+
+/// Corners reach no farther out than this many times as far as sides.
+const MOST_MITRE: f64 = 2.0;
+
+/// A loop of points, and of the side after each whether another face passes through there.
+type Ring = Vec<(Point, bool)>;
+
+/// The outline of a cluster, wider by `reach` on all sides at which no other face passes through, moved by `offset`; none if there is nothing of it.
+pub(crate) fn outline(
+    cluster: &Cluster,
+    facets: &[Facet],
+    neighbours: &Neighbours,
+    (reach, px): (f64, f64),
+    offset: Vec2,
+) -> Option<BezPath> {
+    let mut path = BezPath::new();
+    for ring in rings(cluster, facets, neighbours) {
+        let ring = straightened(&ring, STRAIGHT_PX * px);
+        if ring.len() < 3 {
+            continue;
+        }
+        let mut points = widened(&ring, reach).into_iter().map(|p| p + offset);
+        path.move_to(points.next()?);
+        points.for_each(|p| path.line_to(p));
+        path.close_path();
+    }
+    (!path.elements().is_empty()).then_some(path)
+}
+
+/// The loops around a cluster and around its holes, with the inside on the side to which x turns towards y.
+fn rings(cluster: &Cluster, facets: &[Facet], neighbours: &Neighbours) -> Vec<Ring> {
+    let mut own = cluster.facets.clone();
+    own.sort_unstable();
+    // Sides that lie between the cluster and others, by where they begin.
+    let mut sides: Vec<([u32; 2], [Point; 2], bool)> = Vec::new();
+    for facet in &own {
+        let there = &facets[*facet as usize];
+        let numbers = neighbours.corners[*facet as usize];
+        let turns = there.area2() >= 0.0;
+        for side in 0..3 {
+            if neighbours.beyond(*facet, side).is_some_and(|other| own.binary_search(&other).is_ok()) {
+                continue;
+            }
+            let next = (side + 1) % 3;
+            let [from, to] = if turns { [side, next] } else { [next, side] };
+            let at = |k: usize| {
+                let p = there.corners[k].image;
+                Point::new(p.x, p.y)
+            };
+            sides.push(([numbers[from], numbers[to]], [at(from), at(to)], there.is_wall(side)));
+        }
+    }
+    let mut begin: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
+    for (k, ([from, _], ..)) in sides.iter().enumerate() {
+        begin.entry(*from).or_default().push(k);
+    }
+    let mut done = vec![false; sides.len()];
+    let mut rings = Vec::new();
+    for first in 0..sides.len() {
+        let mut ring = Vec::new();
+        let mut next = (!done[first]).then_some(first);
+        while let Some(k) = next {
+            done[k] = true;
+            ring.push((sides[k].1[0], sides[k].2));
+            let back = sides[k].1[0] - sides[k].1[1];
+            // Where several begin, that one between which and the last the cluster lies.
+            let starts = begin.get(&sides[k].0[1]).into_iter().flatten().copied();
+            next = starts.filter(|k| !done[*k]).min_by(|a, b| {
+                let turn = |k: &usize| turned(back, sides[*k].1[1] - sides[*k].1[0]);
+                turn(a).total_cmp(&turn(b)).then(a.cmp(b))
+            });
+        }
+        if ring.len() > 2 {
+            rings.push(ring);
+        }
+    }
+    rings
+}
+
+/// The angle by which a way is turned from y towards x to be another one, from 0 to a whole turn.
+fn turned(from: Vec2, to: Vec2) -> f64 {
+    let angle = atan2(to.cross(from), to.dot(from));
+    if angle <= 0.0 { angle + std::f64::consts::TAU } else { angle }
+}
+
+/// A ring without points that lie on the way past them.
+fn straightened(ring: &[(Point, bool)], tolerance: f64) -> Ring {
+    let mut kept: Ring = Vec::with_capacity(ring.len());
+    for k in 0..ring.len() {
+        let (before, (at, wall), after) =
+            (*kept.last().unwrap_or(&ring[ring.len() - 1]), ring[k], ring[(k + 1) % ring.len()].0);
+        let way = after - before.0;
+        let beside = (at - before.0).cross(way).abs();
+        let along = (at - before.0).dot(way);
+        let is_between = along >= 0.0 && along <= way.hypot2() && before.1 == wall;
+        if !(is_between && beside <= tolerance * way.hypot2().sqrt()) {
+            kept.push((at, wall));
+        }
+    }
+    kept
+}
+
+/// A ring whose sides lie farther out by `reach`, but for those through which another face passes.
+fn widened(ring: &[(Point, bool)], reach: f64) -> Vec<Point> {
+    let count = ring.len();
+    let unit = |way: Vec2| {
+        let length = way.hypot2().sqrt();
+        if length > 0.0 { way / length } else { Vec2::ZERO }
+    };
+    // The inside lies to the left of the numbers, so that out is to the right.
+    let out = |k: usize| {
+        let way = unit(ring[(k + 1) % count].0 - ring[k].0);
+        Vec2::new(way.y, -way.x)
+    };
+    let mut wide = Vec::with_capacity(count);
+    for k in 0..count {
+        let (before, after) = ((k + count - 1) % count, k);
+        let (at, [first, second]) = (ring[k].0, [before, after].map(out));
+        match [ring[before].1, ring[after].1] {
+            [false, false] => {
+                let middle = unit(first + second);
+                let cosine = middle.dot(second);
+                let far = if cosine > 1.0 / MOST_MITRE { 1.0 / cosine } else { MOST_MITRE };
+                wide.push(at + if middle == Vec2::ZERO { second } else { middle * far } * reach);
+            }
+            // Out from the wall's end, not along it, so that nothing of it lies beyond the wall.
+            [true, false] => wide.extend([at, at + second * reach]),
+            [false, true] => wide.extend([at + first * reach, at]),
+            [true, true] => wide.push(at),
+        }
+    }
+    wide
+}
+
+#[cfg(test)]
+mod tests {
+    use kurbo::Shape;
+
+    use super::*;
+
+    #[test]
+    fn squares_lose_points_on_their_sides_and_grow() {
+        let at = |x: f64, y: f64| Point::new(x, y);
+        let ring = [at(0.0, 0.0), at(5.0, 0.001), at(10.0, 0.0), at(10.0, 10.0), at(0.0, 10.0)];
+        let ring = straightened(&ring.map(|p| (p, false)), 0.02);
+        assert_eq!(ring.len(), 4);
+        let wide = widened(&ring, 1.0);
+        let mut path = BezPath::new();
+        path.move_to(wide[0]);
+        wide[1..].iter().for_each(|p| path.line_to(*p));
+        path.close_path();
+        assert!((path.area().abs() - 144.0).abs() < 1e-9, "{}", path.to_svg());
+    }
+}

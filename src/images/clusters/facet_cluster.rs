@@ -1,0 +1,275 @@
+//! [`Cluster`]: facets side by side that one affine map, or one colour, is right for.
+
+use glam::{DVec2, DVec3};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::affine_fit::{Affinity, Sums};
+use crate::colour::srgb::Colour;
+use crate::images::facets::facet::{Corner, Facet};
+use crate::mesh::PartId;
+
+/// Facets side by side that one affine map, or one colour, is right for.
+#[derive(Debug, Clone)]
+pub(crate) struct Cluster {
+    /// By their numbers.
+    pub facets: Vec<u32>,
+    pub shows: Painted,
+    pub part: PartId,
+}
+
+impl Cluster {
+    /// Its area on the page.
+    pub fn area(&self, facets: &[Facet]) -> f64 {
+        self.facets.iter().map(|facet| facets[*facet as usize].area2().abs() / 2.0).sum()
+    }
+}
+
+/// What a cluster shows.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Painted {
+    /// The picture.
+    Picture(Affinity),
+    /// One colour.
+    Colour(Colour),
+}
+
+/// A place that is off by no more than this many texels is right, however large these are seen.
+const RIGHT_TEXELS: f64 = 0.02;
+
+/// A cluster has no more corners than this, so that checking them all again takes no time.
+const MOST_CORNERS: usize = 160;
+
+/// What of the facets beside it a facet may be gathered with.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Company {
+    /// All between which no other face passes.
+    All,
+    /// Those that the line of another face does not part from it, too.
+    Unparted,
+    /// None.
+    Alone,
+}
+
+/// Which facets share a side.
+pub(crate) struct Neighbours {
+    /// The facets beyond the three sides of each; [`NONE`] where there are none.
+    across: Vec<[u32; 3]>,
+    /// The number of each corner: equal where the same point is seen in the same place.
+    pub corners: Vec<[u32; 3]>,
+}
+
+/// No facet.
+const NONE: u32 = u32::MAX;
+
+impl Neighbours {
+    /// Two facets of one part are neighbours if they have two corners in common, and no other face passes between them.
+    pub fn of(facets: &[Facet]) -> Self {
+        let mut points: FxHashMap<[u64; 3], u32> = FxHashMap::default();
+        let mut point = |p: DVec3| {
+            let next = points.len() as u32;
+            *points.entry(p.to_array().map(f64::to_bits)).or_insert(next)
+        };
+        let corners: Vec<[u32; 3]> =
+            facets.iter().map(|facet| facet.corners.map(|corner| point(corner.image))).collect();
+        let mut across = vec![[NONE; 3]; facets.len()];
+        let mut open: FxHashMap<(PartId, [u32; 2]), (u32, usize)> = FxHashMap::default();
+        for (number, own) in corners.iter().enumerate() {
+            for side in (0..3).filter(|side| !facets[number].is_wall(*side)) {
+                let mut ends = [own[side], own[(side + 1) % 3]];
+                ends.sort_unstable();
+                let key = (facets[number].part, ends);
+                match open.remove(&key) {
+                    Some((other, beyond)) => {
+                        across[number][side] = other;
+                        across[other as usize][beyond] = number as u32;
+                    }
+                    None => {
+                        open.insert(key, (number as u32, side));
+                    }
+                }
+            }
+        }
+        Self { across, corners }
+    }
+
+    /// The facet beyond a side.
+    pub fn beyond(&self, facet: u32, side: usize) -> Option<u32> {
+        Some(self.across[facet as usize][side]).filter(|other| *other != NONE)
+    }
+
+    /// The facets beside one that it may be gathered with.
+    fn company<'a>(
+        &'a self,
+        facet: u32,
+        facets: &'a [Facet],
+        company: &'a [Company],
+    ) -> impl Iterator<Item = u32> + 'a {
+        let own = company[facet as usize];
+        (0..3).filter_map(move |side| {
+            let other = self.beyond(facet, side)?;
+            match own.max(company[other as usize]) {
+                Company::All => Some(other),
+                Company::Unparted => Some(other).filter(|_| !facets[facet as usize].is_parted(side)),
+                Company::Alone => None,
+            }
+        })
+    }
+}
+
+/// What a cluster must be.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fit {
+    /// How far beside its place, on the page, it may show the picture.
+    pub tolerance: f64,
+    /// How far its places may reach.
+    pub spans: [Option<f64>; 2],
+    /// How far beside its facets the map is to be right, too.
+    pub reach: f64,
+    /// Whether the view is in perspective.
+    pub perspective: bool,
+}
+
+/// Gathers facets into clusters, from the largest ones on, each with what it may be with.
+pub(crate) fn clusters(
+    facets: &[Facet],
+    neighbours: &Neighbours,
+    company: &[Company],
+    fit: &Fit,
+) -> Vec<Cluster> {
+    let beside = |facet: u32| neighbours.company(facet, facets, company);
+    let mut taken = vec![false; facets.len()];
+    let mut found = Vec::new();
+    let mut seeds: Vec<u32> = (0..facets.len() as u32).collect();
+    seeds.sort_by(|a, b| {
+        let area = |facet: &u32| facets[*facet as usize].area2().abs();
+        area(b).total_cmp(&area(a)).then(a.cmp(b))
+    });
+    for seed in seeds {
+        if taken[seed as usize] {
+            continue;
+        }
+        let facet = &facets[seed as usize];
+        let grown = match facet.colour {
+            Some(colour) => of_colour(facets, beside, seed, colour, &mut taken),
+            None => of_picture(facets, (neighbours, &beside), seed, fit, &mut taken),
+        };
+        found.extend(grown);
+    }
+    found
+}
+
+/// The cluster of one colour around a facet.
+fn of_colour<I: Iterator<Item = u32>>(
+    facets: &[Facet],
+    beside: impl Fn(u32) -> I,
+    seed: u32,
+    colour: Colour,
+    taken: &mut [bool],
+) -> Option<Cluster> {
+    let turn = facets[seed as usize].area2() > 0.0;
+    let part = facets[seed as usize].part;
+    taken[seed as usize] = true;
+    let mut own = vec![seed];
+    let mut next = 0;
+    while let Some(facet) = own.get(next).copied().filter(|_| own.len() < MOST_OF_COLOUR) {
+        next += 1;
+        for other in beside(facet) {
+            let there = &facets[other as usize];
+            let fits = there.colour == Some(colour) && (there.area2() > 0.0) == turn;
+            if fits && !std::mem::replace(&mut taken[other as usize], true) {
+                own.push(other);
+            }
+        }
+    }
+    Some(Cluster { facets: own, shows: Painted::Colour(colour), part })
+}
+
+/// A cluster of one colour has no more facets than this, so that what is in front of what can be told.
+const MOST_OF_COLOUR: usize = 2000;
+
+/// The cluster of one map around a facet; none if that cannot be seen.
+fn of_picture<I: Iterator<Item = u32>>(
+    facets: &[Facet],
+    (neighbours, beside): (&Neighbours, &impl Fn(u32) -> I),
+    seed: u32,
+    fit: &Fit,
+    taken: &mut [bool],
+) -> Option<Cluster> {
+    taken[seed as usize] = true;
+    let first = &facets[seed as usize];
+    let turn = first.area2() > 0.0;
+    let mut grown = Grown::new(first, neighbours.corners[seed as usize], fit);
+    let mut map = grown.sums.solved()?;
+    let mut own = vec![seed];
+    let mut asked: FxHashSet<u32> = FxHashSet::default();
+    let mut next = 0;
+    while let Some(facet) = own.get(next).copied() {
+        next += 1;
+        for other in beside(facet) {
+            let there = &facets[other as usize];
+            let fits = !taken[other as usize] && there.colour.is_none() && (there.area2() > 0.0) == turn;
+            if !fits || grown.corners.len() >= MOST_CORNERS || !asked.insert(other) {
+                continue;
+            }
+            let numbers = neighbours.corners[other as usize];
+            if let Some((wider, found)) = grown.with(there, numbers, fit) {
+                (grown, map) = (wider, found);
+                taken[other as usize] = true;
+                own.push(other);
+            }
+        }
+    }
+    Some(Cluster { facets: own, shows: Painted::Picture(map), part: first.part })
+}
+
+/// The corners of a cluster that grows.
+#[derive(Clone)]
+struct Grown {
+    sums: Sums,
+    corners: Vec<(u32, Corner)>,
+    low: DVec2,
+    high: DVec2,
+}
+
+impl Grown {
+    fn new(facet: &Facet, numbers: [u32; 3], fit: &Fit) -> Self {
+        let mut sums = Sums::about(&facet.corners[0]);
+        let around = facet.around(fit.reach, fit.perspective);
+        facet.corners.iter().chain(around.iter().flatten()).for_each(|corner| sums.add(corner));
+        let [low, high] = facet.places();
+        Self { sums, corners: numbers.into_iter().zip(facet.corners).collect(), low, high }
+    }
+
+    /// With one more facet, if it shows the same point in the same place where they touch, and a map is right for all.
+    fn with(&self, facet: &Facet, numbers: [u32; 3], fit: &Fit) -> Option<(Self, Affinity)> {
+        let mut wider = self.clone();
+        for (number, corner) in numbers.into_iter().zip(facet.corners) {
+            match self.corners.iter().find(|(known, _)| *known == number) {
+                Some((_, known)) if known.place == corner.place => {}
+                Some(_) => return None,
+                None => {
+                    wider.sums.add(&corner);
+                    wider.corners.push((number, corner));
+                    wider.low = wider.low.min(corner.place);
+                    wider.high = wider.high.max(corner.place);
+                }
+            }
+        }
+        let around = facet.around(fit.reach, fit.perspective);
+        around.iter().flatten().for_each(|corner| wider.sums.add(corner));
+        let wide = (wider.high - wider.low).to_array();
+        if wide
+            .into_iter()
+            .zip(fit.spans)
+            .any(|(wide, span)| span.is_some_and(|span| wide > span * 1.000_001))
+        {
+            return None;
+        }
+        let map = wider.sums.solved()?;
+        let is_right = |(_, corner): &(u32, Corner)| {
+            let (page, texels) = map.miss(corner);
+            page <= fit.tolerance || texels <= RIGHT_TEXELS
+        };
+        wider.corners.iter().all(is_right).then_some((wider, map))
+    }
+}

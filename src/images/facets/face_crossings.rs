@@ -1,0 +1,151 @@
+//! [`Crossings`]: where faces pass through others, and facets cut there.
+//!
+//! Of two facets that pass through each other neither covers the other. Cut where they meet, each half lies wholly before
+//! or wholly behind, and there is an order to paint them in.
+
+use glam::DVec2;
+use rustc_hash::FxHashMap;
+
+use super::facet::Facet;
+use crate::lines::{FeatureLines, LineKind};
+use crate::mesh::Mesh;
+use crate::view::{Frame, View};
+
+/// Nearer than this, px, a corner lies on a line.
+const ON_LINE_PX: f64 = 1e-4;
+
+/// Nothing is cut along a way through it shorter than this, px.
+const LEAST_CUT_PX: f64 = 0.05;
+
+/// No face is cut more often than this: what passes through so many others is beyond painting in an order.
+const MOST_CUTS: usize = 256;
+
+/// Where faces pass through others, on the page.
+#[derive(Debug, Default)]
+pub(crate) struct Crossings {
+    of_face: FxHashMap<u32, Vec<[DVec2; 2]>>,
+}
+
+impl Crossings {
+    /// The crossings among the lines of a view.
+    pub fn of(mesh: &Mesh, view: &View, lines: &FeatureLines) -> Self {
+        let mut of_face: FxHashMap<u32, Vec<[DVec2; 2]>> = FxHashMap::default();
+        for segment in lines.segments.iter().filter(|segment| segment.kind == LineKind::Intersection) {
+            let ends = segment.ends.map(|end| view.frame.image_from_local(lines.position(mesh, end)));
+            if ends.iter().all(|end| end.is_finite()) {
+                for face in segment.hosts {
+                    of_face.entry(face).or_default().push(ends.map(glam::DVec3::truncate));
+                }
+            }
+        }
+        Self { of_face }
+    }
+
+    /// A facet of a face, cut at the crossings of that.
+    pub(crate) fn cut(&self, face: u32, facet: Facet, frame: &Frame, px: f64) -> Vec<Facet> {
+        let mut pieces = vec![facet];
+        for ends in self.of_face.get(&face).into_iter().flatten().take(MOST_CUTS) {
+            pieces = pieces.into_iter().flat_map(|piece| cut_along(piece, *ends, frame, px)).collect();
+        }
+        pieces
+    }
+}
+
+/// A facet cut along the line through a way, if that passes through it.
+fn cut_along(facet: Facet, [from, to]: [DVec2; 2], frame: &Frame, px: f64) -> Vec<Facet> {
+    let length = (to - from).length();
+    let way = (to - from) / length;
+    // How far the corners lie along the line and beside it.
+    let line = Line { from, way, length, px };
+    let at = facet.corners.map(|corner| line.at(corner.image.truncate()));
+    if length.is_nan() || length <= 0.0 || !line.passes(at) {
+        return vec![facet];
+    }
+    let [before, behind] = [1.0, -1.0].map(|side| at.iter().filter(|at| at.y * side > 0.0).count());
+    let side = if before == 1 { 1.0 } else { -1.0 };
+    let alone = at.iter().position(|at| at.y * side > 0.0);
+    let Some(alone) = alone.filter(|_| before > 0 && behind > 0) else {
+        let along = (0..3).find(|k| at[*k].y == 0.0 && at[(k + 1) % 3].y == 0.0);
+        return along.map_or_else(|| vec![facet], |side| line.walled(&facet, side, frame));
+    };
+    // Turned so that the corner that is alone on its side is the first.
+    let (turned, at) = (facet.turned(alone), [0, 1, 2].map(|k| at[(alone + k) % 3].y));
+    let share = |to: usize| at[0] / (at[0] - at[to]);
+    // The facets that have the new side, and which of their sides that is.
+    let (mut pieces, sided) = if at[1] == 0.0 {
+        let [rest, tip] = turned.cut_on_page(2, 1.0 - share(2), frame);
+        (Vec::new(), [(rest, 1), (tip, 2)])
+    } else if at[2] == 0.0 {
+        let [tip, rest] = turned.cut_on_page(0, share(1), frame);
+        (Vec::new(), [(tip, 1), (rest, 2)])
+    } else {
+        // From a, b, c: first a, m, c and m, b, c; then the former on its side from c to a.
+        let [near, far] = turned.cut_on_page(0, share(1), frame);
+        let [rest, tip] = near.cut_on_page(2, 1.0 - share(2), frame);
+        (vec![far], [(rest, 1), (tip, 2)])
+    };
+    pieces.extend(sided.into_iter().flat_map(|(piece, side)| line.walled(&piece, side, frame)));
+    pieces
+}
+
+/// A line with a way on it.
+#[derive(Debug, Clone, Copy)]
+struct Line {
+    from: DVec2,
+    /// Of length 1.
+    way: DVec2,
+    /// How far the way leads.
+    length: f64,
+    px: f64,
+}
+
+impl Line {
+    /// How far a point lies along the line and beside it.
+    fn at(&self, p: DVec2) -> DVec2 {
+        let beside = self.way.perp_dot(p - self.from);
+        let beside = if beside.abs() <= ON_LINE_PX * self.px { 0.0 } else { beside };
+        DVec2::new(self.way.dot(p - self.from), beside)
+    }
+
+    /// Whether the way leads through a facet with corners there, or along a side of it.
+    fn passes(&self, corners: [DVec2; 3]) -> bool {
+        // Where along the line the facet begins and ends.
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for k in 0..3 {
+            let (a, b) = (corners[k], corners[(k + 1) % 3]);
+            if a.y == 0.0 {
+                (low, high) = (low.min(a.x), high.max(a.x));
+            }
+            if a.y * b.y < 0.0 {
+                let at = a.x + (b.x - a.x) * a.y / (a.y - b.y);
+                (low, high) = (low.min(at), high.max(at));
+            }
+        }
+        high.min(self.length) - low.max(0.0) > LEAST_CUT_PX * self.px
+    }
+
+    /// A facet parted at a side on the line, in as many pieces as tell which of it lies on the way.
+    fn walled(&self, facet: &Facet, side: usize, frame: &Frame) -> Vec<Facet> {
+        let [a, b] =
+            [side, (side + 1) % 3].map(|k| self.way.dot(facet.corners[k].image.truncate() - self.from));
+        let least = LEAST_CUT_PX * self.px;
+        let mut cuts: Vec<f64> = [0.0, self.length]
+            .into_iter()
+            .filter(|end| end - a.min(b) > least && a.max(b) - end > least)
+            .map(|end| (end - a) / (b - a))
+            .collect();
+        cuts.sort_by(f64::total_cmp);
+        let is_on_way = |from: f64, to: f64| {
+            let middle = a + (b - a) * f64::midpoint(from, to);
+            middle > 0.0 && middle < self.length
+        };
+        let (mut pieces, mut rest, mut begin) = (Vec::new(), facet.turned(side), 0.0);
+        for cut in cuts {
+            let [piece, next] = rest.cut_on_page(0, (cut - begin) / (1.0 - begin), frame);
+            pieces.push(piece.with_parted(0, is_on_way(begin, cut)));
+            (rest, begin) = (next, cut);
+        }
+        pieces.push(rest.with_parted(0, is_on_way(begin, 1.0)));
+        pieces
+    }
+}

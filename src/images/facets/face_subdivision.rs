@@ -1,0 +1,74 @@
+//! The facets of the faces of a view that show a picture.
+
+use glam::{DVec2, DVec3};
+
+use super::facet::{Corner, Facet};
+use super::image_context::Stage;
+use crate::mesh::FaceId;
+use crate::scene::textures::Imaged;
+use crate::view::Frame;
+
+/// How far one affine map may miss the true one in a facet, px; facets are put together again where that allows it.
+const FLAT_PX: f64 = 0.1;
+
+/// No facet is halved more often than this.
+const MOST_HALVINGS: u32 = 20;
+
+/// The facets of faces that show a picture and may be seen.
+pub(crate) fn facets(stage: &Stage, imaged: &Imaged) -> Vec<Facet> {
+    let Stage { mesh, view, screen, in_front, crossings, px, .. } = *stage;
+    let frame = &view.frame;
+    let mut facets = Vec::new();
+    let texels = imaged.texels();
+    let corners = |face: u32| -> Option<[DVec2; 3]> {
+        let uvs = mesh.corner_uvs.get(face as usize)?;
+        let [a, b, c] = uvs.map(|uv| texels.place(*mesh.uvs.get(uv as usize)?));
+        Some([a?, b?, c?])
+    };
+    let mut add = |face: u32, image: [DVec3; 3], places: [DVec2; 3]| {
+        let corners = [0, 1, 2].map(|k| Corner { image: image[k], place: places[k] });
+        let part = mesh.face_part[face as usize];
+        let facet = Facet::new(corners, part);
+        let pieces = crossings.cut(face, facet, frame, px);
+        let is_whole = pieces.len() == 1;
+        for piece in pieces {
+            if !is_whole && !in_front.piece(screen, face, piece.corners.map(|corner| corner.image)) {
+                continue;
+            }
+            halve(piece, frame, px, 0, &mut facets);
+        }
+    };
+    let shows = |face: u32| {
+        mesh.paint(FaceId(face)) == imaged.paint && !mesh.is_degenerate(FaceId(face)) && in_front.face(face)
+    };
+    for face in (0..mesh.triangles.len() as u32).filter(|face| shows(*face)) {
+        let image = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
+        if let Some(places) = corners(face).filter(|_| image.iter().all(|p| p.is_finite())) {
+            add(face, image, places);
+        }
+    }
+    for clipped in view.clipped.iter().filter(|clipped| shows(clipped.face.0)) {
+        let Some(places) = corners(clipped.face.0) else { continue };
+        let place = |p: DVec3| {
+            let weights = mesh.weights(clipped.face, frame.local_from_image(p));
+            places[0] * weights[0] + places[1] * weights[1] + places[2] * weights[2]
+        };
+        if clipped.points.iter().all(|p| p.is_finite()) {
+            add(clipped.face.0, clipped.points, clipped.points.map(place));
+        }
+    }
+    facets
+}
+
+/// Halves a facet until one affine map is right in all of it, and leaves out what is not on the page.
+fn halve(facet: Facet, frame: &Frame, px: f64, depth: u32, facets: &mut Vec<Facet>) {
+    if !facet.is_on(frame) {
+        return;
+    }
+    let (side, miss) = facet.miss();
+    if !frame.perspective || miss <= FLAT_PX * px || depth == MOST_HALVINGS {
+        facets.push(facet);
+        return;
+    }
+    facet.cut(side, 0.5, frame).into_iter().for_each(|half| halve(half, frame, px, depth + 1, facets));
+}

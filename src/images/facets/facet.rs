@@ -1,0 +1,224 @@
+//! [`Facet`]: a triangle that shows a picture, so small or so square on that one affine map brings the picture to the page.
+
+use glam::{DVec2, DVec3};
+
+use crate::mesh::PartId;
+use crate::view::Frame;
+
+/// A corner of a facet.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Corner {
+    /// Where it is seen, image space.
+    pub image: DVec3,
+    /// What it shows, in the plane of the texels.
+    pub place: DVec2,
+}
+
+/// A triangle that shows a picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Facet {
+    pub corners: [Corner; 3],
+    /// The part of the model it belongs to.
+    pub part: PartId,
+    /// The one colour that it shows, if it is one.
+    pub colour: Option<crate::colour::srgb::Colour>,
+    /// A bit for each side, from each corner to the next: whether it is parted there from what lies beyond.
+    parted: u8,
+    /// The same: whether another face passes through there.
+    walls: u8,
+}
+
+impl Facet {
+    /// Parted from nothing.
+    pub const fn new(corners: [Corner; 3], part: PartId) -> Self {
+        Self { corners, part, colour: None, parted: 0, walls: 0 }
+    }
+}
+
+impl Facet {
+    /// Twice its area on the page, positive where it turns from x to y.
+    pub fn area2(&self) -> f64 {
+        let [a, b, c] = self.corners.map(|corner| corner.image.truncate());
+        (b - a).perp_dot(c - a)
+    }
+
+    /// Four points `reach` beside its middle, and what would be seen there if it went on so: a narrow facet tells with its
+    /// corners alone little of what is seen beside it.
+    pub fn around(&self, reach: f64, perspective: bool) -> Option<[Corner; 4]> {
+        let [a, b, c] = self.corners;
+        let weight = |corner: &Corner| if perspective { corner.image.z } else { 1.0 };
+        let (qa, qb, qc) = (weight(&a), weight(&b), weight(&c));
+        // What is seen is a quotient of two numbers that are linear on the page.
+        let (nb, nc) = ((b.place - a.place) * qb, (c.place - a.place) * qc);
+        let [u, v] = [b, c].map(|corner| (corner.image - a.image).truncate());
+        let whole = u.perp_dot(v);
+        let (along_x, along_y) = (DVec2::new(v.y, -u.y) / whole, DVec2::new(-v.x, u.x) / whole);
+        let middle = (u + v) / 3.0;
+        let seen = |at: DVec2| {
+            let share = [along_x.x * at.x + along_y.x * at.y, along_x.y * at.x + along_y.y * at.y];
+            let q = qa + (qb - qa) * share[0] + (qc - qa) * share[1];
+            let n = nb * share[0] + nc * share[1];
+            let image = (a.image.truncate() + at).extend(q);
+            Corner { image, place: a.place + n / q }
+        };
+        let beside = [DVec2::X, -DVec2::X, DVec2::Y, -DVec2::Y].map(|way| seen(middle + way * reach));
+        beside.iter().all(|corner| corner.place.is_finite()).then_some(beside)
+    }
+
+    /// The least and the greatest place that it shows.
+    pub fn places(&self) -> [DVec2; 2] {
+        let [a, b, c] = self.corners.map(|corner| corner.place);
+        [a.min(b).min(c), a.max(b).max(c)]
+    }
+
+    /// The edges of the page that it lies beyond are none.
+    pub fn is_on(&self, frame: &Frame) -> bool {
+        let [a, b, c] = self.corners.map(|corner| corner.image.truncate());
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        high.x >= 0.0 && high.y >= 0.0 && low.x <= frame.width && low.y <= frame.height
+    }
+
+    /// Whether it passes through another face at a side.
+    pub fn is_wall(&self, side: usize) -> bool {
+        self.walls >> side & 1 == 1
+    }
+
+    /// Whether it is parted at any side.
+    pub fn is_cut(&self) -> bool {
+        self.parted != 0
+    }
+
+    /// Whether it is parted at a side from what lies beyond: by another face there or farther on along the line of that side.
+    pub fn is_parted(&self, side: usize) -> bool {
+        self.parted >> side & 1 == 1
+    }
+
+    /// Parted at a side, at which another face may pass through.
+    pub fn with_parted(self, side: usize, wall: bool) -> Self {
+        Self { parted: self.parted | 1 << side, walls: self.walls | u8::from(wall) << side, ..self }
+    }
+
+    /// The same, beginning with another corner.
+    pub fn turned(&self, first: usize) -> Self {
+        let turned = |bits: u8| (0..3).fold(0, |all, k| all | (bits >> ((first + k) % 3) & 1) << k);
+        let corners = [0, 1, 2].map(|k| self.corners[(first + k) % 3]);
+        Self { corners, parted: turned(self.parted), walls: turned(self.walls), ..*self }
+    }
+
+    /// What is left of it where a side is cut, on both sides of that: with the first corner of that side first, and its
+    /// second one second.
+    pub fn cut(&self, side: usize, share: f64, frame: &Frame) -> [Self; 2] {
+        let whole = self.turned(side);
+        let [a, b, c] = whole.corners;
+        let middle = between(a, b, share, frame);
+        let of = |corners, sides: u8| {
+            let (parted, walls) = (whole.parted & sides, whole.walls & sides);
+            Self { corners, parted, walls, ..whole }
+        };
+        [of([a, middle, c], 0b101), of([middle, b, c], 0b011)]
+    }
+
+    /// The same, with the share of the way along the side as it is seen on the page.
+    pub fn cut_on_page(&self, side: usize, share: f64, frame: &Frame) -> [Self; 2] {
+        if !frame.perspective {
+            return self.cut(side, share, frame);
+        }
+        let [a, b] = [side, (side + 1) % 3].map(|k| self.corners[k].image.z);
+        self.cut(side, share * b / ((1.0 - share) * a + share * b), frame)
+    }
+
+    /// Its longest side, and how far one affine map may miss the true one: as far as the page's midpoint of that side would be
+    /// from where the side's own midpoint is seen, if all of the facet's depth lay between its ends.
+    pub fn miss(&self) -> (usize, f64) {
+        let length = |side: usize| (self.corners[side].image - self.corners[(side + 1) % 3].image).truncate();
+        let (side, longest) = [0, 1, 2]
+            .map(|side| (side, length(side).length()))
+            .into_iter()
+            .fold((0, 0.0), |longest, own| if own.1 > longest.1 { own } else { longest });
+        let [a, b, c] = self.corners.map(|corner| corner.image.z);
+        let (far, near) = (a.min(b).min(c), a.max(b).max(c));
+        (side, longest * (near - far) / (2.0 * (near + far)).abs())
+    }
+}
+
+/// A point of a side in space, as seen.
+fn between(a: Corner, b: Corner, share: f64, frame: &Frame) -> Corner {
+    // From the same end in both facets that have the side.
+    let order =
+        |p: DVec3, q: DVec3| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)).then(p.z.total_cmp(&q.z)).is_gt();
+    let (a, b, share) = if order(a.image, b.image) { (b, a, 1.0 - share) } else { (a, b, share) };
+    let place = a.place.lerp(b.place, share);
+    if !frame.perspective {
+        return Corner { image: a.image.lerp(b.image, share), place };
+    }
+    let (wa, wb) = ((1.0 - share) / a.image.z, share / b.image.z);
+    let at = (a.image.truncate() * wa + b.image.truncate() * wb) / (wa + wb);
+    Corner { image: at.extend(1.0 / (wa + wb)), place }
+}
+
+/// Cuts facets where the picture is repeated after `spans` texels along x and along y, so that none is longer than that.
+/// What shows a repetition less than `least` user units wide is left out: there all of the picture is seen at once.
+pub(crate) fn cut_to_spans(
+    facets: Vec<Facet>,
+    spans: [Option<f64>; 2],
+    periods: [Option<f64>; 2],
+    least: f64,
+    frame: &Frame,
+) -> Vec<Facet> {
+    let mut open = facets;
+    open.reverse();
+    let mut done = Vec::with_capacity(open.len());
+    while let Some(facet) = open.pop() {
+        let [low, high] = facet.places();
+        let too_long = (0..2).find_map(|axis| {
+            let span = spans[axis].filter(|span| high[axis] - low[axis] > *span)?;
+            Some((axis, span))
+        });
+        let Some((axis, span)) = too_long else {
+            done.push(facet);
+            continue;
+        };
+        if !facet.is_on(frame) || shrinks(&facet, periods, least) {
+            continue;
+        }
+        let at = (f64::midpoint(low[axis], high[axis]) / span).round() * span;
+        // Where a multiple of the span lies within, it is cut there, elsewhere in the middle.
+        let at = if at > low[axis] && at < high[axis] { at } else { f64::midpoint(low[axis], high[axis]) };
+        let crosses = |side: &usize| {
+            let (a, b) = (facet.corners[*side].place[axis], facet.corners[(side + 1) % 3].place[axis]);
+            (a < at) != (b < at)
+        };
+        let length = |side: &usize| {
+            (facet.corners[*side].place[axis] - facet.corners[(side + 1) % 3].place[axis]).abs()
+        };
+        let longest = (0..3).filter(crosses).max_by(|a, b| length(a).total_cmp(&length(b)));
+        let Some(side) = longest.filter(|side| length(side) > 0.0) else {
+            done.push(facet);
+            continue;
+        };
+        let (a, b) = (facet.corners[side].place[axis], facet.corners[(side + 1) % 3].place[axis]);
+        open.extend(facet.cut(side, ((at - a) / (b - a)).clamp(0.01, 0.99), frame));
+        if done.len() + open.len() > MOST_FACETS {
+            break;
+        }
+    }
+    done
+}
+
+/// No picture is cut into more.
+const MOST_FACETS: usize = 1 << 19;
+
+/// Whether a repetition of the picture is less than so wide on a facet.
+fn shrinks(facet: &Facet, periods: [Option<f64>; 2], least: f64) -> bool {
+    let [a, b, c] = facet.corners;
+    let (p, q) = (b.place - a.place, c.place - a.place);
+    let whole = p.perp_dot(q);
+    let [on_page, along] = [b, c].map(|corner| (corner.image - a.image).truncate());
+    (0..2).any(|axis| {
+        let Some(period) = periods[axis] else { return false };
+        // How far on the page a step of a texel leads.
+        let step = if axis == 0 { (q.y, -p.y) } else { (-q.x, p.x) };
+        let way = (on_page * step.0 + along * step.1) / whole;
+        way.length() * period < least
+    })
+}

@@ -1,0 +1,105 @@
+//! Which faces may be seen: what all of a picture is painted on, and no more.
+
+use glam::DVec3;
+
+use crate::mesh::{FaceId, Mesh};
+use crate::view::raster::{FaceBuffer, Screen, ScreenPoint};
+
+/// Faces smaller than this, pixels of the buffer squared, may fall between the middles of its pixels.
+const SMALL: f32 = 6.0;
+
+/// Nearness, 0 to 1 over the whole depth of the view, that differs by less is equal: neighbours share the pixels along their sides.
+pub(crate) const SAME_NEARNESS: f32 = 1e-5;
+
+/// What of a view is in front.
+#[derive(Debug)]
+pub(crate) struct InFront {
+    buffer: FaceBuffer,
+    faces: Vec<bool>,
+}
+
+impl InFront {
+    /// What is in front on a screen, whose mesh is `mesh`, but that faces that hide nothing are degenerate there.
+    pub fn new(mesh: &Mesh, screen: &Screen) -> Self {
+        let buffer = FaceBuffer::of(screen, |face| !mesh.is_degenerate(FaceId(face)));
+        let mut faces = vec![false; mesh.triangles.len()];
+        for pixel in 0..buffer.columns * buffer.rows {
+            if let Some(face) = buffer.front(pixel) {
+                faces[face as usize] = true;
+            }
+        }
+        for (face, seen) in faces.iter_mut().enumerate() {
+            if !*seen && !mesh.is_degenerate(FaceId(face as u32)) {
+                let (corners, _) = screen.triangle(face);
+                *seen = is_small(&corners) && is_open(&buffer, screen, mean(&corners));
+            }
+        }
+        Self { buffer, faces }
+    }
+
+    /// Whether some of a face may be.
+    pub fn face(&self, face: u32) -> bool {
+        self.faces[face as usize]
+    }
+
+    /// Whether some of a piece of a face may be.
+    pub(crate) fn piece(&self, screen: &Screen, face: u32, corners: [DVec3; 3]) -> bool {
+        let corners = corners.map(|corner| screen.point(corner));
+        if !is_small(&corners) {
+            let mut seen = false;
+            screen.cover(&corners, |pixel, _| seen |= self.buffer.front(pixel) == Some(face));
+            return seen;
+        }
+        inside(corners).into_iter().any(|point| is_open(&self.buffer, screen, point))
+    }
+}
+
+/// The mean of points.
+fn mean(points: &[ScreenPoint]) -> ScreenPoint {
+    [0, 1, 2].map(|k| points.iter().map(|p| p[k]).sum::<f32>() / points.len() as f32)
+}
+
+/// The middle of a triangle, and the points halfway from there to its corners.
+pub(crate) fn inside(corners: [ScreenPoint; 3]) -> [ScreenPoint; 4] {
+    let middle = mean(&corners);
+    let [a, b, c] = corners.map(|corner| mean(&[corner, middle]));
+    [middle, a, b, c]
+}
+
+/// The pixel that a point lies in.
+pub(crate) fn pixel_of(screen: &Screen, [x, y, _]: ScreenPoint) -> Option<usize> {
+    let is_in = x >= 0.0 && y >= 0.0 && (x as usize) < screen.columns && (y as usize) < screen.rows;
+    is_in.then(|| y as usize * screen.columns + x as usize)
+}
+
+/// Whether a triangle is so small that it may fall between the middles of pixels.
+fn is_small([a, b, c]: &[ScreenPoint; 3]) -> bool {
+    let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+    area.abs() < SMALL
+}
+
+/// Whether none of the faces in front around a point is in front of it.
+fn is_open(buffer: &FaceBuffer, screen: &Screen, point: ScreenPoint) -> bool {
+    let Some(pixel) = pixel_of(screen, point) else { return false };
+    let (column, row) = (pixel % screen.columns, pixel / screen.columns);
+    let around = (row.saturating_sub(1)..=(row + 1).min(screen.rows - 1)).flat_map(|row| {
+        let columns = column.saturating_sub(1)..=(column + 1).min(screen.columns - 1);
+        columns.map(move |column| row * screen.columns + column)
+    });
+    let mut last = None;
+    !around
+        .filter_map(|pixel| buffer.front(pixel))
+        .any(|face| last.replace(face) != Some(face) && is_before(&screen.triangle(face as usize).0, point))
+}
+
+/// Whether a triangle lies in front of a point.
+fn is_before(corners: &[ScreenPoint; 3], [x, y, near]: ScreenPoint) -> bool {
+    let [a, b, c] = corners.map(|corner| corner.map(f64::from));
+    let cross = |p: [f64; 3], q: [f64; 3]| {
+        (q[0] - p[0]) * (f64::from(y) - p[1]) - (q[1] - p[1]) * (f64::from(x) - p[0])
+    };
+    let [of_a, of_b, of_c] = [cross(b, c), cross(c, a), cross(a, b)];
+    let whole = of_a + of_b + of_c;
+    let covers = [of_a, of_b, of_c].iter().all(|part| part * whole >= 0.0);
+    covers && (of_a * a[2] + of_b * b[2] + of_c * c[2]) / whole > f64::from(near + SAME_NEARNESS)
+}

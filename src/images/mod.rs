@@ -1,0 +1,196 @@
+//! Images of materials, as pieces of the page that show them.
+//!
+//! 1. Visible triangles with an image are cut where other faces pass through them, and until one affine map
+//!    per piece is accurate.
+//! 2. Pieces with the same map or colour are joined into clusters.
+//! 3. The clusters are sorted from back to front and get outlines with a small overlap.
+//! 4. The shown part of the image is resampled to the size in which it is seen.
+//!
+//! The clip path of the mark limits the result to the visible part of the surface.
+//! Files, in reading order: [`facets`] step 1; [`clusters`] steps 2 and 3; [`image_part`] step 4;
+//! [`tone_veils`] transparent layers that give an image its shading.
+
+mod clusters;
+pub(crate) mod facets;
+mod image_part;
+pub(crate) mod tone_veils;
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use crate::colour::pixel_picture::Picture;
+use crate::colour::srgb::Colour;
+use crate::drawing::{ImagePaint, ImagePiece, Shows};
+use crate::mesh::PartId;
+use crate::scene::textures::Imaged;
+use clusters::cluster_arrangement::{Arranged, MOST_PIECES, TOLERANCE_PX};
+use clusters::facet_cluster::{Cluster, Fit, Neighbours, Painted};
+use facets::facet::Facet;
+pub(crate) use facets::image_context::Stage;
+use image_part::{Mapped, Part};
+
+/// How far pieces reach under those beside them, px.
+const REACH_PX: f64 = 0.5;
+
+/// Repetitions of a picture that are less wide than this, px, are its mean colour.
+const LEAST_PERIOD_PX: f64 = 1.5;
+
+/// A picture that is repeated is put into the drawing so many pixels wide or high at most, or once.
+const MOST_SPAN: f64 = 1024.0;
+
+/// Pieces shorter than this, px, are shown in their mean colour.
+const FLAT_PIECE_PX: f64 = 2.5;
+
+/// This part of what is seen of a picture may be shown less finely than asked for.
+const COARSE_PART: f64 = 0.1;
+
+/// What becomes of a picture in a view.
+pub(crate) struct Pieces {
+    /// The pieces of each part of the model, by its number.
+    pub of_part: Vec<(PartId, ImagePaint)>,
+    /// How far beside its place it may be seen, px, if that is farther than usual, and how many pieces were left out.
+    pub coarse: Option<(f64, usize)>,
+}
+
+/// The pieces of a picture, whose colours are made others by `toned`; none if it is not seen.
+pub(crate) fn pictures(
+    stage: &Stage,
+    imaged: &Imaged,
+    toned: impl Fn(&mut Picture) + Copy,
+) -> Option<Pieces> {
+    let Stage { view, px, offset, .. } = *stage;
+    let facets = facets::face_subdivision::facets(stage, imaged);
+    let periods = imaged.texels().periods().map(|period| period.map(|count| count as f64));
+    let scale = (stage.samples * stretch(&facets, px)?).min(1.0);
+    let spans = periods.map(|period| {
+        let period = period?;
+        Some(period * (MOST_SPAN / (period * scale)).floor().max(1.0))
+    });
+    let mut facets = facets::facet::cut_to_spans(facets, spans, periods, LEAST_PERIOD_PX * px, &view.frame);
+    for facet in &mut facets {
+        let [low, high] = facet.places();
+        facet.colour = imaged.one_colour(low, high);
+    }
+    let neighbours = Neighbours::of(&facets);
+    let fit = Fit { tolerance: px, spans, reach: px, perspective: view.frame.perspective };
+    let Arranged { mut clusters, tolerance } =
+        clusters::cluster_arrangement::arranged(stage.screen, &facets, &neighbours, fit);
+    let too_many = clusters.len().saturating_sub(MOST_PIECES);
+    for cluster in &mut clusters {
+        if length(cluster, &facets) < FLAT_PIECE_PX * px {
+            cluster.shows = Painted::Colour(mean(imaged, cluster, &facets));
+        }
+    }
+    if too_many > 0 {
+        let mut areas: Vec<f64> = clusters.iter().map(|cluster| cluster.area(&facets)).collect();
+        areas.sort_by(|a, b| b.total_cmp(a));
+        let least = areas[MOST_PIECES];
+        clusters.retain(|cluster| cluster.area(&facets) > least);
+    }
+
+    let mut mapped = Vec::new();
+    let mut shown: Vec<(PartId, Made)> = Vec::new();
+    for cluster in &clusters {
+        let Some(outline) =
+            clusters::cluster_outline::outline(cluster, &facets, &neighbours, (REACH_PX * px, px), offset)
+        else {
+            continue;
+        };
+        let made = match cluster.shows {
+            Painted::Colour(colour) => Made::Flat(outline, colour),
+            Painted::Picture(map) => {
+                mapped.push(Mapped::new(outline, map, offset, periods));
+                Made::Mapped(mapped.len() - 1)
+            }
+        };
+        shown.push((cluster.part, made));
+    }
+    let part = Part::of(imaged, &mapped, scale, periods);
+    let one = |colour| {
+        let mut picture = Picture { width: 1, height: 1, pixels: vec![colour] };
+        toned(&mut picture);
+        picture.at(0, 0)
+    };
+    // Nothing but pieces of one colour shows none of it.
+    let nothing = Picture { width: 1, height: 1, pixels: vec![Colour::WHITE] };
+    let transform = |piece: &Mapped| part.as_ref().map(|part| part.transform(piece, offset));
+    shown.sort_by_key(|(part, _)| *part);
+    let mut of_part: Vec<(PartId, Vec<ImagePiece>)> = Vec::new();
+    for (owner, made) in shown {
+        let piece = match made {
+            Made::Flat(outline, colour) => ImagePiece { outline, shows: Shows::Colour(one(colour)) },
+            Made::Mapped(number) => match transform(&mapped[number]) {
+                Some(affine) => {
+                    ImagePiece { outline: mapped[number].outline.clone(), shows: Shows::Pixels(affine) }
+                }
+                None => continue,
+            },
+        };
+        match of_part.last_mut().filter(|(last, _)| *last == owner) {
+            Some((_, pieces)) => pieces.push(piece),
+            None => of_part.push((owner, vec![piece])),
+        }
+    }
+    let mut picture = part.map_or(nothing, |part| part.picture);
+    toned(&mut picture);
+    let picture = Arc::new(picture);
+    let with = |(part, pieces)| (part, ImagePaint { picture: Arc::clone(&picture), pieces });
+    let coarse = (tolerance > TOLERANCE_PX).then_some((tolerance, too_many));
+    Some(Pieces { of_part: of_part.into_iter().map(with).collect(), coarse })
+}
+
+/// A piece on its way.
+enum Made {
+    Flat(kurbo::BezPath, Colour),
+    /// By its number.
+    Mapped(usize),
+}
+
+/// The longer side of the box around a cluster.
+fn length(cluster: &Cluster, facets: &[Facet]) -> f64 {
+    let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let corners = cluster.facets.iter().flat_map(|facet| facets[*facet as usize].corners);
+    let (low, high) = corners.fold(none, |(low, high), corner| {
+        let at = corner.image.truncate();
+        (low.min(at), high.max(at))
+    });
+    (high - low).max_element()
+}
+
+/// The mean colour of a small cluster: that of the box around its places.
+fn mean(imaged: &Imaged, cluster: &Cluster, facets: &[Facet]) -> Colour {
+    let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    let places = cluster.facets.iter().flat_map(|facet| facets[*facet as usize].places());
+    let (low, high) = places.fold(none, |(low, high), p| (low.min(p), high.max(p)));
+    // No less than a texel, and no more than can be looked at.
+    let (middle, half) =
+        ((low + high) / 2.0, ((high - low) / 2.0).clamp(DVec2::splat(0.5), DVec2::splat(32.0)));
+    imaged.part(middle - half, middle + half, [1, 1]).at(0, 0)
+}
+
+/// How many px a texel is wide and high where that is most, in nearly all that is seen of a picture; none if nothing is.
+fn stretch(facets: &[Facet], px: f64) -> Option<f64> {
+    let of = |facet: &Facet| {
+        let [a, b, c] = facet.corners;
+        let (p, q) = (b.place - a.place, c.place - a.place);
+        let whole = p.perp_dot(q);
+        let (x, y) = ((b.image - a.image).truncate(), (c.image - a.image).truncate());
+        let (u, v): (DVec2, DVec2) = ((x * q.y - y * p.y) / whole, (y * p.x - x * q.x) / whole);
+        // The greater singular value of the matrix with these columns.
+        let (sum, turn) = (u.length_squared() + v.length_squared(), u.perp_dot(v));
+        let most = f64::midpoint(sum, (sum * sum - 4.0 * turn * turn).max(0.0).sqrt()).sqrt() / px;
+        most.is_finite().then_some((most, facet.area2().abs()))
+    };
+    if facets.is_empty() {
+        return None;
+    }
+    let mut stretches: Vec<(f64, f64)> = facets.iter().filter_map(of).collect();
+    stretches.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut left = stretches.iter().map(|(_, area)| area).sum::<f64>() * COARSE_PART;
+    let reaches = |(_, area): &&(f64, f64)| {
+        left -= area;
+        left <= 0.0
+    };
+    Some(stretches.iter().find(reaches).or(stretches.last()).map_or(1.0, |(most, _)| *most))
+}

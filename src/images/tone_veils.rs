@@ -1,0 +1,186 @@
+//! [`Shades`]: what lies over a picture where it is in another tone than the one that it is painted in.
+//!
+//! A drawing holds a picture once, in its lightest tone. Colours between black and white, painted over it with an opacity, make the
+//! other tones of it: where a tone leaves a part t of every channel, a veil of opacity 1 − t does so exactly, in whatever
+//! program shows it, which cannot be said of blending by multiplication. A tone that tints gets the veil that is right for the
+//! mean colour of the picture and for its contrast in the channel that loses most. Veils lie on each other, each
+//! over all darker tones, so that between two tones one border is seen, not two.
+
+use crate::colour::pixel_picture::Picture;
+use crate::colour::srgb::Colour;
+use crate::light::Shading;
+use crate::scene::Paint;
+use crate::scene::textures::Imaged;
+
+/// What lies over a picture.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Shades {
+    /// What the tone that the picture is painted in makes of the channels of a colour: a factor, and what is added.
+    tone: [[f64; 2]; 3],
+    /// Veils, to be painted first to last, and the tones that each lies over.
+    pub veils: Vec<(Colour, Vec<u16>)>,
+}
+
+/// What a tone makes of colours.
+#[derive(Debug, Clone, Copy)]
+struct Made {
+    /// Of the difference of two, channel by channel.
+    slope: [f64; 3],
+    /// Of the mean colour of the picture.
+    mean: [f64; 3],
+}
+
+/// A picture of less contrast than this is none: its tones stand for it.
+const LEAST_SLOPE: f64 = 0.02;
+
+/// A veil may miss its colour by this much to lie on those before.
+const SLACK: f64 = 0.012;
+
+impl Shades {
+    /// The veils for a picture; none if tones have colours of their own, whatever the picture.
+    pub fn of(shading: &Shading, paints: &[Paint], imaged: &Imaged) -> Option<Self> {
+        let channels = |paint: crate::mesh::PaintId| Some(paints.get(paint.index())?.colour.channels());
+        let probes = [channels(imaged.probes[0])?, channels(imaged.probes[1])?];
+        let mean = channels(imaged.paint)?;
+        let tones: Vec<Made> = (0..shading.tone_count(imaged.paint))
+            .map(|tone| {
+                let [dark, light] = imaged.probes.map(|probe| shading.colour(probe, tone).channels());
+                let slope = |c: usize| ((light[c] - dark[c]) / (probes[1][c] - probes[0][c])).max(0.0);
+                Made { slope: [0, 1, 2].map(slope), mean: shading.colour(imaged.paint, tone).channels() }
+            })
+            .collect();
+        Self::over(&tones, mean)
+    }
+
+    fn over(tones: &[Made], mean: [f64; 3]) -> Option<Self> {
+        let least = |made: &Made| made.slope.into_iter().fold(f64::INFINITY, f64::min);
+        let (lightest, lit) = tones.iter().enumerate().max_by(|a, b| least(a.1).total_cmp(&least(b.1)))?;
+        if least(lit) < LEAST_SLOPE {
+            return None;
+        }
+        let tone = [0, 1, 2].map(|c| [lit.slope[c], lit.mean[c] - lit.slope[c] * mean[c]]);
+        // How much of the picture each tone leaves, and what it adds.
+        let left = |made: &Made| {
+            let parts = [0, 1, 2].map(|c| made.slope[c] / lit.slope[c].max(LEAST_SLOPE));
+            let part = parts.into_iter().fold(1.0, f64::min);
+            let added = [0, 1, 2].map(|c| (made.mean[c] - part * lit.mean[c]).clamp(0.0, 1.0 - part));
+            (part, added)
+        };
+        let mut others: Vec<(u16, f64, [f64; 3])> = tones
+            .iter()
+            .enumerate()
+            .filter(|(tone, _)| *tone != lightest)
+            .map(|(tone, made)| (tone as u16, left(made).0, left(made).1))
+            .collect();
+        others.sort_by(|a, b| b.1.total_cmp(&a.1).then(b.0.cmp(&a.0)));
+        let mut veils: Vec<(Colour, Vec<u16>)> = Vec::new();
+        let mut alone: Vec<(Colour, Vec<u16>)> = Vec::new();
+        // What the veils so far leave, and what they add.
+        let (mut part, mut added) = (1.0, [0.0; 3]);
+        for (tone, own_part, own_added) in others {
+            let more = own_part / part;
+            let rest = [0, 1, 2].map(|c| own_added[c] - added[c] * more);
+            if rest.into_iter().any(|rest| rest < -SLACK || rest > 1.0 - more + SLACK) {
+                alone.extend(veil(own_part, own_added).map(|(veil, _, _)| (veil, vec![tone])));
+                continue;
+            }
+            // What is left is reckoned with the opacity as it is written, so that errors do not add up.
+            if let Some((veil, more, rest)) = veil(more, rest) {
+                part *= more;
+                added = [0, 1, 2].map(|c| added[c] * more + rest[c]);
+                veils.push((veil, Vec::new()));
+            }
+            let reached = veils.len();
+            veils.iter_mut().take(reached).for_each(|(_, tones)| tones.push(tone));
+        }
+        veils.extend(alone);
+        Some(Self { tone, veils })
+    }
+
+    /// Brings a picture into the tone that it is painted in.
+    pub fn tone(&self, picture: &mut Picture) {
+        let tables = self.tone.map(|[factor, added]| {
+            let of = |c: u8| ((f64::from(c) * factor + added * 255.0).round().clamp(0.0, 255.0)) as u8;
+            (0..=255).map(of).collect::<Vec<u8>>()
+        });
+        for pixel in &mut picture.pixels {
+            let [r, g, b] = &tables;
+            let of = |table: &[u8], c: u8| table.get(usize::from(c)).copied().unwrap_or(c);
+            *pixel = Colour { r: of(r, pixel.r), g: of(g, pixel.g), b: of(b, pixel.b), a: pixel.a };
+        }
+    }
+}
+
+/// The veil that leaves a part of what is below and adds so much, and what it leaves and adds as it is written; none if it cannot
+/// be seen.
+fn veil(part: f64, added: [f64; 3]) -> Option<(Colour, f64, [f64; 3])> {
+    let opacity = ((1.0 - part) * 255.0).round() / 255.0;
+    if opacity <= 0.0 {
+        return None;
+    }
+    let colour = Colour::from_channels(added.map(|added| added / opacity));
+    let added = colour.channels().map(|c| c * opacity);
+    Some((Colour { a: (opacity * 255.0).round() as u8, ..colour }, 1.0 - opacity, added))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is seen of a colour in a tone.
+    fn seen(shades: &Shades, colour: [f64; 3], tone: u16) -> [f64; 3] {
+        let below = [0, 1, 2].map(|c| colour[c] * shades.tone[c][0] + shades.tone[c][1]);
+        shades.veils.iter().filter(|(_, tones)| tones.contains(&tone)).fold(below, |below, (veil, _)| {
+            let opacity = f64::from(veil.a) / 255.0;
+            [0, 1, 2].map(|c| below[c] * (1.0 - opacity) + veil.channels()[c] * opacity)
+        })
+    }
+
+    const MEAN: [f64; 3] = [0.6, 0.5, 0.3];
+
+    fn multiplying(factors: &[[f64; 3]]) -> Vec<Made> {
+        let made = |slope: &[f64; 3]| Made { slope: *slope, mean: [0, 1, 2].map(|c| slope[c] * MEAN[c]) };
+        factors.iter().map(made).collect()
+    }
+
+    fn off(a: [f64; 3], b: [f64; 3]) -> f64 {
+        [0, 1, 2].map(|c| (a[c] - b[c]).abs()).into_iter().fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn grey_tones_are_exact_and_lie_on_each_other() {
+        let shades = Shades::over(&multiplying(&[[0.3; 3], [0.7; 3], [1.0; 3]]), MEAN).unwrap();
+        assert_eq!(
+            shades.veils.iter().map(|(_, tones)| tones.clone()).collect::<Vec<_>>(),
+            [vec![1, 0], vec![0]]
+        );
+        for (tone, factor) in [(0, 0.3), (1, 0.7), (2, 1.0)] {
+            for colour in [[0.0; 3], [1.0, 0.5, 0.2], [1.0; 3]] {
+                let off = off(seen(&shades, colour, tone), colour.map(|c| c * factor));
+                assert!(off < 0.004, "{tone}: {off}");
+            }
+        }
+    }
+
+    #[test]
+    fn many_steps_add_up_to_no_error() {
+        let factors: Vec<[f64; 3]> = (0..128).map(|k| [0.3 + 0.7 * f64::from(k) / 127.0; 3]).collect();
+        let shades = Shades::over(&multiplying(&factors), MEAN).unwrap();
+        for (tone, factor) in (0..).zip(&factors) {
+            let off = off(seen(&shades, [0.9; 3], tone), factor.map(|f| f * 0.9));
+            assert!(off < 0.004, "{tone}: {off}");
+        }
+    }
+
+    #[test]
+    fn tinted_tones_are_right_for_the_mean_and_highlights_lie_alone() {
+        let mut tones = multiplying(&[[0.7, 0.66, 0.78], [1.0; 3]]);
+        tones.push(Made { slope: [0.4; 3], mean: MEAN.map(|c| 0.4 * c + 0.6) });
+        let shades = Shades::over(&tones, MEAN).unwrap();
+        assert!(off(seen(&shades, MEAN, 0), tones[0].mean) < 0.004);
+        assert!(off(seen(&shades, [0.2, 0.3, 0.1], 2), [0.68, 0.72, 0.64]) < 0.004);
+        let white = seen(&shades, [1.0; 3], 0);
+        assert!(off(white, [0.7, 0.66, 0.78]) < 0.09, "{white:?}");
+        assert!(Shades::over(&[Made { slope: [0.0; 3], mean: MEAN }], MEAN).is_none());
+    }
+}

@@ -1,0 +1,237 @@
+//! [`openness`]: how much of the sky each vertex of a mesh sees.
+//!
+//! Source: Zhukov, Iones and Kronin, "An ambient light illumination model", Rendering Techniques
+//! 1998: the share of a hemisphere that nothing near obscures, weighted by the cosine. The directions
+//! are the same at all vertices, so that what one of them meets changes at few places, and the result
+//! has no noise to be smoothed.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use crate::geometry::numbers::portable_math::{cos, sin};
+use crate::geometry::numbers::tolerance;
+use crate::mesh::bvh::rays::parallel_rays::{ParallelRays, Start};
+use crate::mesh::bvh::rays::ray_tree::RayTree;
+use crate::mesh::{FaceId, Mesh};
+
+/// Directions over the whole sphere; a vertex looks into nearly half of them.
+const DIRECTIONS: usize = 256;
+
+/// Below this cosine a direction counts for little, and its ray passes the most faces: left out.
+const LEAST_COSINE: f64 = 0.1;
+
+/// How much of the sky each vertex of a mesh sees on the outer side of the surface, from 0 (none) to 1
+/// (all). Nothing farther from a place than `reach` says there (world units) counts; with infinity all does.
+///
+/// Vertices without a normal see all, and so do those of whose faces none is asked for: `asked` tells of each face, and all are
+/// where it is empty.
+#[must_use]
+pub fn openness(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> f64 + Sync) -> Vec<f64> {
+    let rays = ParallelRays::new(mesh);
+    let directions = directions();
+    let (mut normals, lifts) = normals(mesh);
+    if !asked.is_empty() {
+        let mut is_asked = vec![false; normals.len()];
+        let faces = mesh.triangles.iter().zip(asked).filter(|(_, asked)| **asked);
+        faces.flat_map(|(face, _)| face).for_each(|v| is_asked[*v as usize] = true);
+        normals.iter_mut().zip(is_asked).filter(|(_, asked)| !asked).for_each(|(n, _)| *n = DVec3::ZERO);
+    }
+    // From a little above the surface, faces around a hollow are in the way as well.
+    let start = |v: usize| {
+        let at = mesh.positions[v];
+        Start { point: at + normals[v] * lifts[v], reach: reach(at) }
+    };
+    let starts: Vec<Start> = (0..mesh.positions.len()).into_par_iter().map(start).collect();
+    let ask = |direction: DVec3, tree: Option<&RayTree>| {
+        let above = |v: &usize| direction.dot(normals[*v]) > LEAST_COSINE;
+        let looking: Vec<usize> = (0..starts.len()).filter(above).collect();
+        let of: Vec<Start> = looking.iter().map(|v| starts[*v]).collect();
+        let mut bits = vec![0u64; starts.len().div_ceil(64)];
+        for (v, blocked) in looking.iter().zip(rays.blocked(&of, direction, tree)?) {
+            bits[v / 64] |= u64::from(blocked) << (v % 64);
+        }
+        Some(bits)
+    };
+    let mut blocked: Vec<Option<Vec<u64>>> =
+        directions.par_iter().with_max_len(1).map(|d| ask(*d, None)).collect();
+    if blocked.iter().any(Option::is_none) {
+        let tree = RayTree::new(mesh);
+        let left = blocked.par_iter_mut().zip(&directions).filter(|(blocked, _)| blocked.is_none());
+        left.for_each(|(blocked, direction)| *blocked = ask(*direction, Some(&tree)));
+    }
+    let blocked: Vec<Vec<u64>> = blocked.into_iter().flatten().collect();
+    let share = |v: usize| {
+        let (mut seen, mut all) = (0.0, 0.0);
+        for (direction, blocked) in directions.iter().zip(&blocked) {
+            let cosine = direction.dot(normals[v]);
+            if cosine > LEAST_COSINE {
+                all += cosine;
+                if blocked[v / 64] >> (v % 64) & 1 == 0 {
+                    seen += cosine;
+                }
+            }
+        }
+        if all > 0.0 { seen / all } else { 1.0 }
+    };
+    (0..starts.len()).into_par_iter().map(share).collect()
+}
+
+/// Directions spread evenly over the sphere.
+///
+/// Source: Vogel, "A better way to construct the sunflower head", 1979, on a sphere.
+fn directions() -> Vec<DVec3> {
+    let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    (0..DIRECTIONS)
+        .map(|k| {
+            let z = 1.0 - (2 * k + 1) as f64 / DIRECTIONS as f64;
+            let (r, angle) = ((1.0 - z * z).sqrt(), k as f64 * turn);
+            DVec3::new(r * cos(angle), r * sin(angle), z)
+        })
+        .collect()
+}
+
+/// The unit normal of each vertex, 0 where no face has area, and how far above the surface it looks
+/// from: a share of the mean length of the edges around it.
+fn normals(mesh: &Mesh) -> (Vec<DVec3>, Vec<f64>) {
+    let mut normals = vec![DVec3::ZERO; mesh.positions.len()];
+    let mut contacts = vec![0.0f64; mesh.positions.len()];
+    for (id, face) in mesh.triangles.iter().enumerate() {
+        let [a, b, c] = face.map(|v| mesh.positions[v as usize]);
+        let area = (b - a).cross(c - a);
+        let contact = mesh.extent(FaceId::from(id)).contact;
+        for v in face {
+            normals[*v as usize] += area;
+            contacts[*v as usize] = contacts[*v as usize].max(contact);
+        }
+    }
+    let mut lengths = vec![(0.0, 0u32); mesh.positions.len()];
+    for [a, b] in &mesh.edges.vertices {
+        let length = mesh.positions[*a as usize].distance(mesh.positions[*b as usize]);
+        for v in [a, b] {
+            lengths[*v as usize].0 += length;
+            lengths[*v as usize].1 += 1;
+        }
+    }
+    let lift = |((sum, count), contact): ((f64, u32), f64)| {
+        (tolerance::LOOKOUT_OF_EDGE * sum / f64::from(count.max(1))).max(contact)
+    };
+    let lifts = lengths.into_iter().zip(contacts).map(lift).collect();
+    (normals.into_iter().map(DVec3::normalize_or_zero).collect(), lifts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::numbers::noise::hash;
+    use crate::mesh::Soup;
+
+    /// A grid of squares over a parallelogram.
+    fn add_sheet(soup: &mut Soup, corner: DVec3, u: DVec3, v: DVec3, cells: u32) {
+        let first = soup.positions.len() as u32;
+        for i in 0..=cells {
+            for k in 0..=cells {
+                let part = |n: u32| f64::from(n) / f64::from(cells);
+                soup.positions.push(corner + u * part(i) + v * part(k));
+            }
+        }
+        for i in 0..cells {
+            for k in 0..cells {
+                let a = first + i * (cells + 1) + k;
+                let [b, c, d] = [a + cells + 1, a + cells + 2, a + 1];
+                soup.triangles.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+    }
+
+    fn everywhere(_: DVec3) -> f64 {
+        f64::INFINITY
+    }
+
+    fn at(mesh: &Mesh, openness: &[f64], p: DVec3) -> f64 {
+        let local = p - mesh.origin;
+        let vertex = mesh.positions.iter().position(|q| q.distance(local) < 1e-6).expect("a vertex");
+        openness[vertex]
+    }
+
+    #[test]
+    fn an_open_sheet_sees_the_whole_sky_and_a_covered_one_part_of_it() {
+        let mut soup = Soup::default();
+        add_sheet(&mut soup, DVec3::new(-1.0, -1.0, 0.0), DVec3::X * 2.0, DVec3::Y * 2.0, 4);
+        let alone = Mesh::build(soup.clone());
+        assert!(openness(&alone, &[], everywhere).iter().all(|o| *o == 1.0));
+        // A square of side 2 at height 1 covers a known part of the sky of the point below its middle:
+        // the view factor of four rectangles with sides 1 and 1 at distance 1.
+        add_sheet(&mut soup, DVec3::new(-1.0, -1.0, 1.0), DVec3::Y * 2.0, DVec3::X * 2.0, 4);
+        let mesh = Mesh::build(soup);
+        let r = 0.5_f64.sqrt();
+        let covered =
+            4.0 / std::f64::consts::TAU * 2.0 * r * crate::geometry::numbers::portable_math::atan2(r, 1.0);
+        let found = at(&mesh, &openness(&mesh, &[], everywhere), DVec3::ZERO);
+        assert!((found - (1.0 - covered)).abs() < 0.03, "{found} {}", 1.0 - covered);
+        assert_eq!(at(&mesh, &openness(&mesh, &[], |_| 0.9), DVec3::ZERO), 1.0);
+    }
+
+    #[test]
+    fn the_foot_of_a_wall_sees_what_geometry_says() {
+        let mut soup = Soup::default();
+        add_sheet(&mut soup, DVec3::new(0.0, -20.0, 0.0), DVec3::X * 20.0, DVec3::Y * 40.0, 8);
+        add_sheet(&mut soup, DVec3::new(0.0, -20.0, 0.0), DVec3::Y * 40.0, DVec3::Z * 20.0, 8);
+        let mesh = Mesh::build(soup);
+        let found = openness(&mesh, &[], everywhere);
+        // In the corner the normal is halfway, and a wedge of a right angle is left: sin 45°.
+        let corner = at(&mesh, &found, DVec3::ZERO);
+        assert!((corner - 0.5_f64.sqrt()).abs() < 0.03, "{corner}");
+        // On the floor, a long wall of height 20 leaves (1 + cos α)/2, where α is how high it stands.
+        for x in [2.5, 17.5] {
+            let (found, wanted) = (at(&mesh, &found, DVec3::X * x), (1.0 + x / (x * x + 400.0).sqrt()) / 2.0);
+            assert!((found - wanted).abs() < 0.04, "{x}: {found} {wanted}");
+        }
+    }
+
+    #[test]
+    fn a_box_sees_all_of_the_sky_however_it_is_wound_and_none_inside_a_room() {
+        let corner = |i: u32| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
+        let sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        let add = |soup: &mut Soup, low: DVec3, size: f64, inward: bool| {
+            let first = soup.positions.len() as u32;
+            soup.positions.extend((0..8).map(|i| low + size * corner(i)));
+            let triangles = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+            let wound = triangles.map(|[a, b, c]: [u32; 3]| if inward { [a, c, b] } else { [a, b, c] });
+            soup.triangles.extend(wound.map(|t| t.map(|v| first + v)));
+        };
+        for inward in [false, true] {
+            let mut alone = Soup::default();
+            add(&mut alone, DVec3::ZERO, 1.0, inward);
+            assert!(openness(&Mesh::build(alone), &[], everywhere).iter().all(|o| *o == 1.0));
+        }
+        let mut room = Soup::default();
+        add(&mut room, DVec3::ZERO, 1.0, false);
+        add(&mut room, DVec3::splat(-2.0), 5.0, false);
+        let mesh = Mesh::build(room);
+        let found = openness(&mesh, &[], everywhere);
+        for (position, open) in mesh.positions.iter().zip(found) {
+            let is_outside = (*position - DVec3::splat(0.5)).abs().max_element() > 1.0;
+            assert_eq!(open, if is_outside { 1.0 } else { 0.0 }, "{position}");
+        }
+        assert!(openness(&Mesh::default(), &[], everywhere).is_empty());
+    }
+
+    #[test]
+    fn a_thicket_of_large_faces_is_as_open_on_any_number_of_threads() {
+        // So many of them over each other that rays go down a tree.
+        let part = |n: u32| hash(7, &[u64::from(n)]) as f64 / u64::MAX as f64 * 2.0 - 1.0;
+        let point = |n: u32| DVec3::new(part(3 * n), part(3 * n + 1), part(3 * n + 2));
+        let count = 1500;
+        let positions = (0..3 * count).map(|k| point(k / 3) + 3.0 * point(k + 10_000)).collect();
+        let triangles = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        let mesh = Mesh::build(Soup { positions, triangles, ..Soup::default() });
+        let starts: Vec<Start> =
+            mesh.positions.iter().step_by(2).map(|p| Start { point: *p, reach: f64::INFINITY }).collect();
+        assert!(ParallelRays::new(&mesh).blocked(&starts, DVec3::Z, None).is_none());
+        let on = |threads| {
+            let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| openness(&mesh, &[], everywhere))
+        };
+        assert_eq!(on(1), on(4));
+    }
+}

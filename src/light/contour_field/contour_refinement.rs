@@ -1,0 +1,111 @@
+//! Coarse rounded surfaces get finer triangles where the contour may pass, so that it is round on
+//! the page; the rest of the model stays as it is.
+//!
+//! The idea of refining near the contour alone is that of Hertzmann and Zorin 2000, section 4.3.
+
+use glam::DVec3;
+
+use crate::geometry::numbers::tolerance;
+use crate::light::Cones;
+use crate::light::contour_field::culling::edge_on_margin::Turned;
+use crate::mesh::Mesh;
+use crate::surface::refine::mesh_splice::Cuts;
+use crate::surface::refine::subdivision;
+use crate::surface::{EdgeArc, SmoothNormals};
+use crate::view::Frame;
+
+/// To vanish in between two values of one sign, the field has to fall from both: half of what the
+/// ends turn is the most, and a little for arcs that are longer than their chords.
+const REACH: f64 = 0.55;
+const REACH_AND_ROUNDING: f64 = REACH * (1.0 + 1e-9);
+
+/// What is cut of a mesh near the contour of a view until no edge is farther from its arc than
+/// [`tolerance::ARC_PX`]; `None` where edges are short enough already. With [`Cones`] it is the same and told sooner.
+#[must_use]
+pub fn cuts_near_contours(
+    mesh: &Mesh,
+    smooth: &SmoothNormals,
+    cones: Option<&Cones>,
+    frame: &Frame,
+) -> Option<Cuts> {
+    let px = frame.width.max(frame.height) / 1000.0;
+    // How long a world length is on the page where it is nearest to the eye, seen square on.
+    let page = |[a, b]: [DVec3; 2]| {
+        let depth = if frame.perspective { frame.depth(a).min(frame.depth(b)) } else { 1.0 };
+        if depth > 0.0 { frame.scale / (px * depth) } else { 0.0 }
+    };
+    // Squares and no quotient: this is asked of every edge of the model.
+    let short = (tolerance::SHORT_EDGE_PX * px / frame.scale).powi(2);
+    let is_long = |a: DVec3, b: DVec3| {
+        let depth = if frame.perspective { frame.depth(a).min(frame.depth(b)) } else { 1.0 };
+        depth > 0.0 && a.distance_squared(b) > short * depth * depth
+    };
+    let want = |ends: [DVec3; 2], normals: [DVec3; 2]| {
+        if frame.perspective && surely_turned(frame.eye, ends, normals) {
+            return 0.0;
+        }
+        let to_eye = ends.map(|p| frame.to_eye(p));
+        let facing = [0, 1].map(|k| normals[k].dot(to_eye[k]));
+        // Between the ends the field varies by no more than normal and line of sight turn.
+        let turn = normals[0].distance(normals[1]) + to_eye[0].distance(to_eye[1]);
+        let nearest = facing[0].abs().min(facing[1].abs());
+        if (facing[0] > 0.0) == (facing[1] > 0.0) && nearest > REACH * turn {
+            return 0.0;
+        }
+        EdgeArc::new(ends, normals).height().length() * page(ends) / tolerance::ARC_PX
+    };
+    let is_asked = |run: usize| cones.is_none_or(|cones| !cones.is_passed(run, frame, REACH, short));
+    // The cones tell as much of almost all runs, and are there from the second view on.
+    let turned = cones.is_none().then(|| Turned::of(mesh, smooth, frame, REACH_AND_ROUNDING));
+    let may =
+        |ends: [u32; 2], squared: f64| turned.as_ref().is_none_or(|turned| !turned.all_along(ends, squared));
+    subdivision::cuts(mesh, smooth, is_asked, is_long, may, want)
+}
+
+/// Whether the field is surely too far from zero at both ends of an edge to vanish in between: told without a root or a
+/// quotient, of almost all edges.
+#[inline]
+fn surely_turned(eye: DVec3, [a, b]: [DVec3; 2], [normal_a, normal_b]: [DVec3; 2]) -> bool {
+    let (to_eye_a, to_eye_b) = (eye - a, eye - b);
+    let (facing_a, facing_b) = (normal_a.dot(to_eye_a), normal_b.dot(to_eye_b));
+    let (far_a, far_b) = (to_eye_a.length_squared(), to_eye_b.length_squared());
+    let nearer = far_a.min(far_b);
+    // Unit vectors from two points to the eye differ by no more than the way between them, seen from the nearer one; and the square
+    // of a sum is no more than 5/4 of that of the one and five times that of the other. All squared, and times the nearer way.
+    let most = 1.25 * normal_a.distance_squared(normal_b) * nearer + 5.0 * a.distance_squared(b);
+    let most = REACH_AND_ROUNDING * REACH_AND_ROUNDING * most;
+    (facing_a > 0.0) == (facing_b > 0.0)
+        && facing_a * facing_a * nearer > most * far_a
+        && facing_b * facing_b * nearer > most * far_b
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::dice::Dice;
+
+    #[test]
+    fn what_is_surely_turned_is_so_by_unit_vectors() {
+        let mut dice = Dice::new(1);
+        let (mut told, mut turned) = (0, 0);
+        for k in 0..20_000 {
+            let mut point = || dice.point(1.0);
+            // From edges as long as their distance to short ones, from normals that turn much to alike ones.
+            let (near, alike) = (0.1f64.powi(k % 4), 0.1f64.powi(k / 4 % 4));
+            let (a, eye) = (point(), point() * 3.0);
+            let ends = [a, a + point() * near];
+            let normal = point().normalize_or_zero();
+            let normals = [normal, (normal + point() * alike).normalize_or_zero()];
+            let to_eye = ends.map(|p| (eye - p).normalize());
+            let facing = [0, 1].map(|k| normals[k].dot(to_eye[k]));
+            let turn = normals[0].distance(normals[1]) + to_eye[0].distance(to_eye[1]);
+            let is_turned =
+                facing[0] * facing[1] > 0.0 && facing[0].abs().min(facing[1].abs()) > REACH * turn;
+            let is_told = surely_turned(eye, ends, normals);
+            assert!(is_turned || !is_told, "{ends:?} {normals:?} from {eye}");
+            told += u32::from(is_told);
+            turned += u32::from(is_turned);
+        }
+        assert!(turned > 10_000 && f64::from(told) > 0.85 * f64::from(turned), "{told} of {turned}");
+    }
+}

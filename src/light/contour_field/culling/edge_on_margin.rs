@@ -1,0 +1,136 @@
+//! [`Turned`]: how far each vertex of a rounded surface is from being seen edge-on, by which most edges need no closer look.
+//!
+//! Of an edge between normals that lean apart by little ([`SmoothNormals::gentle`]) it is enough to know that of its ends: two small
+//! numbers in place of two normals.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use crate::mesh::Mesh;
+use crate::parallel::task_size::GRAIN;
+use crate::surface::SmoothNormals;
+use crate::surface::normals::straight_edges::GENTLE_COSINE;
+use crate::view::Frame;
+
+/// What is left for rounding, much more than it is: of facing as it is, of lengths as a share, and of numbers in single precision.
+const FACING_MARGIN: f64 = 1e-6;
+const LENGTH_MARGIN: f64 = 1.0 - 1e-9;
+const SINGLE_MARGIN: f64 = 1.0 - 1e-6;
+
+/// How far the vertices of a mesh are from being seen edge-on in a view.
+#[derive(Debug)]
+pub(crate) struct Turned {
+    /// By how much lines of sight may turn along a gentle edge from each vertex before the field can vanish there; below zero
+    /// where the surface is turned away, zero where it may vanish at once.
+    room: Vec<f32>,
+    /// No vertex is nearer to the eye. In a parallel view lines of sight do not turn: it is infinite.
+    nearest: f64,
+}
+
+impl Turned {
+    /// That of a view in which the field varies along an edge by no more than `reach` times what normal and line of sight turn.
+    pub fn of(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, reach: f64) -> Self {
+        let most = (2.0 - 2.0 * GENTLE_COSINE).sqrt();
+        // Those on edges that part surfaces have several normals, of which this is one; no gentle edge ends at them.
+        let vertices = mesh.positions.par_iter().zip(&smooth.normals).with_min_len(GRAIN);
+        let of_vertex = |(at, normal): (&DVec3, &DVec3)| {
+            let facing = normal.dot(frame.to_eye(*at));
+            let room = (facing.abs() - FACING_MARGIN) / reach - most;
+            (room.max(0.0) * SINGLE_MARGIN).copysign(facing) as f32
+        };
+        let room = vertices.map(of_vertex).collect();
+        let nearest = if frame.perspective {
+            let squared = |at: &DVec3| frame.eye.distance_squared(*at);
+            mesh.positions
+                .par_iter()
+                .with_min_len(GRAIN)
+                .map(squared)
+                .reduce(|| f64::INFINITY, f64::min)
+                .sqrt()
+        } else {
+            f64::INFINITY
+        };
+        Self { room, nearest }
+    }
+
+    /// Whether the field cannot vanish over a gentle edge between two vertices, of this length squared.
+    #[inline]
+    pub fn all_along(&self, ends: [u32; 2], length_squared: f64) -> bool {
+        let [a, b] = ends.map(|vertex| f64::from(self.room[vertex as usize]));
+        // Unit vectors from two points to the eye differ by no more than the way between them, seen from the nearer one.
+        let room = a.abs().min(b.abs());
+        a * b > 0.0 && length_squared < (room * self.nearest).powi(2) * LENGTH_MARGIN
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::dice::Dice;
+    use crate::mesh::Soup;
+    use crate::scene::{Camera, Projection};
+
+    /// A ball of many faces, dented by chance.
+    fn ball(across: u32) -> Mesh {
+        let mut dice = Dice::new(5);
+        let mut soup = Soup::default();
+        for i in 0..2 * across {
+            for k in 0..=across {
+                let turn = std::f64::consts::PI / f64::from(across);
+                let (u, v) = (f64::from(i) * turn, f64::from(k) * turn);
+                let ring = crate::geometry::numbers::portable_math::sin(v);
+                let (sin, cos) = (
+                    crate::geometry::numbers::portable_math::sin(u),
+                    crate::geometry::numbers::portable_math::cos(u),
+                );
+                soup.positions.push(
+                    DVec3::new(ring * cos, ring * sin, crate::geometry::numbers::portable_math::cos(v))
+                        + dice.point(4e-3),
+                );
+                let at = |i: u32, k: u32| i % (2 * across) * (across + 1) + k;
+                if k < across {
+                    let corners = [at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i + 1, k)];
+                    soup.triangles
+                        .extend([[corners[0], corners[1], corners[2]], [corners[0], corners[2], corners[3]]]);
+                }
+            }
+        }
+        Mesh::build(soup)
+    }
+
+    #[test]
+    fn the_field_vanishes_over_no_edge_that_is_turned() {
+        const REACH: f64 = 0.55;
+        let mesh = ball(40);
+        let smooth = SmoothNormals::new(&mesh, |_| true, |edge| edge % 997 == 0);
+        let mut dice = Dice::new(11);
+        let (mut told, mut turned) = (0, 0);
+        for view in 0..12 {
+            let eye = dice.point(1.0).normalize() * [1.1, 1.5, 4.0, 30.0][view % 4];
+            let projection = match view % 3 {
+                0 => Projection::Orthographic { height: 3.0 },
+                _ => Projection::Perspective { fov_y_deg: 40.0 },
+            };
+            let (target, up) = (DVec3::ZERO, DVec3::Z);
+            let camera = Camera { eye, target, up, projection, width: 1e3, height: 800.0, near: None };
+            let frame = Frame::new(&camera, mesh.origin);
+            let known = Turned::of(&mesh, &smooth, &frame, REACH);
+            for edge in 0..mesh.edges.len() {
+                let Some(ends) = smooth.across(&mesh, edge) else { continue };
+                let at = ends.map(|v| mesh.positions[smooth.vertices[v as usize] as usize]);
+                let to_eye = at.map(|p| frame.to_eye(p));
+                let normals = ends.map(|v| smooth.normals[v as usize]);
+                let facing = [0, 1].map(|k| normals[k].dot(to_eye[k]));
+                let turn = normals[0].distance(normals[1]) + to_eye[0].distance(to_eye[1]);
+                let is_turned =
+                    facing[0] * facing[1] > 0.0 && facing[0].abs().min(facing[1].abs()) > REACH * turn;
+                let is_told = smooth.gentle.contains(edge)
+                    && known.all_along(mesh.edges.vertices[edge], at[0].distance_squared(at[1]));
+                assert!(is_turned || !is_told, "edge {edge} from {eye}");
+                told += u32::from(is_told);
+                turned += u32::from(is_turned);
+            }
+        }
+        assert!(turned > 50_000 && f64::from(told) > 0.75 * f64::from(turned), "{told} of {turned}");
+    }
+}

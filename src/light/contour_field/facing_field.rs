@@ -1,0 +1,20 @@
+//! n·v: how much a rounded surface turns to the eye. Its zero set is the contour.
+//!
+//! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000,
+//! section 4.1.
+
+use crate::parallel::prelude::*;
+
+use crate::mesh::Mesh;
+use crate::parallel::task_size::GRAIN;
+use crate::surface::SmoothNormals;
+use crate::view::Frame;
+
+/// The cosine between the normal and the direction to the eye, −1 to 1, positive where the surface
+/// turns its outside to the eye. One per smooth vertex.
+#[must_use]
+pub fn facing(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<f64> {
+    let at =
+        |(normal, vertex): (&glam::DVec3, &u32)| normal.dot(frame.to_eye(mesh.positions[*vertex as usize]));
+    smooth.normals.par_iter().zip(&smooth.vertices).with_min_len(GRAIN).map(at).collect()
+}

@@ -1,0 +1,15 @@
+//! The field n·v, whose zero set is the contour, and level sets of fields on rounded surfaces.
+//!
+//! 1. n·v is evaluated at every smooth vertex (Hertzmann and Zorin 2000, §4.1).
+//! 2. Near its zero set it is smoothed by as much as the page can show.
+//! 3. Coarse surfaces are refined where the contour may pass (Hertzmann and Zorin 2000, §4.3).
+//! 4. Rounded faces are cut along level sets into pieces that share their borders (Claes et al. 2001).
+//!
+//! Files, in reading order: [`facing_field`] step 1; [`field_smoothing`] step 2; [`contour_refinement`] step
+//! 3; [`level_set_cut`] step 4; [`culling`] bounds that skip edges without a contour.
+
+pub mod contour_refinement;
+pub(crate) mod culling;
+pub mod facing_field;
+pub mod field_smoothing;
+pub mod level_set_cut;

@@ -1,0 +1,220 @@
+//! Which lights shine, and from where: the `[light]` table of a style sheet.
+
+use glam::DVec3;
+use serde::de::Error;
+use serde::{Deserialize, Deserializer};
+
+use crate::colour::colour_factor::Factor;
+use crate::colour::srgb::Colour;
+
+/// Which lights shine on the model.
+///
+/// Lights of the model and of the sheet shine together; where there is neither, a light fixed to
+/// the camera does, from the left above the viewer.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LightOptions {
+    /// Whether the model file's lights shine, if it has any. Default: true.
+    pub from_model: bool,
+    /// Further lights. Default: none.
+    pub sources: Vec<LightSource>,
+    /// Light that comes from everywhere, a_g of Lake et al. 2000, eq. 1. Default: 0.
+    pub ambient: Factor,
+    /// How far light wraps round a surface, 0 to 1: the diffuse light is (L·n + wrap)/(1 + wrap),
+    /// at least 0. Default: 0.
+    #[serde(deserialize_with = "fraction")]
+    pub wrap: f64,
+    /// How much darker a point is that sees nothing of the sky, 0 to 1. Default: 0.
+    #[serde(deserialize_with = "fraction")]
+    pub occlusion: f64,
+}
+
+impl Default for LightOptions {
+    fn default() -> Self {
+        Self { from_model: true, sources: Vec::new(), ambient: Factor::NONE, wrap: 0.0, occlusion: 0.0 }
+    }
+}
+
+/// A light of a style sheet.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(try_from = "SourceTable")]
+pub struct LightSource {
+    /// Directional or point, with its place.
+    pub kind: SourceKind,
+    /// What its directions and positions are relative to.
+    pub space: Space,
+    /// Tint of what it lights; does not change where tones end.
+    pub colour: Colour,
+    /// Factor of the light it gives, at least 0. Default: 1.
+    pub brightness: f64,
+    /// Whether it casts shadows where shadows are drawn. Default: true.
+    pub shadows: bool,
+}
+
+/// Where light comes from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SourceKind {
+    /// Parallel light.
+    Directional {
+        /// Towards the light, any length.
+        direction: DVec3,
+    },
+    /// Light from a point.
+    Point {
+        /// Where it is.
+        position: DVec3,
+        /// The distance D at which half its light is left: 1/(1 + (d/D)²). `None`: it reaches
+        /// everywhere alike.
+        falloff: Option<f64>,
+    },
+}
+
+/// What directions and positions of lights are relative to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Space {
+    /// The model's own axes and zero.
+    #[default]
+    World,
+    /// The eye, in world units: x right, y up, z to the viewer.
+    Camera,
+}
+
+impl Default for LightSource {
+    /// The key light: from the left above the viewer.
+    fn default() -> Self {
+        Self {
+            kind: SourceKind::Directional { direction: DVec3::new(-0.4, 0.6, 0.7) },
+            space: Space::Camera,
+            colour: Colour::WHITE,
+            brightness: 1.0,
+            shadows: true,
+        }
+    }
+}
+
+/// A light as it is written.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SourceTable {
+    kind: Kind,
+    direction: Option<[f64; 3]>,
+    position: Option<[f64; 3]>,
+    #[serde(default)]
+    space: Space,
+    falloff: Option<f64>,
+    #[serde(alias = "color")]
+    colour: Option<Colour>,
+    brightness: Option<f64>,
+    shadows: Option<bool>,
+}
+
+#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[serde(rename_all = "lowercase")]
+enum Kind {
+    Directional,
+    Point,
+}
+
+impl TryFrom<SourceTable> for LightSource {
+    type Error = String;
+
+    fn try_from(table: SourceTable) -> Result<Self, String> {
+        let kind = match (table.kind, table.direction, table.position, table.falloff) {
+            (Kind::Directional, Some(direction), None, None) => {
+                let direction = DVec3::from(direction);
+                if direction.try_normalize().is_none() {
+                    return Err("the direction of a light has no length; write [x, y, z] towards it".into());
+                }
+                SourceKind::Directional { direction }
+            }
+            (Kind::Directional, None, ..) => {
+                return Err("a directional light needs a `direction`; write [x, y, z] towards it".into());
+            }
+            (Kind::Directional, ..) => {
+                return Err("a directional light has no `position` and no `falloff`; leave them out".into());
+            }
+            (Kind::Point, None, Some(position), falloff) => {
+                if falloff.is_some_and(|d| !(d.is_finite() && d > 0.0)) {
+                    return Err("`falloff` is the distance at which half the light is left; \
+                                write a number above 0"
+                        .into());
+                }
+                let position = DVec3::from(position);
+                if !position.is_finite() {
+                    return Err("the position of a light is not finite; write [x, y, z]".into());
+                }
+                SourceKind::Point { position, falloff }
+            }
+            (Kind::Point, _, None, _) => {
+                return Err("a point light needs a `position`; write [x, y, z]".into());
+            }
+            (Kind::Point, Some(_), ..) => return Err("a point light has no `direction`; leave it out".into()),
+        };
+        let brightness = table.brightness.unwrap_or(1.0);
+        if !(brightness.is_finite() && brightness >= 0.0) {
+            return Err(format!("{brightness} is not a brightness; write a number of at least 0"));
+        }
+        Ok(Self {
+            kind,
+            space: table.space,
+            colour: table.colour.unwrap_or(Colour::WHITE),
+            brightness,
+            shadows: table.shadows.unwrap_or(true),
+        })
+    }
+}
+
+/// A number from 0 to 1.
+pub(crate) fn fraction<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    let value = f64::deserialize(deserializer)?;
+    if (0.0..=1.0).contains(&value) {
+        Ok(value)
+    } else {
+        Err(D::Error::custom(format!("{value} is not a fraction; write a number from 0 to 1")))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> Result<LightOptions, String> {
+        toml::from_str(text).map_err(|error: toml::de::Error| error.message().to_owned())
+    }
+
+    #[test]
+    fn the_lights_of_the_contract_are_read() {
+        let options = read(
+            "sources = [{ kind = \"directional\", direction = [0, 0, 1], space = \"camera\", color = \"#f00\" }, \
+             { kind = \"point\", position = [1, 2, 3], falloff = 4, brightness = 0.5 }]",
+        )
+        .unwrap();
+        let [sun, lamp] = &options.sources[..] else { panic!() };
+        assert_eq!(sun.kind, SourceKind::Directional { direction: DVec3::Z });
+        assert_eq!((sun.space, sun.colour), (Space::Camera, Colour::rgb(255, 0, 0)));
+        let position = DVec3::new(1.0, 2.0, 3.0);
+        assert_eq!(lamp.kind, SourceKind::Point { position, falloff: Some(4.0) });
+        assert_eq!((lamp.space, lamp.brightness, lamp.shadows), (Space::World, 0.5, true));
+        assert_eq!(read("").unwrap(), LightOptions::default());
+    }
+
+    #[test]
+    fn lights_that_cannot_shine_are_refused() {
+        for (source, wanted) in [
+            ("kind = \"directional\"", "needs a `direction`"),
+            ("kind = \"directional\", direction = [0, 0, 0]", "no length"),
+            ("kind = \"directional\", direction = [0, 0, 1], falloff = 1", "no `position`"),
+            ("kind = \"point\"", "needs a `position`"),
+            ("kind = \"point\", position = [0, 0, 1], direction = [0, 0, 1]", "no `direction`"),
+            ("kind = \"point\", position = [0, 0, 1], falloff = 0", "above 0"),
+            ("kind = \"point\", position = [0, 0, 1], brightness = -1", "at least 0"),
+            ("kind = \"moon\"", "unknown variant"),
+            ("kind = \"point\", position = [0, 0, 1], size = 1", "unknown field"),
+        ] {
+            let error = read(&format!("sources = [{{ {source} }}]")).unwrap_err();
+            assert!(error.contains(wanted), "{source}: {error}");
+        }
+        assert!(read("wrap = 2").is_err() && read("occlusion = -1").is_err());
+    }
+}

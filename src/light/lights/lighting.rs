@@ -1,0 +1,371 @@
+//! [`Lighting`]: the lights of a drawing in local space, and how much of each reaches a point.
+
+use std::f64::consts::PI;
+
+use glam::DVec3;
+
+use super::lamp::{EXTENT_TO_TURN, LARGEST_EXTENT, Lamp, Reach};
+use super::light_options::{LightOptions, LightSource, SourceKind, Space};
+use super::specular;
+use crate::geometry::numbers::portable_math::{acos, cos, pow};
+use crate::geometry::numbers::tolerance::HIGHLIGHT_FADE_COSINE;
+use crate::light::Slope;
+use crate::mesh::Mesh;
+use crate::scene::Scene;
+use crate::view::Frame;
+
+/// No more lights than this cast shadows.
+pub const GREATEST_CASTERS: usize = 8;
+
+/// A light that casts shadows, in local space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Caster {
+    /// Parallel light.
+    Directional {
+        /// Unit vector towards the light.
+        towards: DVec3,
+    },
+    /// Light from a point.
+    Point {
+        /// Where it is.
+        position: DVec3,
+    },
+}
+
+/// A point of the surface, as light falls on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SurfacePoint {
+    /// Where it is, local space.
+    pub position: DVec3,
+    /// Unit normal of the side that the eye sees, local space; a surface without one counts as
+    /// turned to the eye.
+    pub normal: DVec3,
+    /// How much of the sky it sees, 0 (none) to 1 (all).
+    pub openness: f64,
+}
+
+/// Which lights count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Of {
+    All,
+    /// The one of this number.
+    Lamp(usize),
+    /// Those of this tint, by its number.
+    Hue(usize),
+}
+
+/// Tints that differ by less than this in every channel look alike.
+const ONE_HUE: f64 = 0.125;
+
+/// Gives each light the number of its tint, and says what these are: of lights that look alike the mean by their weights.
+fn part_by_hue(lamps: &mut [Lamp]) -> Vec<[f64; 3]> {
+    let mut firsts: Vec<[f64; 3]> = Vec::new();
+    let mut sums: Vec<([f64; 3], f64)> = Vec::new();
+    for lamp in lamps.iter_mut() {
+        let is_like = |first: &[f64; 3]| first.iter().zip(lamp.colour).all(|(a, b)| (a - b).abs() < ONE_HUE);
+        lamp.hue = firsts.iter().position(is_like).unwrap_or(firsts.len());
+        if lamp.hue == firsts.len() {
+            firsts.push(lamp.colour);
+            sums.push(([0.0; 3], 0.0));
+        }
+        let (sum, all) = &mut sums[lamp.hue];
+        sum.iter_mut().zip(lamp.colour).for_each(|(sum, c)| *sum += c * lamp.weight);
+        *all += lamp.weight;
+    }
+    let mean = |(first, (sum, all)): ([f64; 3], ([f64; 3], f64))| {
+        if all > 0.0 { sum.map(|c| c / all) } else { first }
+    };
+    firsts.into_iter().zip(sums).map(mean).collect()
+}
+
+/// The lights of a drawing in local space, and how much of each reaches a point.
+#[derive(Debug, Clone)]
+pub struct Lighting {
+    lamps: Vec<Lamp>,
+    /// The tints of the lights, those that look alike as one.
+    hues: Vec<[f64; 3]>,
+    casters: Vec<Caster>,
+    frame: Option<Frame>,
+    wrap: f64,
+    occlusion: f64,
+    /// How far from what the camera looks at the eye and parallel lights stand for highlights, if not where they are.
+    near: Option<f64>,
+}
+
+impl Lighting {
+    /// The lights of a model and a style sheet, for a mesh seen by a camera; the first eight that
+    /// may do so cast shadows if `cast_shadows` is set.
+    #[must_use]
+    pub fn new(
+        scene: &Scene,
+        mesh: &Mesh,
+        frame: &Frame,
+        options: &LightOptions,
+        cast_shadows: bool,
+        warnings: &mut Vec<String>,
+    ) -> Self {
+        let mut lamps = Vec::new();
+        if options.from_model {
+            lamps = Lamp::of_model(&scene.lights, mesh.origin, frame);
+            if lamps.is_empty() && !scene.lights.is_empty() {
+                warnings.push("the model's lights give no light and are left out".to_owned());
+            }
+        }
+        lamps.extend(options.sources.iter().map(|source| of_source(source, mesh.origin, frame)));
+        if lamps.is_empty() {
+            lamps.push(of_source(&LightSource::default(), mesh.origin, frame));
+        } else if lamps.iter().all(|lamp| lamp.weight <= 0.0) {
+            warnings.push("no light has any brightness, so all surfaces are in shadow".to_owned());
+        }
+
+        let mut casters = Vec::new();
+        for lamp in lamps.iter_mut().filter(|lamp| cast_shadows && lamp.shadows) {
+            if casters.len() < GREATEST_CASTERS {
+                lamp.caster = Some(casters.len() as u32);
+            }
+            casters.push(match lamp.reach {
+                Reach::Parallel { towards } => Caster::Directional { towards },
+                Reach::Point { position, .. } => Caster::Point { position },
+            });
+        }
+        if casters.len() > GREATEST_CASTERS {
+            let count = casters.len();
+            warnings.push(format!("{count} lights would cast shadows; only the first {GREATEST_CASTERS} do"));
+            casters.truncate(GREATEST_CASTERS);
+        }
+        let hues = part_by_hue(&mut lamps);
+        let (wrap, occlusion) = (options.wrap, options.occlusion);
+        Self { lamps, hues, casters, frame: Some(*frame), wrap, occlusion, near: None }
+    }
+
+    /// The same with the eye and parallel lights so many sides of the frame from what the camera looks at, where highlights are
+    /// asked; 0 leaves them where they are.
+    #[must_use]
+    pub fn near_for_highlights(self, sides: f64) -> Self {
+        let far = self.frame.map(|frame| sides * frame.side_at(frame.focus)).filter(|far| *far > 0.0);
+        Self { near: far, ..self }
+    }
+
+    /// One parallel white light, with shadows and without highlights.
+    #[must_use]
+    pub fn from_direction(towards_light: DVec3) -> Self {
+        let towards = towards_light.normalize_or_zero();
+        let lamp = Lamp { caster: Some(0), ..Lamp::parallel(towards, 1.0, [1.0; 3]) };
+        let casters = vec![Caster::Directional { towards }];
+        Self {
+            lamps: vec![lamp],
+            hues: vec![[1.0; 3]],
+            casters,
+            frame: None,
+            wrap: 0.0,
+            occlusion: 0.0,
+            near: None,
+        }
+    }
+
+    /// The lights that cast shadows; the index of each is its bit in `shadowed`.
+    #[must_use]
+    pub fn casters(&self) -> &[Caster] {
+        &self.casters
+    }
+
+    /// Number of lights.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.lamps.len()
+    }
+
+    /// Whether light varies from place to place on a flat surface.
+    #[must_use]
+    pub fn is_local(&self) -> bool {
+        self.occlusion > 0.0 || self.lamps.iter().any(|lamp| !matches!(lamp.reach, Reach::Parallel { .. }))
+    }
+
+    /// By how much parallel light changes with the normal.
+    #[must_use]
+    pub fn slope(&self) -> Slope {
+        let most = self.lamps.iter().map(|lamp| lamp.weight / (1.0 + self.wrap)).sum();
+        Slope { most, dips: self.lamps.len() > 1 }
+    }
+
+    /// The tint that all lights give together: their colours, weighed by brightness (Ishaya 2003:
+    /// tinting each point by the light that reaches it would spoil the steps). White without light.
+    #[must_use]
+    pub fn tint(&self) -> [f64; 3] {
+        let total: f64 = self.lamps.iter().map(|lamp| lamp.weight).sum();
+        if total <= 0.0 {
+            return [1.0; 3];
+        }
+        let channel = |c: usize| self.lamps.iter().map(|lamp| lamp.weight * lamp.colour[c]).sum::<f64>();
+        [0, 1, 2].map(|c| channel(c) / total)
+    }
+
+    /// The tints of the lights, those that look alike as one.
+    #[must_use]
+    pub fn hues(&self) -> &[[f64; 3]] {
+        &self.hues
+    }
+
+    /// Diffuse light of some of the lights that are not `shadowed`: the sum of brightness, fall-off and
+    /// max(L·n, 0).
+    #[must_use]
+    pub(crate) fn diffuse(&self, of: Of, point: &SurfacePoint, shadowed: u32) -> f64 {
+        let normal = self.normal(point);
+        let lamps = self.chosen(of, shadowed);
+        let light: f64 = lamps.map(|lamp| self.diffuse_of(lamp, point.position, normal)).sum();
+        light * self.open(point)
+    }
+
+    /// Some of the lights that are not `shadowed`.
+    fn chosen(&self, of: Of, shadowed: u32) -> impl Iterator<Item = &Lamp> {
+        let is_chosen = move |(k, lamp): &(usize, &Lamp)| match of {
+            Of::All => true,
+            Of::Lamp(own) => own == *k,
+            Of::Hue(hue) => hue == lamp.hue,
+        };
+        let chosen = self.lamps.iter().enumerate().filter(is_chosen).map(|(_, lamp)| lamp);
+        chosen.filter(move |lamp| !lamp.is_shadowed(shadowed))
+    }
+
+    /// Strength of the highlight: the sum of brightness, fall-off and (n·h)^exponent over the
+    /// lights that are not `shadowed`; see [`specular::blinn_phong`].
+    #[must_use]
+    pub fn specular(&self, point: &SurfacePoint, exponent: f64, shadowed: u32) -> f64 {
+        let Some(frame) = &self.frame else { return 0.0 };
+        let (to_eye, _) = self.eye_of_highlights(frame, point.position);
+        let normal = self.normal(point);
+        let of = |lamp: &Lamp| {
+            let (towards, amount) = lamp.at(point.position);
+            let towards =
+                self.towards_for_highlights(frame, lamp, point.position).map_or(towards, |(to, _)| to);
+            let fade = (towards.dot(normal) / HIGHLIGHT_FADE_COSINE).clamp(0.0, 1.0);
+            amount * fade * specular::blinn_phong(normal, towards, to_eye, exponent)
+        };
+        self.lit(shadowed).map(of).sum()
+    }
+
+    /// Bounds of the diffuse light of some of the lights; see [`crate::light::Shading::range`].
+    pub(crate) fn diffuse_range(
+        &self,
+        of: Of,
+        point: &SurfacePoint,
+        shadowed: u32,
+        turn: f64,
+        extent: f64,
+    ) -> (f64, f64) {
+        let normal = self.normal(point);
+        let lambert = |angle: f64| ((cos(angle) + self.wrap) / (1.0 + self.wrap)).max(0.0);
+        let (mut low, mut high) = (0.0, 0.0);
+        for own in self.chosen(of, shadowed) {
+            let Some(near) = own.near(point.position, extent) else { return ANYTHING };
+            let angle = acos(near.towards.dot(normal).clamp(-1.0, 1.0));
+            let turn = turn + near.turn;
+            low += near.amount / near.factor * lambert((angle + turn).min(PI));
+            high += near.amount * near.factor * lambert((angle - turn).max(0.0));
+        }
+        (low * (1.0 - self.occlusion.clamp(0.0, 1.0)), high)
+    }
+
+    /// Bounds of the highlight; see [`crate::light::Shading::range`].
+    pub(crate) fn specular_range(
+        &self,
+        point: &SurfacePoint,
+        exponent: f64,
+        shadowed: u32,
+        turn: f64,
+        extent: f64,
+    ) -> (f64, f64) {
+        let Some(frame) = &self.frame else { return (0.0, 0.0) };
+        let (to_eye, way) = self.eye_of_highlights(frame, point.position);
+        if extent > LARGEST_EXTENT * way {
+            return ANYTHING;
+        }
+        let eye_turn = EXTENT_TO_TURN * extent / way;
+        let normal = self.normal(point);
+        let mut high = 0.0;
+        for lamp in self.lit(shadowed) {
+            let Some(mut near) = lamp.near(point.position, extent) else { return ANYTHING };
+            if let Some((towards, way)) = self.towards_for_highlights(frame, lamp, point.position) {
+                if extent > LARGEST_EXTENT * way {
+                    return ANYTHING;
+                }
+                (near.towards, near.turn) = (towards, EXTENT_TO_TURN * extent / way);
+            }
+            let half = (near.towards + to_eye).normalize_or_zero();
+            // Half-way between two directions turns as far as both together, at most, while these lie
+            // within a right angle; beyond it there is no telling.
+            if near.towards.dot(to_eye) < 0.0 {
+                return ANYTHING;
+            }
+            let angle = acos(normal.dot(half).clamp(-1.0, 1.0)) - turn - near.turn - eye_turn;
+            high += near.amount * near.factor * pow(cos(angle.clamp(0.0, PI / 2.0)).max(0.0), exponent);
+        }
+        (0.0, high)
+    }
+
+    /// The direction to the eye and how far away it is, as highlights have it; infinitely far in parallel views.
+    fn eye_of_highlights(&self, frame: &Frame, position: DVec3) -> (DVec3, f64) {
+        match self.near {
+            Some(near) => {
+                let way = frame.target() - frame.forward * near - position;
+                (way.normalize_or_zero(), way.length())
+            }
+            None if frame.perspective => (frame.to_eye(position), frame.eye.distance(position)),
+            None => (frame.to_eye(position), f64::INFINITY),
+        }
+    }
+
+    /// The direction to a parallel light that stands near where highlights are asked, and how far away it is.
+    fn towards_for_highlights(&self, frame: &Frame, lamp: &Lamp, position: DVec3) -> Option<(DVec3, f64)> {
+        let Reach::Parallel { towards } = lamp.reach else { return None };
+        let way = frame.target() + towards * self.near? - position;
+        Some((way.normalize_or_zero(), way.length()))
+    }
+
+    fn lit(&self, shadowed: u32) -> impl Iterator<Item = &Lamp> {
+        self.lamps.iter().filter(move |lamp| !lamp.is_shadowed(shadowed))
+    }
+
+    fn diffuse_of(&self, lamp: &Lamp, position: DVec3, normal: DVec3) -> f64 {
+        let (towards, amount) = lamp.at(position);
+        amount * ((towards.dot(normal) + self.wrap) / (1.0 + self.wrap)).max(0.0)
+    }
+
+    /// The normal; where there is none, the direction to the eye.
+    fn normal(&self, point: &SurfacePoint) -> DVec3 {
+        match &self.frame {
+            Some(frame) if point.normal == DVec3::ZERO || !point.normal.is_finite() => {
+                frame.to_eye(point.position)
+            }
+            _ => point.normal,
+        }
+    }
+
+    /// What is left of light where nooks are darker.
+    fn open(&self, point: &SurfacePoint) -> f64 {
+        1.0 - self.occlusion * (1.0 - point.openness.clamp(0.0, 1.0))
+    }
+}
+
+/// Bounds where nothing is known.
+const ANYTHING: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+
+/// A light of the style sheet in local space.
+fn of_source(source: &LightSource, origin: DVec3, frame: &Frame) -> Lamp {
+    // Camera space has z to the viewer, the frame's third axis goes away from the eye.
+    let turned = |v: DVec3| frame.right * v.x + frame.up * v.y - frame.forward * v.z;
+    let colour = source.colour.channels();
+    let lamp = match (source.kind, source.space) {
+        (SourceKind::Directional { direction }, space) => {
+            let direction = direction.normalize_or_zero();
+            let towards = if space == Space::Camera { turned(direction) } else { direction };
+            Lamp::parallel(towards, source.brightness, colour)
+        }
+        (SourceKind::Point { position, falloff }, space) => {
+            let position =
+                if space == Space::Camera { frame.eye + turned(position) } else { position - origin };
+            Lamp::point(position, falloff, source.brightness, colour)
+        }
+    };
+    Lamp { shadows: source.shadows, ..lamp }
+}

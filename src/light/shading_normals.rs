@@ -1,0 +1,190 @@
+//! [`ShadedNormals`]: the normals by which light falls on a mesh, three for each face.
+//!
+//! Rounded surfaces are lit as what their outline is made from. Elsewhere the normals are the file's own
+//! where it has any, or the faces around a vertex that no hard edge parts share one, so that
+//! tessellation does not show and corners stay corners.
+
+use crate::parallel::prelude::*;
+use glam::{DVec3, Vec3};
+
+use crate::mesh::{FaceId, Mesh, Share, shares};
+use crate::surface::{HardEdges, SmoothNormals};
+
+/// The normals by which light falls on a mesh. Inside a face they are interpolated and made unit
+/// length again.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ShadedNormals {
+    /// Unit normals, local space, on the outer side of their faces.
+    pub normals: Vec<DVec3>,
+    /// Which of them stand at the corners of each face. One per face.
+    pub corners: Vec<[u32; 3]>,
+}
+
+impl ShadedNormals {
+    /// The normals of a mesh with these hard edges, and with these normals on its rounded parts, from
+    /// which their outline is made as well.
+    #[must_use]
+    pub fn new(mesh: &Mesh, hard: &HardEdges, smooth: &SmoothNormals) -> Self {
+        if smooth.corners_of_all() {
+            let mut shaded = Self { normals: smooth.normals.clone(), corners: smooth.corners.clone() };
+            shaded.mend(mesh);
+            return shaded;
+        }
+        let all = SmoothNormals::parted(mesh, |_| true, |edge| hard.is_hard(edge));
+        let mut shaded = Self { normals: all.normals, corners: all.corners };
+        shaded.weigh_by_area(mesh, smooth);
+        if !mesh.corner_normals.is_empty() {
+            shaded.take_from_file(mesh);
+        }
+        shaded.take_rounded(smooth);
+        shaded.mend(mesh);
+        shaded
+    }
+
+    /// Puts the normals of rounded faces in their place.
+    fn take_rounded(&mut self, smooth: &SmoothNormals) {
+        let first = self.normals.len() as u32;
+        self.normals.extend(&smooth.normals);
+        for (face, corners) in self.corners.iter_mut().enumerate() {
+            if let Some(own) = smooth.corners_of(face as u32) {
+                *corners = own.map(|id| first + id);
+            }
+        }
+    }
+
+    /// The normals at the corners of a face.
+    #[inline]
+    #[must_use]
+    pub fn of(&self, face: u32) -> [DVec3; 3] {
+        self.corners[face as usize].map(|id| self.normals[id as usize])
+    }
+
+    /// Gives each normal the direction of the faces that share it, weighed by their area: large faces
+    /// are shaded as what they are, and the narrow ones of a rim do not bend the light on them. Normals that stand at
+    /// `rounded` faces alone are left as they are, since these have their own.
+    fn weigh_by_area(&mut self, mesh: &Mesh, rounded: &SmoothNormals) {
+        let mut is_asked = vec![false; self.normals.len()];
+        for (face, ids) in (0..).zip(&self.corners) {
+            if rounded.corners_of(face).is_none() {
+                ids.iter().for_each(|id| is_asked[*id as usize] = true);
+            }
+        }
+        let workers =
+            if self.normals.len() < FACES_PER_TASK { 1 } else { rayon_core::current_num_threads().min(8) };
+        let shares = shares(self.normals.len(), &self.corners, workers);
+        let of_share = |share: &Share| {
+            let mut sums = vec![DVec3::ZERO; share.vertices.len()];
+            for face in share.faces.iter().flat_map(Clone::clone) {
+                let ids = self.corners[face];
+                let own = |id: u32| share.vertices.contains(&(id as usize)) && is_asked[id as usize];
+                if !ids.iter().any(|id| own(*id)) {
+                    continue;
+                }
+                let [a, b, c] = mesh.corners(FaceId(face as u32));
+                let cross = (b - a).cross(c - a);
+                for id in ids.into_iter().filter(|id| own(*id)) {
+                    sums[id as usize - share.vertices.start] += cross;
+                }
+            }
+            let normals = &self.normals[share.vertices.clone()];
+            sums.iter().zip(normals).map(|(sum, own)| sum.try_normalize().unwrap_or(*own)).collect::<Vec<_>>()
+        };
+        let weighed: Vec<Vec<DVec3>> = shares.par_iter().with_max_len(1).map(of_share).collect();
+        self.normals = weighed.concat();
+    }
+
+    /// Puts the file's normals where it has some, on the side of their face that most of them are on.
+    fn take_from_file(&mut self, mesh: &Mesh) {
+        let first = self.normals.len() as u32;
+        let count = mesh.normals.len() as u32;
+        let unit: Vec<DVec3> =
+            mesh.normals.iter().map(|n| Vec3::from_array(*n).as_dvec3().normalize_or_zero()).collect();
+        self.normals.extend(&unit);
+        self.normals.extend(unit.iter().map(|n| -*n));
+        for (face, ids) in mesh.corner_normals.iter().enumerate() {
+            if ids.iter().any(|id| *id >= count || unit[*id as usize] == DVec3::ZERO) {
+                continue;
+            }
+            let own = Vec3::from_array(mesh.face_normals[face]).as_dvec3();
+            let sum: DVec3 = ids.iter().map(|id| unit[*id as usize]).sum();
+            let turned = if sum.dot(own) < 0.0 { count } else { 0 };
+            self.corners[face] = ids.map(|id| first + turned + id);
+        }
+    }
+
+    /// Gives faces whose normals are zero or leave the face altogether the face's own normal.
+    fn mend(&mut self, mesh: &Mesh) {
+        let own = |face: usize| Vec3::from_array(mesh.face_normals[face]).as_dvec3();
+        let bad = |normal: DVec3, own: DVec3| normal == DVec3::ZERO || normal.dot(own) < LEAST_COSINE;
+        let is_bad = |face: &u32| {
+            let own = own(*face as usize);
+            own != DVec3::ZERO && self.of(*face).iter().any(|normal| bad(*normal, own))
+        };
+        let faces = (0..self.corners.len() as u32).into_par_iter().with_min_len(FACES_PER_TASK);
+        let faces: Vec<u32> = faces.filter(is_bad).collect();
+        for face in faces {
+            let (face, own) = (face as usize, own(face as usize));
+            let id = self.normals.len() as u32;
+            self.normals.push(own);
+            let normals = &self.normals;
+            self.corners[face] =
+                self.corners[face].map(|k| if bad(normals[k as usize], own) { id } else { k });
+        }
+    }
+}
+
+/// Faces whose normals one task looks at.
+const FACES_PER_TASK: usize = 1 << 12;
+
+/// Normals farther than this from their face's own (cosine) do not belong to it.
+const LEAST_COSINE: f64 = -0.2;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Soup;
+
+    #[test]
+    fn a_bent_sheet_is_smooth_where_its_edge_is_not_hard() {
+        let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
+        let sheet = |rise: f64| {
+            let positions = vec![
+                at(0., 0., 0.),
+                at(0., 1., 0.),
+                at(1., 0., 0.),
+                at(1., 1., 0.),
+                at(2., 0., rise),
+                at(2., 1., rise),
+            ];
+            let triangles = vec![[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]];
+            let mesh = Mesh::build(Soup { positions, triangles, ..Soup::default() });
+            let hard = HardEdges::above(&mesh, 40.0);
+            let shaded = ShadedNormals::new(&mesh, &hard, &SmoothNormals::default());
+            (mesh, shaded)
+        };
+        let (mesh, steep) = sheet(2.0);
+        for face in 0..4 {
+            let own = Vec3::from_array(mesh.face_normals[face]).as_dvec3();
+            assert!(steep.of(face as u32).iter().all(|n| n.distance(own) < 1e-6));
+        }
+        let (_, shallow) = sheet(0.3);
+        let ends: Vec<[DVec3; 3]> = (0..4).map(|face| shallow.of(face)).collect();
+        assert!(ends.iter().flatten().any(|n| n.x < -0.05 && n.x > -0.2), "{ends:?}");
+    }
+
+    #[test]
+    fn the_files_normals_win_on_the_side_of_their_face() {
+        let positions = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+        let normals = vec![[0.0, 0.6, -0.8]; 3];
+        let soup = Soup {
+            positions,
+            triangles: vec![[0, 1, 2]],
+            normals,
+            corner_normals: vec![[0, 1, 2]],
+            ..Soup::default()
+        };
+        let mesh = Mesh::build(soup);
+        let shaded = ShadedNormals::new(&mesh, &HardEdges::default(), &SmoothNormals::default());
+        assert!(shaded.of(0).iter().all(|n| n.distance(DVec3::new(0.0, -0.6, 0.8)) < 1e-6));
+    }
+}

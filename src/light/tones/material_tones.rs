@@ -1,0 +1,307 @@
+//! [`Tones`]: the levels and colours of one material.
+//!
+//! Source: Lake, Marshall, Harris, Blackstein, Stylized rendering techniques for scalable real-time
+//! 3D animation, 2000, eq. 1 and section 3. Colours are reckoned in channels as written (sRGB), as
+//! the hardware of the paper did. The ambient coefficient of the light is a colour here, somewhat
+//! cooler than white by default, so that shadows are cooler than lit surfaces.
+
+use super::tone_options::{Colours, Gooch, Highlight, Scale, ToneOptions};
+use super::tone_ramps::Table;
+use crate::colour::colour_factor::Factor;
+use crate::colour::srgb::Colour;
+use crate::scene::material::Gloss;
+
+/// The greatest channel of a material in toned colours is at least this: on blacker ones neither
+/// tones nor lines could be told apart.
+const LEAST_LIT: f64 = 0.19;
+
+/// What a channel of a drawing is about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Channel {
+    /// The diffuse light of all lights.
+    Diffuse,
+    /// The diffuse light of one light alone, by its number.
+    Light(usize),
+    /// The diffuse light of the lights of one tint, by its number.
+    Hue(usize),
+    /// The strength of the highlight.
+    Highlight,
+    /// The diffuse light of all lights again, for hatching: its bins are not those of the tones.
+    Shade,
+}
+
+/// How a surface looks and is lit, as far as it gives tones their colours.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Look<'a> {
+    /// Base colour.
+    pub colour: Colour,
+    /// Light of its own: no tone is darker.
+    pub emissive: Colour,
+    /// Light from everywhere.
+    pub ambient: Factor,
+    /// Tint of the lights together.
+    pub tint: [f64; 3],
+    /// How it shines, if its file says so.
+    pub gloss: Option<Gloss>,
+    /// Tints of the lights one by one, if tones are to be cut for each.
+    pub hues: &'a [[f64; 3]],
+}
+
+/// The levels and colours of one material.
+#[derive(Debug, Clone)]
+pub(crate) struct Tones {
+    /// Rising levels of each channel; none where the material does not ask for it.
+    levels: Vec<Vec<f64>>,
+    /// Colours of the tones; those of highlights after the others.
+    colours: Vec<Colour>,
+    /// How many of them are no highlights, at least 1.
+    plain: usize,
+    /// The exponent of its highlights.
+    pub exponent: f64,
+    /// The table that two channels look tones up in.
+    table: Option<Table>,
+    /// Where lights have several tints: how they mix.
+    mixture: Option<Mixture>,
+}
+
+impl Tones {
+    /// The tones of a material, with levels for these channels.
+    pub fn new(options: &ToneOptions, look: &Look, channels: &[Channel]) -> Self {
+        let mixture = Mixture::of(options, look.hues);
+        let mut colours = match &mixture {
+            Some(mixture) => mixture.shares.iter().map(|shares| lake(options, look, *shares, true)).collect(),
+            None => plain_colours(options, look),
+        };
+        let plain = colours.len();
+        let highlight = options.highlight.of(look.gloss);
+        if let (Some(highlight), Some(brightest)) = (&highlight, colours.last().copied()) {
+            colours.extend(highlight_colours(highlight, brightest));
+        }
+        let table = match &options.scale {
+            Scale::Table(table) => Some(table.clone()),
+            _ => None,
+        };
+        let levels = channels.iter().map(|channel| match (channel, &table) {
+            (Channel::Diffuse, None) if mixture.is_none() => diffuse_levels(&options.scale),
+            (Channel::Hue(_), None) if mixture.is_some() => diffuse_levels(&options.scale),
+            (Channel::Light(0), Some(table)) => table.columns.clone(),
+            (Channel::Light(1), Some(table)) => table.rows.clone(),
+            (Channel::Highlight, _) => highlight.as_ref().map_or(Vec::new(), highlight_levels),
+            _ => Vec::new(),
+        });
+        let levels = levels.collect();
+        let exponent = highlight.as_ref().unwrap_or(&options.highlight).exponent;
+        Self { levels, colours, plain, exponent, table, mixture }
+    }
+
+    /// Adds levels for one more channel to the tones.
+    pub fn add_levels(&mut self, levels: Vec<f64>) {
+        self.levels.push(levels);
+    }
+
+    /// Rising levels of a channel.
+    pub fn levels(&self, channel: usize) -> &[f64] {
+        self.levels.get(channel).map_or(&[], Vec::as_slice)
+    }
+
+    /// The tone of a point, from how many levels of each channel its values reach.
+    pub fn tone(&self, channels: &[Channel], bands: &[u16]) -> u16 {
+        let band = |wanted: Channel| {
+            let index = channels.iter().position(|channel| *channel == wanted);
+            index.and_then(|index| bands.get(index)).copied().unwrap_or_default()
+        };
+        let last = |count: usize| count.saturating_sub(1) as u16;
+        match (band(Channel::Highlight), &self.table) {
+            (0, Some(table)) => table.tone(band(Channel::Light(0)), band(Channel::Light(1))),
+            (0, None) => match &self.mixture {
+                Some(mixture) => mixture.tone(|hue| band(Channel::Hue(hue))),
+                None => band(Channel::Diffuse).min(last(self.plain)),
+            },
+            (highlight, _) => last(self.plain).saturating_add(highlight).min(last(self.colours.len())),
+        }
+    }
+
+    /// How many tones there are, highlights counted.
+    pub fn count(&self) -> u16 {
+        self.colours.len() as u16
+    }
+
+    /// How many shades its tones without highlights run through: steps of 1 in 255 that the channel takes which changes the most.
+    pub fn shades(&self) -> usize {
+        let plain = &self.colours[..self.plain.min(self.colours.len())];
+        let way = |channel: fn(&Colour) -> u8| -> usize {
+            plain.windows(2).map(|pair| usize::from(channel(&pair[0]).abs_diff(channel(&pair[1])))).sum()
+        };
+        way(|c| c.r).max(way(|c| c.g)).max(way(|c| c.b))
+    }
+
+    /// The colour of a tone; the brightest where there is no such tone.
+    pub fn colour(&self, tone: u16) -> Colour {
+        let colour = self.colours.get(usize::from(tone)).or(self.colours.last());
+        colour.copied().unwrap_or(Colour::WHITE)
+    }
+}
+
+fn diffuse_levels(scale: &Scale) -> Vec<f64> {
+    match scale {
+        Scale::Thresholds(thresholds) => thresholds.clone(),
+        Scale::Steps(steps) => (1..*steps).map(|k| k as f64 / *steps as f64).collect(),
+        Scale::Ramp(strip) => strip.levels.clone(),
+        Scale::Table(_) => Vec::new(),
+    }
+}
+
+/// Colours of the tones that are no highlights, darkest first.
+fn plain_colours(options: &ToneOptions, look: &Look) -> Vec<Colour> {
+    let standing = |colours: &[Colour], modulate: f64| -> Vec<Colour> {
+        colours
+            .iter()
+            .map(|&colour| if modulate > 0.0 { modulated(colour, modulate, look) } else { colour })
+            .collect()
+    };
+    let count = match &options.scale {
+        Scale::Ramp(strip) => return standing(&strip.colours, options.modulate.unwrap_or(0.0)),
+        Scale::Table(table) => return standing(&table.colours, options.modulate.unwrap_or(1.5)),
+        scale => diffuse_levels(scale).len() + 1,
+    };
+    let even = [0.0, 1.0];
+    let shares = if options.tones.is_empty() { &even[..] } else { &options.tones };
+    let share = |k: usize| spread(shares, k, count, |a, b, t| a + (b - a) * t).unwrap_or(1.0);
+    let colours = (0..count).map(|k| match &options.colours {
+        Colours::Material => lake(options, look, look.tint.map(|c| c * share(k)), count > 1),
+        Colours::Palette(palette) => {
+            spread(palette, k, count, |a, b, t| a.mix(b, t)).unwrap_or(Colour::WHITE)
+        }
+        Colours::Gooch(gooch) => cool_to_warm(gooch, look, share(k)),
+    });
+    let colours: Vec<Colour> = colours.collect();
+    match options.colours {
+        Colours::Palette(_) => standing(&colours, options.modulate.unwrap_or(0.0)),
+        _ => colours,
+    }
+}
+
+/// Lake's eq. 1 with tinted shares in place of max(L·n, 0): ambient light of the scene and of the
+/// light, and the light's diffuse share, all times the material.
+fn lake(options: &ToneOptions, look: &Look, shares: [f64; 3], toned: bool) -> Colour {
+    let mut material = look.colour.channels();
+    let greatest = material.into_iter().fold(0.0, f64::max);
+    if toned && greatest < LEAST_LIT {
+        material = material.map(|channel| channel + LEAST_LIT - greatest);
+    }
+    let (a_g, a_l, lit) = (look.ambient.0, options.shadow.0, options.lit.0);
+    let own = look.emissive.channels();
+    let channel = |c: usize| ((a_g[c] + a_l[c] + shares[c] * (lit[c] - a_l[c])) * material[c]).max(own[c]);
+    Colour { a: look.colour.a, ..Colour::from_channels([0, 1, 2].map(channel)) }
+}
+
+/// How lights of several tints mix: each falls into tones of its own, and each set of these is a tone.
+///
+/// Source: Ishaya, the table of two lights, with as many as there are tints.
+#[derive(Debug, Clone)]
+struct Mixture {
+    /// Tones of each tint.
+    count: usize,
+    /// The tinted light of each tone, the darkest first.
+    shares: Vec<[f64; 3]>,
+    /// The tone of each set; the first tint counts in ones, the next in tones of the first, and so on.
+    order: Vec<u16>,
+}
+
+/// More tones than this do not come of mixing lights: a gradient has the mean tint.
+const MOST_MIXED: usize = 64;
+
+impl Mixture {
+    /// How lights of these tints mix; none where their mean counts.
+    fn of(options: &ToneOptions, hues: &[[f64; 3]]) -> Option<Self> {
+        if hues.len() < 2 || !matches!(options.colours, Colours::Material) {
+            return None;
+        }
+        let count = match &options.scale {
+            Scale::Thresholds(_) | Scale::Steps(_) => diffuse_levels(&options.scale).len() + 1,
+            Scale::Ramp(_) | Scale::Table(_) => return None,
+        };
+        let all = count.checked_pow(hues.len() as u32).filter(|all| (2..=MOST_MIXED).contains(all))?;
+        let even = [0.0, 1.0];
+        let shares = if options.tones.is_empty() { &even[..] } else { &options.tones };
+        let share = |k: usize| spread(shares, k, count, |a, b, t| a + (b - a) * t).unwrap_or(1.0);
+        let brightest = share(count - 1).max(1.0);
+        let light_of = |mut set: usize| {
+            let mut light = [0.0; 3];
+            for hue in hues {
+                let share = share(set % count);
+                light.iter_mut().zip(hue).for_each(|(light, c)| *light = (*light + c * share).min(brightest));
+                set /= count;
+            }
+            light
+        };
+        let luma = |[r, g, b]: [f64; 3]| 0.2126 * r + 0.7152 * g + 0.0722 * b;
+        let lights: Vec<[f64; 3]> = (0..all).map(light_of).collect();
+        let mut ranked: Vec<usize> = (0..all).collect();
+        ranked.sort_by(|a, b| luma(lights[*a]).total_cmp(&luma(lights[*b])));
+        let mut order = vec![0; all];
+        ranked.iter().enumerate().for_each(|(tone, set)| order[*set] = tone as u16);
+        Some(Self { count, shares: ranked.iter().map(|set| lights[*set]).collect(), order })
+    }
+
+    /// The tone where each light reaches so many of its levels.
+    fn tone(&self, band: impl Fn(usize) -> u16) -> u16 {
+        let (mut set, mut worth, mut hue) = (0, 1, 0);
+        while worth < self.order.len() {
+            set += usize::from(band(hue)).min(self.count - 1) * worth;
+            worth *= self.count;
+            hue += 1;
+        }
+        self.order[set]
+    }
+}
+
+/// Gooch's blend of k_cool = k_blue + α k_d and k_warm = k_yellow + β k_d.
+fn cool_to_warm(gooch: &Gooch, look: &Look, share: f64) -> Colour {
+    let (cool, warm, material) = (gooch.cool.channels(), gooch.warm.channels(), look.colour.channels());
+    let channel = |c: usize| {
+        let k_cool = (cool[c] + gooch.cool_share * material[c]).min(1.0);
+        let k_warm = (warm[c] + gooch.warm_share * material[c]).min(1.0);
+        k_cool + (k_warm - k_cool) * share
+    };
+    Colour { a: look.colour.a, ..Colour::from_channels([0, 1, 2].map(channel)) }
+}
+
+/// A colour of a ramp times the material and the lights' tint, brighter by a factor and cut off at 1.
+fn modulated(colour: Colour, factor: f64, look: &Look) -> Colour {
+    let (shade, material) = (colour.channels(), look.colour.channels());
+    let channels = [0, 1, 2].map(|c| factor * shade[c] * material[c] * look.tint[c]);
+    Colour { a: look.colour.a.min(colour.a), ..Colour::from_channels(channels) }
+}
+
+/// Rising strengths at which highlights begin or change.
+fn highlight_levels(highlight: &Highlight) -> Vec<f64> {
+    highlight.ramp.as_ref().map_or_else(|| highlight.thresholds.clone(), |strip| strip.levels.clone())
+}
+
+/// Colours of highlights, weakest first.
+fn highlight_colours(highlight: &Highlight, brightest: Colour) -> Vec<Colour> {
+    if let Some(strip) = &highlight.ramp {
+        let (below, a) = (brightest.channels(), brightest.a);
+        let added = |light: &Colour| {
+            let light = light.channels();
+            Colour { a, ..Colour::from_channels([0, 1, 2].map(|c| (below[c] + light[c]).min(1.0))) }
+        };
+        return strip.colours.iter().skip(1).map(added).collect();
+    }
+    let count = highlight.thresholds.len();
+    let of = |k: usize| brightest.mix(highlight.colour, highlight.strength * k as f64 / count as f64);
+    (1..=count).map(of).collect()
+}
+
+/// The k-th of `count` values spread evenly over a list, its ends included; of one alone the last.
+fn spread<T: Copy>(list: &[T], k: usize, count: usize, mix: impl Fn(T, T, f64) -> T) -> Option<T> {
+    let last = list.len().checked_sub(1)?;
+    if count <= 1 {
+        return list.last().copied();
+    }
+    let at = (k * last) as f64 / (count - 1) as f64;
+    let below = (at as usize).min(last);
+    let (a, b) = (*list.get(below)?, *list.get((below + 1).min(last))?);
+    Some(mix(a, b, at - below as f64))
+}

@@ -1,0 +1,245 @@
+//! [`Shading`]: how a view is lit, and into which tones its surface falls.
+
+use glam::DVec3;
+
+use super::material_tones::{Channel, Look, Tones};
+use super::tone_options::{Scale, ToneOptions};
+use crate::colour::srgb::Colour;
+use crate::light::lights::light_options::LightOptions;
+use crate::light::lights::lighting::{Caster, Lighting, Of, SurfacePoint};
+use crate::light::{ShadeOptions, Slope};
+use crate::mesh::{Mesh, PaintId};
+use crate::scene::{Material, Paint, Scene};
+use crate::view::Frame;
+
+/// How a view is lit, and into which tones its surface falls.
+///
+/// What a point looks like follows from one or more *channels*: numbers that vary over the surface,
+/// such as the light that falls on it or the strength of its highlight. Each channel has rising
+/// levels, and where one of them is crossed the tone may change.
+///
+/// Channel 0 is the diffuse light of all lights. Where a material asks for a table of two lights,
+/// the next two channels are the light of the first and of the second one alone; where lights have several tints, the next are
+/// the light of each tint; where one asks for
+/// highlights, the next is their strength; where surfaces are hatched, the last is the diffuse light with
+/// the bins of hatching as its levels.
+#[derive(Debug, Clone)]
+pub struct Shading {
+    lighting: Lighting,
+    channels: Vec<Channel>,
+    /// Tones of each paint.
+    // The last stand in for paints that are unknown.
+    tones: Vec<Tones>,
+}
+
+impl Shading {
+    /// The shading of a scene, whose mesh is seen by a camera; without paints, each material is one.
+    /// What had to be mended is added to the warnings.
+    #[must_use]
+    pub fn new(
+        scene: &Scene,
+        paints: &[Paint],
+        mesh: &Mesh,
+        frame: &Frame,
+        light: &LightOptions,
+        tones: &ToneOptions,
+        warnings: &mut Vec<String>,
+    ) -> Self {
+        let lighting = Lighting::new(scene, mesh, frame, light, tones.cast_shadows, warnings);
+        let without = Material::default();
+        let mut materials: Vec<(ToneOptions, &Material, Option<Colour>)> = scene
+            .materials
+            .iter()
+            .chain([&without])
+            .map(|material| {
+                let (own, colour) = tones.for_material(&material.name);
+                (own, material, colour)
+            })
+            .collect();
+
+        let mut channels = vec![Channel::Diffuse];
+        if materials.iter().any(|(own, ..)| matches!(own.scale, Scale::Table(_))) {
+            channels.extend([Channel::Light(0), Channel::Light(1)]);
+            if lighting.count() < 2 {
+                warnings.push("a table of tones is for two lights, but there is one".to_owned());
+            }
+        }
+        let hues = if (2..=MOST_HUES).contains(&lighting.hues().len()) { lighting.hues() } else { &[] };
+        channels.extend((0..hues.len()).map(Channel::Hue));
+        if materials.iter().any(|(own, ..)| own.highlight.enabled) {
+            channels.push(Channel::Highlight);
+        }
+        let tint = lighting.tint();
+        let tones_of = |materials: &[(ToneOptions, &Material, Option<Colour>)]| -> Vec<Tones> {
+            let of = |index: usize, colour: Option<Colour>| {
+                let (own, material, instead) = materials.get(index).or(materials.last())?;
+                let colour = instead.or(colour).unwrap_or(material.colour);
+                let Material { emissive, gloss, .. } = **material;
+                let look = Look { colour, emissive, ambient: light.ambient, tint, gloss, hues };
+                Some(Tones::new(own, &look, &channels))
+            };
+            if paints.is_empty() {
+                (0..materials.len()).filter_map(|index| of(index, None)).collect()
+            } else {
+                paints.iter().filter_map(|paint| of(paint.material.index(), Some(paint.colour))).collect()
+            }
+        };
+        let mut tones_of_paints = tones_of(&materials);
+        // All paints of a gradient keep the same steps: their tones end in the same places.
+        let shades = tones_of_paints.iter().map(Tones::shades).max().unwrap_or_default();
+        let fewer =
+            |(own, ..): &(ToneOptions, &Material, Option<Colour>)| own.scale.clone().for_shades(shades);
+        if materials.iter().any(|material| fewer(material) != material.0.scale) {
+            materials.iter_mut().for_each(|material| material.0.scale = fewer(material));
+            tones_of_paints = tones_of(&materials);
+        }
+        Self {
+            tones: tones_of_paints,
+            lighting: lighting.near_for_highlights(tones.highlight.near),
+            channels,
+        }
+    }
+
+    /// This shading with bins for hatching; `paints` as they were given before.
+    #[must_use]
+    pub fn with_bins(mut self, scene: &Scene, paints: &[Paint], options: &ShadeOptions) -> Self {
+        self.channels.push(Channel::Shade);
+        let without = Material::default();
+        for (k, tones) in self.tones.iter_mut().enumerate() {
+            let paint = paints.get(k);
+            let number = if paints.is_empty() { Some(k) } else { paint.map(|paint| paint.material.index()) };
+            let material = number.and_then(|k| scene.materials.get(k)).unwrap_or(&without);
+            let colour = paint.map_or(material.colour, |paint| paint.colour);
+            tones.add_levels(options.levels(&material.name, colour));
+        }
+        self
+    }
+
+    /// The channel whose levels are the bins of hatching, if there is one.
+    #[must_use]
+    pub fn bins(&self) -> Option<usize> {
+        self.channels.iter().position(|channel| *channel == Channel::Shade)
+    }
+
+    /// The most levels that any surface has in a channel, beside the bins of its hatching; 0 where none falls into several tones.
+    #[must_use]
+    pub fn most_levels(&self) -> usize {
+        let others = || (0..self.channels.len()).filter(|channel| self.bins() != Some(*channel));
+        let of = |tones: &Tones| others().map(|channel| tones.levels(channel).len()).max();
+        self.tones.iter().filter_map(of).max().unwrap_or_default()
+    }
+
+    /// Light from one direction on light grey, with levels on max(L·n, 0).
+    #[must_use]
+    pub fn from_direction(towards_light: DVec3, levels: Vec<f64>) -> Self {
+        let lighting = Lighting::from_direction(towards_light);
+        let channels = vec![Channel::Diffuse];
+        let options = ToneOptions { scale: Scale::Thresholds(levels), ..ToneOptions::default() };
+        let Material { colour, emissive, .. } = Material::default();
+        let ambient = LightOptions::default().ambient;
+        let look = Look { colour, emissive, ambient, tint: lighting.tint(), gloss: None, hues: &[] };
+        let tones = vec![Tones::new(&options, &look, &channels)];
+        Self { lighting, channels, tones }
+    }
+
+    /// The lights that cast shadows, at most 8, local space; the index of each is its bit in
+    /// `shadowed` of [`Shading::value`].
+    #[must_use]
+    pub fn casters(&self) -> &[Caster] {
+        self.lighting.casters()
+    }
+
+    /// Number of channels.
+    #[must_use]
+    pub fn channels(&self) -> usize {
+        self.channels.len()
+    }
+
+    /// Whether a channel varies over a flat face: with the distance from a light, with the direction
+    /// to the eye, or with how much of the sky is seen. The others follow from the normal alone.
+    #[must_use]
+    pub fn is_local(&self, channel: usize) -> bool {
+        matches!(self.channels.get(channel), Some(Channel::Highlight)) || self.lighting.is_local()
+    }
+
+    /// The least and the greatest value that a channel may have within `extent` of a point, where
+    /// the normal turns by no more than `turn` radians.
+    #[must_use]
+    pub fn range(
+        &self,
+        channel: usize,
+        paint: PaintId,
+        point: &SurfacePoint,
+        shadowed: u32,
+        turn: f64,
+        extent: f64,
+    ) -> (f64, f64) {
+        let lighting = &self.lighting;
+        match self.channels.get(channel) {
+            Some(Channel::Diffuse | Channel::Shade) => {
+                lighting.diffuse_range(Of::All, point, shadowed, turn, extent)
+            }
+            Some(Channel::Light(k)) => lighting.diffuse_range(Of::Lamp(*k), point, shadowed, turn, extent),
+            Some(Channel::Hue(k)) => lighting.diffuse_range(Of::Hue(*k), point, shadowed, turn, extent),
+            Some(Channel::Highlight) => {
+                lighting.specular_range(point, self.exponent(paint), shadowed, turn, extent)
+            }
+            None => (0.0, 0.0),
+        }
+    }
+
+    /// By how much the value of a channel that is not local changes with the normal.
+    #[must_use]
+    pub fn slope(&self) -> Slope {
+        self.lighting.slope()
+    }
+
+    /// The rising levels of a channel on a paint.
+    #[must_use]
+    pub fn levels(&self, paint: PaintId, channel: usize) -> &[f64] {
+        self.tones_of(paint).map_or(&[], |tones| tones.levels(channel))
+    }
+
+    /// The value of a channel at a point that those lights do not reach whose bits are set in
+    /// `shadowed`.
+    #[must_use]
+    pub fn value(&self, channel: usize, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> f64 {
+        match self.channels.get(channel) {
+            Some(Channel::Diffuse | Channel::Shade) => self.lighting.diffuse(Of::All, point, shadowed),
+            Some(Channel::Light(k)) => self.lighting.diffuse(Of::Lamp(*k), point, shadowed),
+            Some(Channel::Hue(k)) => self.lighting.diffuse(Of::Hue(*k), point, shadowed),
+            Some(Channel::Highlight) => self.lighting.specular(point, self.exponent(paint), shadowed),
+            None => 0.0,
+        }
+    }
+
+    /// The tone of a point, 0 the darkest, from how many levels of each channel its values reach.
+    #[must_use]
+    pub fn tone(&self, paint: PaintId, bands: &[u16]) -> u16 {
+        self.tones_of(paint).map_or(0, |tones| tones.tone(&self.channels, bands))
+    }
+
+    /// How many tones a paint has, highlights counted.
+    #[must_use]
+    pub fn tone_count(&self, paint: PaintId) -> u16 {
+        self.tones_of(paint).map_or(1, Tones::count)
+    }
+
+    /// The colour of a tone on a paint.
+    #[must_use]
+    pub fn colour(&self, paint: PaintId, tone: u16) -> Colour {
+        self.tones_of(paint).map_or(Colour::WHITE, |tones| tones.colour(tone))
+    }
+
+    /// The exponent of the highlights of a paint.
+    fn exponent(&self, paint: PaintId) -> f64 {
+        self.tones_of(paint).map_or(1.0, |tones| tones.exponent)
+    }
+
+    fn tones_of(&self, paint: PaintId) -> Option<&Tones> {
+        self.tones.get(paint.index()).or(self.tones.last())
+    }
+}
+
+/// Tones are cut for the lights of each tint where there are no more tints than this.
+const MOST_HUES: usize = 3;

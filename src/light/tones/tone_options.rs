@@ -1,0 +1,289 @@
+//! Into which tones a surface falls and what colours they have: part of the `[fills]` table.
+
+use serde::{Deserialize, Deserializer};
+
+use super::tone_ramps::{GREATEST_TONES, Strip, Table};
+use crate::colour::colour_factor::Factor;
+use crate::colour::srgb::Colour;
+use crate::geometry::names::glob::Glob;
+use crate::geometry::numbers::tolerance;
+use crate::light::lights::light_options::fraction;
+use crate::scene::material::Gloss;
+
+/// Into which tones the surface of a material falls, and what colours they have.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ToneOptions {
+    /// Where tones change. Default: one threshold at 0.5.
+    pub scale: Scale,
+    /// Where the colours of tones come from. Default: the material.
+    pub colours: Colours,
+    /// How much light each tone shows, darkest first: 0 = as in the shadow, 1 = lit. Spread over
+    /// the tones; empty = even steps. Default: empty.
+    pub tones: Vec<f64>,
+    /// What is left of the material's colour in the shadow, a_l of Lake et al. 2000, eq. 1.
+    /// Default: (0.7, 0.66, 0.78), somewhat cooler than the material.
+    pub shadow: Factor,
+    /// What is left of the material's colour where it is lit; eq. 1's d_l is this less `shadow`.
+    /// Default: 1.
+    pub lit: Factor,
+    /// Whether the colours of a palette, ramp or table multiply the material's, and how much
+    /// brighter: 0 = they stand as they are. Default: 0, and 1.5 for a table (Ishaya 2003).
+    pub modulate: Option<f64>,
+    /// Highlights.
+    pub highlight: Highlight,
+    /// Whether surfaces cast shadows on each other. Default: false.
+    pub cast_shadows: bool,
+    /// What is different for some materials, in order.
+    pub materials: Vec<MaterialChange>,
+}
+
+/// Where tones change.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Scale {
+    /// At rising thresholds of the diffuse light.
+    Thresholds(Vec<f64>),
+    /// At this many even steps of the diffuse light from 0 to 1; of a gradient at fewer, if its colours have no more shades.
+    Steps(usize),
+    /// At the borders between the columns of a strip of colours.
+    Ramp(Strip),
+    /// At the borders between the columns and rows of a table of colours, of the light of the
+    /// first and of the second light.
+    Table(Table),
+}
+
+impl Scale {
+    /// The scale for colours that run through so many shades: what is more than a few steps needs no more of them than
+    /// colours of 8 bits can tell apart.
+    #[must_use]
+    pub fn for_shades(self, shades: usize) -> Self {
+        match self {
+            Self::Steps(steps) if steps > tolerance::FEW_LEVELS + 2 => {
+                Self::Steps(steps.min((shades + 1).max(tolerance::FEW_LEVELS + 2)))
+            }
+            other => other,
+        }
+    }
+}
+
+/// Where the colours of tones come from; a ramp and a table bring their own.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Colours {
+    /// The material, by eq. 1 of Lake et al. 2000.
+    Material,
+    /// A list, darkest first, spread over the tones.
+    Palette(Vec<Colour>),
+    /// The material between a cool and a warm colour.
+    Gooch(Gooch),
+}
+
+/// Colours from cool to warm (Gooch et al., A non-photorealistic lighting model for automatic
+/// technical illustration, 1998): cool + `cool_share` of the material in the shadow, warm +
+/// `warm_share` of the material where it is lit.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Gooch {
+    /// Whether colours go from cool to warm. Default: false.
+    pub enabled: bool,
+    /// Colour of the shadow, k_blue. Default: `#00008c`.
+    pub cool: Colour,
+    /// Colour of the light, k_yellow. Default: `#4d4d00`.
+    pub warm: Colour,
+    /// Share of the material's colour in the shadow, α. Default: 0.25.
+    #[serde(deserialize_with = "fraction")]
+    pub cool_share: f64,
+    /// Share of the material's colour in the light, β. Default: 0.5.
+    #[serde(deserialize_with = "fraction")]
+    pub warm_share: f64,
+}
+
+/// Highlights: where a surface mirrors a light into the eye.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Highlight {
+    /// Whether there are any. Default: false.
+    pub enabled: bool,
+    /// Rising thresholds of (n·h)^exponent. Default: 0.5.
+    pub thresholds: Vec<f64>,
+    /// The higher, the smaller. Default: 40.
+    pub exponent: f64,
+    /// The colour that the brightest tone of the material is mixed with. Default: white.
+    pub colour: Colour,
+    /// How much of it the brightest highlight has, 0 to 1; weaker ones have less. Default: 0.7.
+    pub strength: f64,
+    /// Light over its strength from 0 to 1, added to the brightest tone of the material, in place of thresholds, colour and strength.
+    /// Default: none.
+    pub ramp: Option<Strip>,
+    /// Whether exponent and strength are those of the material where its file has any. Default: false.
+    pub material: bool,
+    /// Where highlights are asked, the eye and parallel lights stand so many sides of the frame from what the camera looks at, so that
+    /// flat faces have a spot and not all or nothing; 0 = where they are. Default: 0.
+    pub near: f64,
+}
+
+/// What is different about highlights for some materials.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct HighlightChange {
+    /// Whether there are any.
+    pub enabled: Option<bool>,
+    /// Rising thresholds of (n·h)^exponent.
+    pub thresholds: Option<Vec<f64>>,
+    /// The higher, the smaller.
+    pub exponent: Option<f64>,
+    /// The colour that the brightest tone is mixed with.
+    pub colour: Option<Colour>,
+    /// How much of it the brightest highlight has.
+    pub strength: Option<f64>,
+    /// Light over its strength.
+    pub ramp: Option<Strip>,
+    /// Whether the material says how it shines.
+    pub material: Option<bool>,
+}
+
+impl Highlight {
+    /// Applies a change. Numbers of its own stand in for those of the material.
+    pub fn change(&mut self, change: HighlightChange) {
+        let HighlightChange { enabled, thresholds, exponent, colour, strength, ramp, material } = change;
+        self.enabled = enabled.unwrap_or(self.enabled);
+        self.material = material.unwrap_or(self.material && exponent.is_none() && strength.is_none());
+        if thresholds.is_some() || colour.is_some() || strength.is_some() {
+            self.ramp = None;
+        }
+        self.thresholds = thresholds.unwrap_or(std::mem::take(&mut self.thresholds));
+        self.exponent = exponent.unwrap_or(self.exponent);
+        self.colour = colour.unwrap_or(self.colour);
+        self.strength = strength.unwrap_or(self.strength);
+        self.ramp = ramp.or(self.ramp.take());
+    }
+
+    /// The highlights of a material that shines so; none if it has none.
+    #[must_use]
+    pub fn of(&self, gloss: Option<Gloss>) -> Option<Self> {
+        let mut own = self.clone();
+        if let Some(gloss) = gloss.filter(|_| self.material) {
+            own.exponent = f64::from(gloss.exponent).clamp(LEAST_EXPONENT, GREATEST_EXPONENT);
+            own.strength *= f64::from(gloss.strength).clamp(0.0, 1.0);
+        }
+        (own.enabled && (own.strength > 0.0 || own.ramp.is_some())).then_some(own)
+    }
+}
+
+const LEAST_EXPONENT: f64 = 1.0;
+const GREATEST_EXPONENT: f64 = 10_000.0;
+
+/// What is different for the materials whose name fits a pattern: `[[fills.material]]`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MaterialChange {
+    /// The pattern.
+    pub name: Glob,
+    /// The colour that stands in for the material's.
+    pub colour: Option<Colour>,
+    /// Where tones change.
+    pub scale: Option<Scale>,
+    /// Where the colours of tones come from.
+    pub colours: Option<Colours>,
+    /// How much light each tone shows.
+    pub tones: Option<Vec<f64>>,
+    /// What is left of the colour in the shadow.
+    pub shadow: Option<Factor>,
+    /// What is left of the colour where it is lit.
+    pub lit: Option<Factor>,
+    /// How palette, ramp or table multiply the material.
+    pub modulate: Option<f64>,
+    /// What is different about highlights.
+    pub highlight: HighlightChange,
+}
+
+impl Default for ToneOptions {
+    fn default() -> Self {
+        Self {
+            scale: Scale::Thresholds(vec![0.5]),
+            colours: Colours::Material,
+            tones: Vec::new(),
+            shadow: Factor([0.7, 0.66, 0.78]),
+            lit: Factor::ALL,
+            modulate: None,
+            highlight: Highlight::default(),
+            cast_shadows: false,
+            materials: Vec::new(),
+        }
+    }
+}
+
+impl Default for Gooch {
+    fn default() -> Self {
+        Self {
+            enabled: false,
+            cool: Colour::rgb(0, 0, 0x8c),
+            warm: Colour::rgb(0x4d, 0x4d, 0),
+            cool_share: 0.25,
+            warm_share: 0.5,
+        }
+    }
+}
+
+impl Default for Highlight {
+    fn default() -> Self {
+        Self {
+            enabled: false,
+            thresholds: vec![0.5],
+            exponent: 40.0,
+            colour: Colour::WHITE,
+            strength: 0.7,
+            ramp: None,
+            material: false,
+            near: 0.0,
+        }
+    }
+}
+
+impl ToneOptions {
+    /// The options of a material of this name, changes applied, and the colour that stands in for
+    /// its own.
+    #[must_use]
+    pub fn for_material(&self, name: &str) -> (Self, Option<Colour>) {
+        let mut own = Self { materials: Vec::new(), ..self.clone() };
+        let mut colour = None;
+        for change in self.materials.iter().filter(|change| change.name.matches(name)) {
+            let change = change.clone();
+            colour = change.colour.or(colour);
+            own.scale = change.scale.unwrap_or(own.scale);
+            // Colours of its own stand in for those that a ramp or table would bring.
+            if let (Some(_), Scale::Ramp(_) | Scale::Table(_)) = (&change.colours, &own.scale) {
+                own.scale = Self::default().scale;
+            }
+            own.colours = change.colours.unwrap_or(own.colours);
+            own.tones = change.tones.unwrap_or(own.tones);
+            own.shadow = change.shadow.unwrap_or(own.shadow);
+            own.lit = change.lit.unwrap_or(own.lit);
+            own.modulate = change.modulate.or(own.modulate);
+            own.highlight.change(change.highlight);
+        }
+        (own, colour)
+    }
+}
+
+/// Rising numbers above 0.
+///
+/// # Errors
+/// Says what a threshold must be.
+pub fn thresholds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
+    let list = Vec::<f64>::deserialize(deserializer)?;
+    let rising = list.windows(2).all(|pair| pair[0] < pair[1]);
+    if list.iter().all(|t| t.is_finite() && *t > 0.0) && rising && list.len() < GREATEST_TONES {
+        return Ok(list);
+    }
+    Err(serde::de::Error::custom("thresholds are rising numbers above 0; write such as [0.3, 0.7]"))
+}
+
+/// The exponent of a highlight.
+///
+/// # Errors
+/// Says what it may be.
+pub fn exponent<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    let value = f64::deserialize(deserializer)?;
+    if (LEAST_EXPONENT..=GREATEST_EXPONENT).contains(&value) {
+        return Ok(value);
+    }
+    Err(serde::de::Error::custom(format!(
+        "{value} is not the exponent of a highlight; write a number from 1 to 10000"
+    )))
+}

@@ -1,0 +1,154 @@
+//! [`Strip`] and [`Table`]: scales of tones read from pictures or lists of colours.
+//!
+//! Source: Lake et al. 2000, section 3 (the one-dimensional texture); Ishaya, Real-time cartoon
+//! rendering, 2003, "Painting" (the two-dimensional one, indexed by two lights). Where a
+//! graphics card looks a texel up at each pixel, the borders between texels are levels here.
+
+use crate::colour::pixel_picture::Picture;
+use crate::colour::srgb::Colour;
+
+/// Most tones that a scale has; lists in style sheets are no longer.
+pub const GREATEST_TONES: usize = 1024;
+
+/// Colours over the light from 0 to 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Strip {
+    /// The light at which each colour but the first begins.
+    pub levels: Vec<f64>,
+    /// The colours, one more than there are levels.
+    pub colours: Vec<Colour>,
+}
+
+/// Colours over the light of a first and of a second light, each from 0 to 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    /// The first light at which each column but the first begins.
+    pub columns: Vec<f64>,
+    /// The second light at which each row but the first begins.
+    pub rows: Vec<f64>,
+    /// Which colour each cell has, row by row.
+    cells: Vec<u16>,
+    /// The colours in use, darkest first.
+    pub colours: Vec<Colour>,
+}
+
+impl Strip {
+    /// Columns of equal width; equal neighbours become one.
+    ///
+    /// # Errors
+    /// Says so if there is no colour, or more of them than a scale of tones has.
+    pub fn of_columns(columns: &[Colour]) -> Result<Self, String> {
+        let (Some(first), count) = (columns.first(), columns.len()) else {
+            return Err("has no colour".to_owned());
+        };
+        let (mut levels, mut colours) = (Vec::new(), vec![*first]);
+        for (index, pair) in columns.windows(2).enumerate() {
+            if pair[0] != pair[1] {
+                levels.push((index + 1) as f64 / count as f64);
+                colours.push(pair[1]);
+            }
+        }
+        if colours.len() > GREATEST_TONES {
+            return Err(format!("has {} colours; at most {GREATEST_TONES} are possible", colours.len()));
+        }
+        Ok(Self { levels, colours })
+    }
+
+    /// The columns of a picture, in its middle row.
+    ///
+    /// # Errors
+    /// As [`Strip::of_columns`].
+    pub fn of_picture(picture: &Picture) -> Result<Self, String> {
+        Self::of_columns(picture.row(picture.height / 2))
+    }
+}
+
+impl Table {
+    /// Rows and columns of equal size; borders that part nothing are left out, and cells of equal
+    /// colour are one tone.
+    ///
+    /// # Errors
+    /// Says so if a row is empty or of another length, or if there are too many colours.
+    pub fn of_rows(rows: &[Vec<Colour>]) -> Result<Self, String> {
+        let width = rows.first().map_or(0, Vec::len);
+        if width == 0 || rows.iter().any(|row| row.len() != width) {
+            return Err("needs rows of the same number of colours".to_owned());
+        }
+        let starts = |count: usize, same: &dyn Fn(usize) -> bool| -> Vec<usize> {
+            (0..count).filter(|&i| i == 0 || !same(i)).collect()
+        };
+        let kept_rows = starts(rows.len(), &|r| rows[r] == rows[r - 1]);
+        let kept_columns = starts(width, &|c| rows.iter().all(|row| row[c] == row[c - 1]));
+
+        let cell = |r: usize, c: usize| rows[r][c];
+        let used = kept_rows.iter().flat_map(|&r| kept_columns.iter().map(move |&c| cell(r, c)));
+        let used: Vec<Colour> = used.collect();
+        let mut colours = used.clone();
+        colours.sort_by(|a, b| a.luma().total_cmp(&b.luma()).then(a.cmp(b)));
+        colours.dedup();
+        if colours.len() > GREATEST_TONES {
+            return Err(format!("has {} colours; at most {GREATEST_TONES} are possible", colours.len()));
+        }
+        let index = |colour: &Colour| colours.iter().position(|c| c == colour).unwrap_or(0) as u16;
+        let levels = |kept: &[usize], count: usize| -> Vec<f64> {
+            kept.iter().skip(1).map(|&start| start as f64 / count as f64).collect()
+        };
+        Ok(Self {
+            columns: levels(&kept_columns, width),
+            rows: levels(&kept_rows, rows.len()),
+            cells: used.iter().map(index).collect(),
+            colours,
+        })
+    }
+
+    /// The pixels of a picture: the first light to the right, the second one down.
+    ///
+    /// # Errors
+    /// As [`Table::of_rows`].
+    pub fn of_picture(picture: &Picture) -> Result<Self, String> {
+        let rows: Vec<Vec<Colour>> = (0..picture.height).map(|row| picture.row(row).to_vec()).collect();
+        Self::of_rows(&rows)
+    }
+
+    /// The tone of a cell: the index of its colour.
+    #[must_use]
+    pub fn tone(&self, column: u16, row: u16) -> u16 {
+        let column = usize::from(column).min(self.columns.len());
+        let row = usize::from(row).min(self.rows.len());
+        self.cells.get(row * (self.columns.len() + 1) + column).copied().unwrap_or_default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const A: Colour = Colour::BLACK;
+    const B: Colour = Colour::rgb(90, 0, 90);
+    const C: Colour = Colour::WHITE;
+
+    #[test]
+    fn equal_columns_of_a_strip_are_one_tone() {
+        // Lake's eight texels, seven of them in the shadow.
+        let strip = Strip::of_columns(&[A, A, A, A, A, A, A, C]).unwrap();
+        assert_eq!((strip.levels, strip.colours), (vec![0.875], vec![A, C]));
+        let strip = Strip::of_columns(&[A, B, B, A]).unwrap();
+        assert_eq!((strip.levels, strip.colours), (vec![0.25, 0.75], vec![A, B, A]));
+        assert!(Strip::of_columns(&[]).is_err());
+        let picture = Picture { width: 2, height: 2, pixels: vec![C, C, A, B] };
+        assert_eq!(Strip::of_picture(&picture).unwrap().colours, [A, B]);
+    }
+
+    #[test]
+    fn cells_of_one_colour_are_one_tone() {
+        let table = Table::of_rows(&[vec![A, A, B, B], vec![A, A, B, B], vec![B, B, C, C]]).unwrap();
+        assert_eq!((&table.columns, &table.rows), (&vec![0.5], &vec![2.0 / 3.0]));
+        assert_eq!(table.colours, [A, B, C]);
+        let tones = [(0, 0), (1, 0), (0, 1), (1, 1), (9, 9)].map(|(c, r)| table.tone(c, r));
+        assert_eq!(tones, [0, 1, 1, 2, 2]);
+        assert!(Table::of_rows(&[vec![A], vec![]]).is_err());
+        let picture = Picture { width: 2, height: 1, pixels: vec![C, A] };
+        let table = Table::of_picture(&picture).unwrap();
+        assert_eq!((table.tone(0, 0), table.tone(1, 0), table.rows.len()), (1, 0, 0));
+    }
+}

@@ -1,0 +1,299 @@
+//! Borders of surfaces that overlap others in one plane: what is on top on both sides of them says what line they are.
+//!
+//! The rim of a label on a wall is an edge with one face, but no border of what is seen: it parts two materials, as if the wall had a
+//! hole for the label. So does the rim of a body that is let into the wall. Where a rim runs under another surface of its plane there is
+//! no line. So each edge is cut where what is on top changes just next to it, on one side or the other.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use crate::lines::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
+use crate::mesh::bvh::box_tree::BoxTree;
+use crate::mesh::{FaceId, Mesh, VertexId};
+use crate::view::View;
+
+/// What is on top is asked so many times the reach of contact next to an edge.
+const BESIDE: f64 = 4.0;
+
+/// Pieces shorter than so many times that are cut off by where it is asked, not by what is there.
+const SHORTEST: f64 = 8.0;
+
+/// The lines that edges in overlapping planes are, in place of what they are by themselves.
+#[derive(Default)]
+pub(crate) struct Overlaid {
+    /// Pieces of edges; ends beyond the mesh's vertices are numbers of `points`.
+    pieces: Vec<FeatureSegment>,
+    points: Vec<DVec3>,
+}
+
+/// Whether there are such edges: borders are then sought whatever kinds are.
+pub(crate) fn is_asked(mesh: &Mesh) -> bool {
+    !mesh.overlays.is_empty()
+}
+
+/// Takes out the edges that lie in planes where surfaces overlap, and says what they are instead. Of other kinds than `options` has none
+/// are left.
+pub(crate) fn settle(
+    mesh: &Mesh,
+    view: &View,
+    segments: &mut Vec<FeatureSegment>,
+    options: &LineOptions,
+) -> Overlaid {
+    let is_overlaid: Vec<bool> = mesh.overlays.iter().map(|overlay| overlay.plane != 0).collect();
+    let half = DVec3::splat(mesh.extents.diagonal / 2.0);
+    let (low, high) = (mesh.extents.middle - half, mesh.extents.middle + half);
+    let faces = &BoxTree::new(&mesh.positions, &mesh.triangles, &is_overlaid, low, high);
+    let is_wanted = |kind: LineKind| options.kinds.contains(&kind);
+    let settled: Vec<Option<Vec<Piece>>> = segments
+        .par_iter()
+        .map(|segment| {
+            let [host, other] = hosts_in_planes(mesh, view, segment);
+            let pieces_in = |host: u32| Some(Rim::new(mesh, segment, host)?.pieces(faces));
+            let mut pieces = pieces_in(host?)?;
+            if let Some(more) = other.and_then(pieces_in) {
+                pieces = of_both_planes(&pieces, &more);
+            }
+            // An edge that stays what it is stays where it is.
+            let is_one =
+                matches!(pieces.as_slice(), [piece] if piece.is_whole() && piece.kind == segment.kind);
+            (!is_one).then_some(pieces)
+        })
+        .collect();
+    let mut overlaid = Overlaid::default();
+    for (segment, pieces) in segments.iter().zip(&settled) {
+        let pieces = pieces.iter().flatten().filter(|piece| is_wanted(piece.kind));
+        overlaid.add(mesh, segment, pieces);
+    }
+    let mut settled = settled.into_iter();
+    segments.retain(|segment| settled.next().flatten().is_none() && is_wanted(segment.kind));
+    overlaid
+}
+
+/// The faces of an edge in whose planes surfaces overlap, if the edge has nothing on the eye's side of that plane: borders, edges
+/// between materials in it, and edges at which a body goes on behind it. Such a body may have a face in one plane and another in a second.
+fn hosts_in_planes(mesh: &Mesh, view: &View, segment: &FeatureSegment) -> [Option<u32>; 2] {
+    let [first, second] = segment.hosts;
+    match segment.kind {
+        LineKind::Border => {
+            [Some(first).filter(|face| second == NO_FACE && mesh.overlay(*face).plane != 0), None]
+        }
+        LineKind::Material if mesh.share_plane(first, second) => [Some(first), None],
+        LineKind::Contour | LineKind::Crease | LineKind::Material
+            if segment.role == Role::Line && second != NO_FACE =>
+        {
+            let goes_behind = |own: u32, other: u32| {
+                let [a, b, c] = mesh.corners(FaceId(own));
+                let normal = (b - a).cross(c - a).normalize_or_zero();
+                let heights = mesh.corners(FaceId(other)).map(|corner| (corner - a).dot(normal));
+                let height =
+                    heights.into_iter().max_by(|p, q| p.abs().total_cmp(&q.abs())).unwrap_or_default();
+                height * view.frame.to_eye(a).dot(normal) < 0.0
+            };
+            let mut hosts = [[first, second], [second, first]].into_iter().filter(|[own, other]| {
+                let is_alone = mesh.overlay(*own).plane != 0 && !mesh.share_plane(*own, *other);
+                is_alone && goes_behind(*own, *other)
+            });
+            [hosts.next().map(|[own, _]| own), hosts.next().map(|[own, _]| own)]
+        }
+        _ => [None; 2],
+    }
+}
+
+/// The pieces of an edge of a body that lies in two planes, given those that it has in each: it parts materials where it does so in one.
+fn of_both_planes(one: &[Piece], two: &[Piece]) -> Vec<Piece> {
+    let mut cuts: Vec<f64> = one.iter().chain(two).flat_map(|piece| [piece.start, piece.end]).collect();
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup();
+    let mut pieces: Vec<Piece> = Vec::new();
+    for pair in cuts.windows(2) {
+        let (start, end) = (pair[0], pair[1]);
+        let there = || one.iter().chain(two).filter(|piece| piece.start <= start && piece.end >= end);
+        let parted = there().find(|piece| piece.kind == LineKind::Material);
+        let Some(&Piece { kind, beyond, .. }) = parted.or_else(|| there().next()) else { continue };
+        match pieces.last_mut().filter(|last| last.end == start && last.kind == kind) {
+            Some(last) => last.end = end,
+            None => pieces.push(Piece { start, end, kind, beyond }),
+        }
+    }
+    pieces
+}
+
+impl Overlaid {
+    fn add<'a>(&mut self, mesh: &Mesh, segment: &FeatureSegment, pieces: impl Iterator<Item = &'a Piece>) {
+        let [a, b] = segment.ends.map(|v| mesh.positions[VertexId(v).index()]);
+        let mut last: Option<(f64, u32)> = None;
+        for piece in pieces {
+            let mut end = |t: f64, whole: u32| {
+                if t <= 0.0 || t >= 1.0 {
+                    return whole;
+                }
+                if let Some((_, id)) = last.filter(|(at, _)| *at == t) {
+                    return id;
+                }
+                self.points.push(a.lerp(b, t));
+                let id = (mesh.positions.len() + self.points.len() - 1) as u32;
+                last = Some((t, id));
+                id
+            };
+            let ends = [end(piece.start, segment.ends[0]), end(piece.end, segment.ends[1])];
+            let is_material = piece.kind == LineKind::Material;
+            let [first, second] = segment.hosts;
+            self.pieces.push(FeatureSegment {
+                ends,
+                kind: piece.kind,
+                hosts: [first, if second == NO_FACE { piece.beyond } else { second }],
+                both_seen: is_material || segment.both_seen,
+                strength: if is_material { 0.0 } else { segment.strength },
+                smooth: false,
+                ..*segment
+            });
+        }
+    }
+
+    /// Adds them to all lines.
+    pub(crate) fn append_to(self, mesh: &Mesh, lines: &mut FeatureLines) {
+        let vertices = mesh.positions.len() as u32;
+        let shift = lines.points.len() as u32;
+        lines.points.extend(self.points);
+        let moved = |end: u32| if end < vertices { end } else { end + shift };
+        let pieces = self.pieces.into_iter();
+        lines.segments.extend(pieces.map(|piece| FeatureSegment { ends: piece.ends.map(moved), ..piece }));
+    }
+}
+
+/// A piece of an edge that is a line.
+struct Piece {
+    start: f64,
+    end: f64,
+    kind: LineKind,
+    /// The face on top beyond the edge.
+    beyond: u32,
+}
+
+impl Piece {
+    fn is_whole(&self) -> bool {
+        self.start <= 0.0 && self.end >= 1.0
+    }
+}
+
+/// An edge in a plane, and how to look at what lies next to it.
+struct Rim<'a> {
+    mesh: &'a Mesh,
+    /// The face from which it looks outward.
+    host: u32,
+    kind: LineKind,
+    /// Whether it is a line of the plane alone, and not one of a body.
+    is_flat: bool,
+    from: DVec3,
+    /// Along the edge, and from it into that face: unit vectors.
+    along: DVec3,
+    inward: DVec3,
+    length: f64,
+    beside: f64,
+}
+
+impl<'a> Rim<'a> {
+    fn new(mesh: &'a Mesh, segment: &FeatureSegment, host: u32) -> Option<Self> {
+        let [a, b] = segment.ends.map(|v| mesh.positions[VertexId(v).index()]);
+        let along = (b - a).try_normalize()?;
+        // Next to a face without area, corners of the host that are no ends of the edge may lie on its line as well.
+        let over = mesh.corners(FaceId(host)).map(|corner| (corner - a) - along * (corner - a).dot(along));
+        let inward = over.into_iter().max_by(|p, q| p.length_squared().total_cmp(&q.length_squared()))?;
+        let inward = inward.try_normalize()?;
+        let beside = BESIDE * mesh.extent(FaceId(host)).contact;
+        let [first, second] = segment.hosts;
+        let is_flat = second == NO_FACE || mesh.share_plane(first, second);
+        let (kind, length) = (segment.kind, a.distance(b));
+        Some(Self { mesh, host, kind, is_flat, from: a, along, inward, length, beside })
+    }
+
+    /// The pieces that are lines, from end to end, given a tree of the faces that overlap others.
+    fn pieces(&self, faces: &BoxTree) -> Vec<Piece> {
+        // What each face covers of the lines to both sides.
+        let mut covers = [Vec::new(), Vec::new()];
+        let to = self.from + self.along * self.length;
+        let room = DVec3::splat(2.0 * self.beside);
+        faces.near_box(self.from.min(to) - room, self.from.max(to) + room, |face| {
+            if !self.mesh.share_plane(self.host, face) {
+                return;
+            }
+            let corners = self.mesh.corners(FaceId(face));
+            for (covers, range) in covers.iter_mut().zip(self.covered(&corners)) {
+                covers.extend(range.map(|range| (range, face)));
+            }
+        });
+        let mut cuts: Vec<f64> =
+            covers.iter().flatten().flat_map(|((start, end), _)| [*start, *end]).collect();
+        let least = SHORTEST * self.beside / self.length;
+        cuts.retain(|t| *t > least && *t < 1.0 - least);
+        cuts.sort_by(f64::total_cmp);
+        cuts.dedup_by(|b, a| *b - *a < least);
+        let ends: Vec<f64> = [0.0].into_iter().chain(cuts).chain([1.0]).collect();
+        let mut pieces: Vec<(Piece, [u32; 2])> = Vec::new();
+        for pair in ends.windows(2) {
+            let (start, end) = (pair[0], pair[1]);
+            let at = f64::midpoint(start, end);
+            let [within, beyond] = [0, 1].map(|side| self.top(&covers[side], at));
+            let Some((kind, beyond)) = self.line(within, beyond) else { continue };
+            let rank = |face: u32| self.mesh.overlay(face).rank;
+            let sides =
+                [within.map_or(u32::MAX, rank), if beyond == NO_FACE { u32::MAX } else { rank(beyond) }];
+            match pieces
+                .last_mut()
+                .filter(|(last, own)| last.end == start && last.kind == kind && *own == sides)
+            {
+                Some((last, _)) => last.end = end,
+                None => pieces.push((Piece { start, end, kind, beyond }, sides)),
+            }
+        }
+        pieces.into_iter().map(|(piece, _)| piece).collect()
+    }
+
+    /// The face on top of those that cover a place.
+    fn top(&self, covers: &[((f64, f64), u32)], at: f64) -> Option<u32> {
+        let there = covers.iter().filter(|((start, end), _)| (*start..=*end).contains(&at));
+        there
+            .map(|(_, face)| *face)
+            .max_by_key(|face| (self.mesh.overlay(*face).rank, std::cmp::Reverse(*face)))
+    }
+
+    /// What line there is between what is on top on both sides, and the face beyond it.
+    fn line(&self, within: Option<u32>, beyond: Option<u32>) -> Option<(LineKind, u32)> {
+        let mesh = self.mesh;
+        let own = within.unwrap_or(self.host);
+        let Some(beyond) = beyond else { return Some((self.kind, NO_FACE)) };
+        let material = |face: u32| mesh.face_material[face as usize];
+        // Edges of bodies are drawn where they run across a surface of their plane, as where colours are alike.
+        if mesh.overlay(own).rank == mesh.overlay(beyond).rank {
+            return (!self.is_flat).then_some((self.kind, beyond));
+        }
+        match (material(own) == material(beyond), self.kind) {
+            (true, LineKind::Material) if self.is_flat => None,
+            (true, kind) => Some((kind, beyond)),
+            (false, _) => Some((LineKind::Material, beyond)),
+        }
+    }
+
+    /// Between which parts of the edge's length a face covers the lines that run next to it, inward and outward.
+    fn covered(&self, corners: &[DVec3; 3]) -> [Option<(f64, f64)>; 2] {
+        let heights = corners.map(|p| (p - self.from).dot(self.inward));
+        let [low, high] =
+            [heights[0].min(heights[1]).min(heights[2]), heights[0].max(heights[1]).max(heights[2])];
+        // Most faces of a large plane lie far to one side.
+        if high < -self.beside || low > self.beside {
+            return [None; 2];
+        }
+        let places = corners.map(|p| (p - self.from).dot(self.along) / self.length);
+        [self.beside, -self.beside].map(|inward| {
+            let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
+            for k in 0..3 {
+                let (p, q) = (heights[k] - inward, heights[(k + 1) % 3] - inward);
+                if (p < 0.0) != (q < 0.0) {
+                    let at = places[k] + (places[(k + 1) % 3] - places[k]) * (p / (p - q));
+                    (start, end) = (start.min(at), end.max(at));
+                }
+            }
+            (start < end && end > 0.0 && start < 1.0).then_some((start, end))
+        })
+    }
+}

@@ -1,0 +1,137 @@
+//! Lines along edges with three faces or more.
+//!
+//! 1. Faces are grouped by body. Each body has the line that it would have alone: a border of one face, a contour, crease or material
+//!    boundary between two.
+//! 2. Three faces or more of one body are judged by all of them: a contour if they lie on one side of the edge in the image, else a crease
+//!    by the corner between faces into which the eye looks.
+//! 3. Of the lines of all bodies the strongest stays, and of equal ones that of the smaller part, as of all lines that coincide.
+
+use super::edge_lines::Finder;
+use crate::lines::{FeatureSegment, LineKind};
+use crate::mesh::normals::dihedral::{is_unfolded_diagonal, mark, runs_up};
+use crate::mesh::{Dihedral, FaceId, MaterialId};
+
+impl Finder<'_> {
+    /// Three faces or more. Each body has the line that it would have alone, whether the bodies share the vertices of the edge or
+    /// merely touch there; of these lines the strongest is drawn, as of all that coincide, and of equal ones that of the smaller part.
+    pub(crate) fn classify_fan(&self, edge: usize, faces: &[u32]) -> Option<FeatureSegment> {
+        let mesh = self.mesh;
+        let mut real: Vec<u32> = faces.iter().copied().filter(|f| !self.degenerate(*f)).collect();
+        match *real.as_slice() {
+            [] => return None,
+            [face] => return self.classify_single(edge, face),
+            [first, second] => {
+                let same_way = runs_up(mesh, edge, first) == runs_up(mesh, edge, second);
+                return self.classify_pair(edge, first, second, same_way);
+            }
+            _ => {}
+        }
+        real.sort_by_key(|face| mesh.body(*face));
+        let lines = real.chunk_by(|a, b| mesh.body(*a) == mesh.body(*b)).filter_map(|own| match *own {
+            [face] => self.classify_single(edge, face),
+            [first, second] => {
+                let same_way = runs_up(mesh, edge, first) == runs_up(mesh, edge, second);
+                let dihedral = Dihedral::of(mesh, [first, second], same_way);
+                let is_diagonal = is_unfolded_diagonal(mark(mesh, edge, [first, second]), dihedral.turn());
+                let crease =
+                    self.is_crease(edge) || !is_diagonal && dihedral.sure_turn(mesh) > self.crease_deg;
+                self.classify_flat_pair(edge, [first, second], same_way, crease)
+            }
+            _ => self.classify_own_fan(edge, own),
+        });
+        let extent = |line: &FeatureSegment| mesh.extents.of(line.part);
+        lines.min_by(|a, b| a.kind.cmp(&b.kind).then_with(|| extent(a).precedence(extent(b))))
+    }
+
+    /// Three faces or more of one body. The line is a contour if all of them lie on one side of it in the
+    /// image. Else the eye looks into one of the corners between neighbouring faces, and that
+    /// corner decides about a crease.
+    fn classify_own_fan(&self, edge: usize, faces: &[u32]) -> Option<FeatureSegment> {
+        let mesh = self.mesh;
+        let side = |f: u32| self.view.facing[f as usize] == runs_up(mesh, edge, f);
+        let contour = faces.iter().all(|f| side(*f)) || faces.iter().all(|f| !side(*f));
+        let turn = self.corner_turn(edge, faces);
+        let is_diagonal = is_unfolded_diagonal(mark(mesh, edge, faces.iter().copied()), turn);
+        let other_material = self.materials_change(edge, faces);
+        let kind = if contour && self.wants(LineKind::Contour) {
+            LineKind::Contour
+        } else if !is_diagonal && turn > self.crease_deg && self.wants(LineKind::Crease) {
+            LineKind::Crease
+        } else if other_material && self.wants(LineKind::Material) {
+            LineKind::Material
+        } else {
+            return None;
+        };
+        let nearer = self.owner(faces);
+        Some(FeatureSegment {
+            both_seen: !contour,
+            strength: turn,
+            ..self.segment(edge, kind, nearer, [faces[0], faces[1]])
+        })
+    }
+
+    /// Whether the materials of faces that meet in one edge change from one to the next. Parts that lie on each other
+    /// face on face are one surface: where each of its faces is of the same materials, none of them ends.
+    fn materials_change(&self, edge: usize, faces: &[u32]) -> bool {
+        let mesh = self.mesh;
+        let ends = mesh.edges.vertices[edge];
+        let third = |face: u32| mesh.triangles[face as usize].iter().find(|v| !ends.contains(v)).copied();
+        let mut found: Vec<(Option<u32>, MaterialId)> =
+            faces.iter().map(|f| (third(*f), mesh.face_material[*f as usize])).collect();
+        found.sort_unstable();
+        found.dedup();
+        let materials = |own: &[(Option<u32>, MaterialId)]| own.iter().map(|(_, m)| *m).collect::<Vec<_>>();
+        let mut surfaces = found.chunk_by(|a, b| a.0 == b.0).map(materials);
+        let first = surfaces.next();
+        surfaces.any(|other| Some(&other) != first.as_ref())
+    }
+
+    /// Of faces that meet in one edge the one to which the line belongs: one that turns its outside to the
+    /// eye, of the smallest part. The order of parts in the file does not matter.
+    pub(crate) fn owner(&self, faces: &[u32]) -> u32 {
+        let mesh = self.mesh;
+        let seen = faces.iter().copied().filter(|f| self.view.facing[*f as usize]);
+        let corners = |face: u32| {
+            let mut corners = mesh.triangles[face as usize];
+            corners.sort_unstable();
+            corners
+        };
+        let first = seen.min_by(|a, b| {
+            let of = |face: u32| mesh.extent(FaceId(face));
+            of(*a).precedence(of(*b)).then_with(|| corners(*a).cmp(&corners(*b)))
+        });
+        first.unwrap_or(faces[0])
+    }
+
+    /// Degrees by which the surface turns in the corner between two faces into which the eye
+    /// looks.
+    fn corner_turn(&self, edge: usize, faces: &[u32]) -> f32 {
+        let mesh = self.mesh;
+        let [lo, hi] = mesh.edges.vertices[edge];
+        let (a, b) = (mesh.positions[lo as usize], mesh.positions[hi as usize]);
+        let Some(axis) = (b - a).try_normalize() else { return 0.0 };
+        let away = |p: glam::DVec3| (p - a) - axis * (p - a).dot(axis);
+        let spoke = |f: u32| {
+            let opposite = mesh.triangles[f as usize].iter().find(|v| **v != lo && **v != hi);
+            away(opposite.map_or(a, |v| mesh.positions[*v as usize]))
+        };
+        let zero = spoke(faces[0]);
+        let quarter = axis.cross(zero);
+        let angle =
+            |d: glam::DVec3| crate::geometry::numbers::portable_math::atan2(d.dot(quarter), d.dot(zero));
+        let eye = if self.view.frame.perspective {
+            angle(self.view.frame.eye - (a + b) / 2.0)
+        } else {
+            angle(-self.view.frame.forward)
+        };
+        let mut angles: Vec<f64> = faces.iter().map(|f| angle(spoke(*f))).collect();
+        angles.sort_by(f64::total_cmp);
+        let turn_round = std::f64::consts::TAU;
+        let below = angles.iter().rev().find(|x| **x <= eye).copied();
+        let above = angles.iter().find(|x| **x > eye).copied();
+        let (low, high) =
+            (below.unwrap_or(angles[angles.len() - 1] - turn_round), above.unwrap_or(angles[0] + turn_round));
+        let doubt = faces.iter().map(|f| Dihedral::doubt_of(mesh, *f)).fold(0.0, f64::max);
+        ((std::f64::consts::PI - (high - low)).abs().to_degrees() - 2.0 * doubt) as f32
+    }
+}

@@ -1,0 +1,318 @@
+//! Feature lines that are edges of the mesh: contours, borders, creases, material boundaries.
+//!
+//! Source: Lake, Marshall, Harris and Blackstein, "Stylized rendering techniques for scalable
+//! real-time 3D animation", NPAR 2000, section 4.1. A contour is told from the geometry of its
+//! faces, not from their winding alone, so that meshes of mixed winding are drawn right.
+
+use crate::parallel::prelude::*;
+
+use crate::lines::{FeatureSegment, LineKind, LineOptions, NO_FACE, Role, Surface};
+use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::normals::degenerate_faces::{Beyond, seen_from};
+use crate::mesh::normals::dihedral::mark;
+use crate::mesh::{Dihedral, EdgeFaces, EdgeMark, FaceId, Mesh};
+use crate::parallel::concatenation::joined;
+use crate::parallel::task_size::GRAIN;
+use crate::surface::{HardEdges, Origin, SmoothNormals};
+use crate::view::View;
+
+/// All edges of the mesh that are feature lines of the kinds asked for, in edge order. Of rounded
+/// surfaces these are the hard edges and the witnesses of their contours ([`Role::Witness`]).
+#[must_use]
+pub fn find(surface: &Surface, view: &View, options: &LineOptions) -> Vec<FeatureSegment> {
+    let finder = Finder::new(surface, view, options);
+    finder.find(surface.mesh.edges.len(), |k| k)
+}
+
+/// Feature lines among some edges of the mesh, given in ascending order.
+#[must_use]
+pub fn find_among(
+    edges: &[u32],
+    surface: &Surface,
+    view: &View,
+    options: &LineOptions,
+) -> Vec<FeatureSegment> {
+    let finder = Finder::new(surface, view, options);
+    finder.find(edges.len(), |k| edges[k] as usize)
+}
+
+pub(crate) struct Finder<'a> {
+    pub(crate) mesh: &'a Mesh,
+    hard: &'a HardEdges,
+    wrinkles: &'a EdgeSet,
+    roundings: &'a EdgeSet,
+    pub(crate) view: &'a View,
+    smooth: &'a SmoothNormals,
+    wanted: u32,
+    pub(crate) crease_deg: f32,
+    /// Whether every face has an area.
+    all_real: bool,
+}
+
+impl<'a> Finder<'a> {
+    fn new(surface: &'a Surface, view: &'a View, options: &LineOptions) -> Self {
+        let Surface { mesh, hard, wrinkles, roundings, smooth, .. } = surface;
+        Self {
+            mesh,
+            hard,
+            wrinkles,
+            roundings,
+            view,
+            smooth,
+            wanted: options.kinds.iter().fold(0, |bits, k| bits | 1 << *k as u32),
+            crease_deg: options.crease_deg as f32,
+            all_real: mesh.face_normals.par_iter().with_min_len(GRAIN).all(|normal| *normal != [0.0; 3]),
+        }
+    }
+
+    /// What the first `count` edges are that `edge` tells.
+    fn find(&self, count: usize, edge: impl Fn(usize) -> usize + Sync) -> Vec<FeatureSegment> {
+        const CHUNK: usize = 1 << 12;
+        let found: Vec<Vec<FeatureSegment>> = (0..count.div_ceil(CHUNK))
+            .into_par_iter()
+            .with_max_len(1)
+            .map(|chunk| {
+                let edges = chunk * CHUNK..((chunk + 1) * CHUNK).min(count);
+                edges.filter_map(|k| self.classify(edge(k))).collect()
+            })
+            .collect();
+        joined(&found)
+    }
+
+    pub(crate) fn wants(&self, kind: LineKind) -> bool {
+        self.wanted & (1 << kind as u32) != 0
+    }
+
+    /// An edge across which a rounded surface runs on: a turn between its faces is no crease but in the middle of a narrow rounding,
+    /// and where one of them is averted, the contour of the surface is near.
+    #[inline]
+    fn on_rounded(&self, edge: usize, [first, second]: [u32; 2]) -> Option<FeatureSegment> {
+        let facing = &self.view.facing;
+        let nearer = if facing[first as usize] { first } else { second };
+        if facing[first as usize] != facing[second as usize] && self.wants(LineKind::Contour) {
+            return Some(FeatureSegment {
+                both_seen: false,
+                smooth: true,
+                role: Role::Witness { convex: self.is_convex(edge, [first, second]), fold: false },
+                strength: Dihedral::of(self.mesh, [first, second], false).turn(),
+                ..self.segment(edge, LineKind::Contour, nearer, [first, second])
+            });
+        }
+        if self.roundings.contains(edge) && self.wants(LineKind::Crease) {
+            return Some(FeatureSegment {
+                smooth: true,
+                strength: Dihedral::of(self.mesh, [first, second], false).turn(),
+                ..self.segment(edge, LineKind::Crease, nearer, [first, second])
+            });
+        }
+        let material = |face: u32| self.mesh.face_material[face as usize];
+        (material(first) != material(second) && self.wants(LineKind::Material)).then(|| FeatureSegment {
+            strength: 0.0,
+            ..self.segment(edge, LineKind::Material, nearer, [first, second])
+        })
+    }
+
+    /// Whether the second face falls away behind the first one's outside.
+    fn is_convex(&self, edge: usize, [first, second]: [u32; 2]) -> bool {
+        let mesh = self.mesh;
+        let ends = mesh.edges.vertices[edge];
+        let third = mesh.triangles[second as usize].iter().find(|v| !ends.contains(v));
+        let [a, b, c] = mesh.corners(FaceId(first));
+        let way = third.map_or(a, |v| mesh.positions[*v as usize]) - mesh.positions[ends[0] as usize];
+        (b - a).cross(c - a).dot(way) < 0.0
+    }
+
+    fn classify(&self, edge: usize) -> Option<FeatureSegment> {
+        if self.mesh.edge_marks.is_empty() {
+            self.classify_by_shape(edge)
+        } else {
+            self.classify_marked(edge)
+        }
+    }
+
+    /// Where a section is cut, lines belong to the cut face, and there are none of what lies within another part.
+    fn classify_marked(&self, edge: usize) -> Option<FeatureSegment> {
+        let faces = match self.mesh.edges.faces(edge) {
+            EdgeFaces::Two { faces, .. } => faces.to_vec(),
+            EdgeFaces::One(face) => vec![face],
+            EdgeFaces::Many(faces) => faces.to_vec(),
+        };
+        let said = |face: u32| mark(self.mesh, edge, [face; 2]);
+        let is_covered = faces.iter().any(|face| said(*face) == EdgeMark::Covered);
+        let cut: Vec<u32> = faces
+            .into_iter()
+            .filter(|face| said(*face) == EdgeMark::Cut && !self.degenerate(*face))
+            .collect();
+        let Some(first) = cut.first().copied() else {
+            return if is_covered { None } else { self.classify_by_shape(edge) };
+        };
+        let crease = || {
+            let hosts = [first, cut.get(1).copied().unwrap_or(NO_FACE)];
+            self.wants(LineKind::Crease).then(|| self.segment(edge, LineKind::Crease, first, hosts))
+        };
+        let owner = self.owner(&cut) as usize;
+        let (part, material) = (self.mesh.face_part[owner], self.mesh.face_material[owner]);
+        let found = self.classify_by_shape(edge).or_else(crease)?;
+        Some(FeatureSegment { part, material, strength: 180.0, ..found })
+    }
+
+    #[inline]
+    fn classify_by_shape(&self, edge: usize) -> Option<FeatureSegment> {
+        match self.mesh.edges.faces(edge) {
+            EdgeFaces::Two { faces: [first, second], same_way } => {
+                if self.all_real && !same_way && self.is_nothing(edge, first, second) {
+                    return None;
+                }
+                if self.degenerate(first) || self.degenerate(second) {
+                    return self.classify_beside_needle(edge, &[first, second]);
+                }
+                self.classify_pair(edge, first, second, same_way)
+            }
+            EdgeFaces::One(face) if self.degenerate(face) => self.classify_beside_needle(edge, &[face]),
+            EdgeFaces::One(face) => self.classify_single(edge, face),
+            EdgeFaces::Many(faces) => self.classify_fan(edge, faces),
+        }
+    }
+
+    /// Whether the surface runs on over an edge between faces with area, as it does over most.
+    #[inline]
+    fn is_nothing(&self, edge: usize, first: u32, second: u32) -> bool {
+        let (first, second) = (first as usize, second as usize);
+        self.view.facing[first] == self.view.facing[second]
+            && self.mesh.face_material[first] == self.mesh.face_material[second]
+            && !self.is_crease(edge)
+    }
+
+    /// Whether an edge is drawn for its shape, from wherever it is seen.
+    #[inline]
+    pub(crate) fn is_crease(&self, edge: usize) -> bool {
+        self.hard.is_hard(edge) || self.roundings.contains(edge)
+    }
+
+    pub(crate) fn degenerate(&self, face: u32) -> bool {
+        self.mesh.is_degenerate(FaceId(face))
+    }
+
+    #[inline]
+    pub(crate) fn classify_pair(
+        &self,
+        edge: usize,
+        first: u32,
+        second: u32,
+        same_way: bool,
+    ) -> Option<FeatureSegment> {
+        if !self.smooth.is_empty() && !same_way && self.smooth.across(self.mesh, edge).is_some() {
+            return self.on_rounded(edge, [first, second]);
+        }
+        let dihedral = || Dihedral::of(self.mesh, [first, second], same_way);
+        let crease = self.is_crease(edge);
+        let found = self.classify_flat_pair(edge, [first, second], same_way, crease)?;
+        // Where materials meet on a flat face, corners of the line are corners of what is painted there.
+        let is_painted = found.kind == LineKind::Material && dihedral().is_flat(self.mesh, edge);
+        let smooth = !self.hard.is_hard(edge) && !self.wrinkles.contains(edge) && !is_painted;
+        Some(FeatureSegment { smooth, ..found })
+    }
+
+    /// The line between two faces of a surface that is not rounded there.
+    #[inline]
+    pub(crate) fn classify_flat_pair(
+        &self,
+        edge: usize,
+        [first, second]: [u32; 2],
+        same_way: bool,
+        crease: bool,
+    ) -> Option<FeatureSegment> {
+        let facing = &self.view.facing;
+        let contour = self.turns_away([first, second], same_way);
+        let other_material = self.other_material(edge, [first, second]);
+        if !contour && !crease && !other_material {
+            return None;
+        }
+        let kind = if contour && self.wants(LineKind::Contour) {
+            LineKind::Contour
+        } else if crease && self.wants(LineKind::Crease) {
+            LineKind::Crease
+        } else if other_material && self.wants(LineKind::Material) {
+            LineKind::Material
+        } else {
+            return None;
+        };
+        let nearer = if facing[first as usize] { first } else { second };
+        Some(FeatureSegment {
+            both_seen: !contour,
+            strength: Dihedral::of(self.mesh, [first, second], same_way).turn(),
+            ..self.segment(edge, kind, nearer, [first, second])
+        })
+    }
+
+    /// Whether the surface turns from one side to the other between two faces. A face that is seen edge-on has no side: the surface ends
+    /// in it for the eye, whichever way it is wound.
+    #[inline]
+    fn turns_away(&self, faces: [u32; 2], same_way: bool) -> bool {
+        let facing = &self.view.facing;
+        match faces.map(|face| !facing[face as usize] && self.is_edge_on(face)) {
+            [false, false] => (facing[faces[0] as usize] != facing[faces[1] as usize]) != same_way,
+            [first, second] => first != second,
+        }
+    }
+
+    /// Whether a face that is not seen from outside is not seen from inside either.
+    fn is_edge_on(&self, face: u32) -> bool {
+        let Self { mesh, view, .. } = self;
+        let carrier = mesh.carriers.binary_search_by_key(&face, |pair| pair[0]);
+        let face = carrier.map_or(face, |at| mesh.carriers[at][1]);
+        let [a, b, c] = mesh.corners(FaceId(face));
+        view.unsure.binary_search(&face).is_ok() || !view.frame.faces_eye(a, c, b)
+    }
+
+    /// Whether the materials of two faces differ, and the file does not hide the edge.
+    fn other_material(&self, edge: usize, faces: [u32; 2]) -> bool {
+        let [first, second] = faces.map(|f| self.mesh.face_material[f as usize]);
+        first != second && mark(self.mesh, edge, faces) != EdgeMark::Hidden
+    }
+
+    pub(crate) fn classify_single(&self, edge: usize, face: u32) -> Option<FeatureSegment> {
+        self.wants(LineKind::Border).then(|| FeatureSegment {
+            both_seen: false,
+            ..self.segment(edge, LineKind::Border, face, [face, NO_FACE])
+        })
+    }
+
+    /// Where one of the faces or both have no area, what is seen through them meets.
+    fn classify_beside_needle(&self, edge: usize, faces: &[u32]) -> Option<FeatureSegment> {
+        let mut seen = Vec::with_capacity(faces.len());
+        for face in faces {
+            match seen_from(self.mesh, *face, self.mesh.edges.vertices[edge]) {
+                Beyond::Face(face) => seen.push(face),
+                Beyond::LongEdge => return None,
+                Beyond::Nothing => {}
+            }
+        }
+        match *seen.as_slice() {
+            [first, second] if first != second => self.classify_pair(edge, first, second, false),
+            [face] => self.classify_single(edge, face),
+            _ => None,
+        }
+    }
+
+    pub(crate) fn segment(
+        &self,
+        edge: usize,
+        kind: LineKind,
+        nearer: u32,
+        hosts: [u32; 2],
+    ) -> FeatureSegment {
+        FeatureSegment {
+            ends: self.mesh.edges.vertices[edge],
+            hosts,
+            kind,
+            both_seen: true,
+            smooth: false,
+            origin: Origin::default(),
+            role: Role::Line,
+            strength: 180.0,
+            part: self.mesh.face_part[nearer as usize],
+            material: self.mesh.face_material[nearer as usize],
+        }
+    }
+}

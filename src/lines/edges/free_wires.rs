@@ -1,0 +1,261 @@
+//! Wires that are lines of their own. A file that draws the edges of its meshes itself repeats what the mesh shows, and each edge is
+//! drawn once: as the mesh has it, with its kind and where its faces meet, so that a model looks alike with and without such wires.
+//!
+//! 1. Lines along edges of the mesh are put into a tree of boxes.
+//! 2. Both they and the wires may be chords of a curve, cut at different steps. How far a curve stands off its chord follows from the
+//!    turns at the ends, as for seams of the mesh (`mesh::seams`).
+//! 3. A wire runs along a line over the range in which each lies within reach of the other. A wire that has lines along it from end to
+//!    end is left out. One that has them over a part of its way stays whole: where both coincide in the image the view map draws one.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::geometry::numbers::tolerance::SEAM_OF_PART;
+use crate::lines::feature_line::{FeatureSegment, Role};
+use crate::mesh::{Mesh, Wire};
+
+/// Chords of one curve turn by less than the angle of this cosine (45 degrees); what turns by more has a corner there.
+const ALONG: f64 = 0.7;
+
+/// Chords of a curve differ in length: each may stand off by this many times what it would if all were alike.
+const UNEVEN: f64 = 2.0;
+
+/// Curves of space leave their plane by this part of how far they stand off.
+const TWIST: f64 = 4.0;
+
+/// Items in one box of the tree, and boxes in one above.
+const FAN: usize = 8;
+
+/// The wires of a mesh that do not run along any of the lines along its edges.
+pub(crate) fn find(mesh: &Mesh, lines: &[FeatureSegment]) -> Vec<Wire> {
+    let drawn = lines.iter().filter(|line| line.role == Role::Line);
+    let drawn = Chords::new(mesh, drawn.map(|line| (line.ends, mesh.extents.of(line.part).scale)));
+    if drawn.list.is_empty() {
+        return mesh.wires.clone();
+    }
+    let wires =
+        Chords::new(mesh, mesh.wires.iter().map(|wire| (wire.vertices, mesh.extents.of(wire.part).scale)));
+    let tree = Tree::new(&drawn.list);
+    let is_free = |wire: &Chord| !is_covered(wire, &drawn.list, &tree);
+    let free: Vec<bool> = wires.list.par_iter().with_min_len(256).map(is_free).collect();
+    mesh.wires.iter().zip(free).filter_map(|(wire, free)| free.then_some(*wire)).collect()
+}
+
+/// Whether lines run along all of a wire.
+fn is_covered(wire: &Chord, lines: &[Chord], tree: &Tree) -> bool {
+    let mut ranges: Vec<(f64, f64)> = Vec::new();
+    let (low, high) = wire.reach();
+    tree.near(low, high, |line| ranges.extend(lines.get(line as usize).and_then(|line| wire.along(line))));
+    ranges.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    let mut at = 0.0;
+    for (from, to) in &ranges {
+        if *from > at + wire.slack {
+            return false;
+        }
+        at = to.max(at);
+    }
+    !ranges.is_empty() && at + wire.slack >= wire.length
+}
+
+/// A straight piece that may stand for a part of a curve.
+#[derive(Debug, Clone, Copy)]
+struct Chord {
+    start: DVec3,
+    along: DVec3,
+    length: f64,
+    /// From the chord to the farthest point of the curve; nothing for a straight line.
+    sagitta: DVec3,
+    /// What is nearer is in one place.
+    slack: f64,
+}
+
+impl Chord {
+    fn end(&self) -> DVec3 {
+        self.start + self.along * self.length
+    }
+
+    /// The box around it and its curve.
+    fn reach(&self) -> (DVec3, DVec3) {
+        let room = DVec3::splat(self.sagitta.length() + self.slack);
+        (self.start.min(self.end()) - room, self.start.max(self.end()) + room)
+    }
+
+    /// The range of lengths along this chord over which another one runs next to it.
+    fn along(&self, other: &Self) -> Option<(f64, f64)> {
+        let cosine = self.along.dot(other.along);
+        if cosine.abs() < ALONG {
+            return None;
+        }
+        let place = |p: DVec3| (p - self.start).dot(self.along);
+        let (first, last) = (place(other.start), place(other.end()));
+        let (from, to) = (first.min(last).max(0.0), first.max(last).min(self.length));
+        if to - from <= self.slack.min(0.5 * self.length.min(other.length)) {
+            return None;
+        }
+        // From the other chord to this one, at both ends of the range.
+        let offset = |t: f64| {
+            let at = self.start + self.along * t;
+            at - (other.start + other.along * ((t - first) / cosine))
+        };
+        let is_near = |t: f64| other.holds(self, offset(t)) || self.holds(other, -offset(t));
+        (is_near(from) && is_near(to)).then_some((from, to))
+    }
+
+    /// Whether a point at this offset may be one of the curve, or of a finer chord of it.
+    fn holds(&self, other: &Self, offset: DVec3) -> bool {
+        let slack = self.slack.max(other.slack);
+        let way = self.sagitta.normalize_or_zero();
+        let (rise, height) = (offset.dot(way), self.sagitta.length());
+        rise >= -slack - other.sagitta.length()
+            && rise <= height + slack
+            && (offset - way * rise).length() <= slack + height / TWIST
+    }
+}
+
+/// Chords, with how far their curves stand off.
+struct Chords {
+    list: Vec<Chord>,
+}
+
+impl Chords {
+    fn new(mesh: &Mesh, pieces: impl Iterator<Item = ([u32; 2], f64)>) -> Self {
+        let pieces: Vec<([u32; 2], f64)> = pieces.collect();
+        let position = |v: u32| mesh.positions[v as usize];
+        let chord = |&([a, b], scale): &([u32; 2], f64)| {
+            let way = position(b) - position(a);
+            let length = way.length();
+            let along = way.normalize_or_zero();
+            Chord { start: position(a), along, length, sagitta: DVec3::ZERO, slack: SEAM_OF_PART * scale }
+        };
+        let mut list: Vec<Chord> = pieces.iter().map(chord).collect();
+        let ends = pieces.iter().zip(0..).flat_map(|((ends, _), k)| ends.map(|v| (v as usize, k)));
+        let at: Grouped<u32> = grouped_pairs(mesh.positions.len(), ends);
+        let graph = Graph { pieces: &pieces, list: &list, at };
+        let sagittas: Vec<DVec3> = (0..pieces.len()).into_par_iter().map(|k| graph.sagitta(k)).collect();
+        for (chord, sagitta) in list.iter_mut().zip(sagittas) {
+            chord.sagitta = sagitta;
+        }
+        Self { list }
+    }
+}
+
+/// Which chords meet where.
+struct Graph<'a> {
+    pieces: &'a [([u32; 2], f64)],
+    list: &'a [Chord],
+    /// The chords that end at each vertex.
+    at: Grouped<u32>,
+}
+
+/// A chord, gone along towards its end `to`: 1 as it runs, 0 against it.
+#[derive(Clone, Copy)]
+struct Walk {
+    chord: usize,
+    to: usize,
+}
+
+/// Most chords at one vertex that are compared with each other, so that work stays bounded.
+const MAX_CHORDS_AT_VERTEX: usize = 32;
+
+impl Graph<'_> {
+    fn direction(&self, walk: Walk) -> DVec3 {
+        let along = self.list[walk.chord].along;
+        if walk.to == 1 { along } else { -along }
+    }
+
+    /// The chord that goes on most nearly straight, and the cosine of the turn.
+    fn next(&self, walk: Walk) -> Option<(Walk, f64)> {
+        let corner = self.pieces[walk.chord].0[walk.to];
+        let way = self.direction(walk);
+        let others = self.at.of(corner as usize).iter().take(MAX_CHORDS_AT_VERTEX).map(|k| *k as usize);
+        let others = others.filter(|k| *k != walk.chord).map(|chord| {
+            let other = Walk { chord, to: usize::from(self.pieces[chord].0[0] == corner) };
+            (other, self.direction(other).dot(way))
+        });
+        others.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// How far the curve of which a piece is a chord may stand off, and which way. It follows from the turn at the end where it turns
+    /// less, without the share of that turn that belongs to the next chord, by its turn at its other end.
+    fn sagitta(&self, chord: usize) -> DVec3 {
+        let own = &self.list[chord];
+        let ends = [0, 1].into_iter().filter_map(|to| {
+            let walk = Walk { chord, to };
+            Some((walk, self.next(walk)?))
+        });
+        let straighter = ends.max_by(|a, b| a.1.1.total_cmp(&b.1.1));
+        let Some((walk, (beside, cosine))) = straighter.filter(|(_, (_, cosine))| *cosine >= ALONG) else {
+            return DVec3::ZERO;
+        };
+        // The tangent of half a turn; halves of a turn belong to either chord where both are alike.
+        let half_turn = |cosine: f64| ((1.0 - cosine) / (1.0 + cosine)).max(0.0).sqrt();
+        let turn = half_turn(cosine);
+        let share = self.next(beside).map_or(0.0, |(beyond, cosine)| {
+            let (near, far) = (self.list[beside.chord].length, self.list[beyond.chord].length);
+            if cosine < ALONG { 0.0 } else { half_turn(cosine) * near / (near + far) }
+        });
+        let own_turn = (turn - share.max(turn / 2.0)).max(0.0);
+        let bend = self.direction(walk) * cosine - self.direction(beside);
+        bend.normalize_or_zero() * (UNEVEN * own.length * own_turn / 2.0)
+    }
+}
+
+/// Boxes around chords, around these, and so on.
+struct Tree {
+    order: Vec<u32>,
+    /// The boxes around chords first, the one around all last.
+    levels: Vec<Vec<(DVec3, DVec3)>>,
+}
+
+impl Tree {
+    fn new(chords: &[Chord]) -> Self {
+        let mut items: Vec<(DVec3, u32)> =
+            chords.iter().zip(0..).map(|(chord, k)| ((chord.start + chord.end()) / 2.0, k)).collect();
+        part(&mut items);
+        let order: Vec<u32> = items.into_iter().map(|(_, k)| k).collect();
+        let join = |a: (DVec3, DVec3), b: (DVec3, DVec3)| (a.0.min(b.0), a.1.max(b.1));
+        let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let around = |run: &[u32]| run.iter().map(|k| chords[*k as usize].reach()).fold(nothing, join);
+        let mut levels: Vec<Vec<(DVec3, DVec3)>> = vec![order.chunks(FAN).map(around).collect()];
+        while let Some(last) = levels.last().filter(|last| last.len() > 1) {
+            let above = last.chunks(FAN).map(|run| run.iter().copied().fold(nothing, join)).collect();
+            levels.push(above);
+        }
+        Self { order, levels }
+    }
+
+    /// Visits the chords whose boxes, by eights, overlap a box.
+    fn near(&self, low: DVec3, high: DVec3, mut visit: impl FnMut(u32)) {
+        let mut open: Vec<(usize, usize)> = vec![(self.levels.len() - 1, 0)];
+        while let Some((level, k)) = open.pop() {
+            let (own_low, own_high) = self.levels[level][k];
+            if own_low.cmpgt(high).any() || own_high.cmplt(low).any() {
+                continue;
+            }
+            let below = k * FAN..(k + 1) * FAN;
+            if level == 0 {
+                self.order[below.start..below.end.min(self.order.len())].iter().for_each(|k| visit(*k));
+            } else {
+                let below = below.start..below.end.min(self.levels[level - 1].len());
+                open.extend(below.map(|k| (level - 1, k)));
+            }
+        }
+    }
+}
+
+/// Puts near points into one run.
+fn part(items: &mut [(DVec3, u32)]) {
+    if items.len() <= FAN {
+        return;
+    }
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = items.iter().fold(nothing, |(low, high), (p, _)| (low.min(*p), high.max(*p)));
+    let size = high - low;
+    let axis = (0..3).max_by(|a, b| size[*a].total_cmp(&size[*b])).unwrap_or(0);
+    // Runs stay whole, so that no box is around two places.
+    let middle = (items.len() / 2).next_multiple_of(FAN).min(items.len() - 1);
+    items.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1)));
+    let (near, far) = items.split_at_mut(middle);
+    crate::parallel::join(|| part(near), || part(far));
+}

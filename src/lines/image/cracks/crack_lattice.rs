@@ -1,0 +1,149 @@
+//! [`Lattice`]: lines between the pixels of an image, from corner to corner.
+
+use crate::parallel::prelude::*;
+
+use super::crest_test::is_crest;
+use super::jump_tiles::JumpMap;
+
+/// The four ways from a corner: right, down, left, up.
+pub(crate) const WAYS: [[i32; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
+
+/// Corners that are passed over at once where no line runs.
+const RUN: usize = 64;
+
+/// The corners of pixels, and the cracks between neighbouring pixels that lines run along.
+pub(crate) struct Lattice {
+    /// Corners in a row: one more than pixels.
+    pub stride: usize,
+    /// Number of rows of corners.
+    pub height: usize,
+    /// Whether a line runs from each corner to the right (1), and down (2).
+    flags: Vec<u8>,
+}
+
+/// One side of one pixel: the way out of a corner.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Crack {
+    pub corner: usize,
+    pub way: usize,
+}
+
+impl Lattice {
+    /// The cracks over which more jumps than over their neighbours on both sides, and not just as an echo of what jumps near by.
+    pub fn crests(jumps: &JumpMap) -> Self {
+        let (columns, rows) = (jumps.columns, jumps.rows);
+        let stride = columns + 1;
+        let mut lattice = Self { stride, height: rows + 1, flags: vec![0; stride * (rows + 1)] };
+        let of_row = lattice.flags.par_chunks_mut(stride).zip(&jumps.with_jumps).enumerate();
+        of_row.for_each(|(row, (flags, with_jumps))| {
+            for column in with_jumps.iter().map(|column| *column as usize) {
+                let down = is_crest(|column| jumps.across(column, row), column, columns);
+                let right = is_crest(|row| jumps.down(column, row), row, rows);
+                flags[column] = 2 * u8::from(down) + u8::from(right);
+            }
+        });
+        lattice
+    }
+
+    /// Number of corners, with lines or without.
+    pub fn len(&self) -> usize {
+        self.flags.len()
+    }
+
+    /// The corners that lines run through, in ascending order.
+    pub fn corners(&self) -> Vec<usize> {
+        let stride = self.stride;
+        let none = vec![0; stride];
+        let any = |flags: &[u8]| flags.iter().fold(0, |any, flag| any | flag);
+        let in_row = |row: usize| {
+            let own = &self.flags[row * stride..(row + 1) * stride];
+            let above = row.checked_sub(1).map_or(&*none, |above| &self.flags[above * stride..row * stride]);
+            let mut found = Vec::new();
+            for first in (0..stride).step_by(RUN) {
+                let run = first..(first + RUN).min(stride);
+                // The corner before has the flag of the way to the first one.
+                let any = any(&own[first.saturating_sub(1)..run.end]) | any(&above[run.clone()]);
+                if any != 0 {
+                    let is_on = |column: &usize| {
+                        let from_left = *column > 0 && own[*column - 1] & 1 != 0;
+                        own[*column] != 0 || from_left || above[*column] & 2 != 0
+                    };
+                    found.extend(run.filter(is_on).map(|column| row * stride + column));
+                }
+            }
+            found
+        };
+        (0..self.height).into_par_iter().with_min_len(64).flat_map_iter(in_row).collect()
+    }
+
+    /// Column and row of a corner.
+    #[inline]
+    pub fn place(&self, corner: usize) -> [usize; 2] {
+        [corner % self.stride, corner / self.stride]
+    }
+
+    /// The corner at the other end of a crack; none outside the picture.
+    #[inline]
+    pub fn end(&self, crack: Crack) -> Option<usize> {
+        let [column, row] = self.place(crack.corner);
+        let [dx, dy] = WAYS[crack.way];
+        let (column, row) = (column as i32 + dx, row as i32 + dy);
+        let inside = column >= 0 && row >= 0 && column < self.stride as i32 && row < self.height as i32;
+        inside.then(|| row as usize * self.stride + column as usize)
+    }
+
+    /// Where the flag of a crack is kept.
+    #[inline]
+    fn flag(&self, crack: Crack) -> Option<(usize, u8)> {
+        let end = self.end(crack)?;
+        Some((crack.corner.min(end), if crack.way.is_multiple_of(2) { 1 } else { 2 }))
+    }
+
+    /// Whether a line runs along a crack.
+    #[inline]
+    pub fn has(&self, crack: Crack) -> bool {
+        self.flag(crack).is_some_and(|(corner, flag)| self.flags[corner] & flag != 0)
+    }
+
+    pub fn put(&mut self, crack: Crack, on: bool) {
+        if let Some((corner, flag)) = self.flag(crack) {
+            if on {
+                self.flags[corner] |= flag;
+            } else {
+                self.flags[corner] &= !flag;
+            }
+        }
+    }
+
+    /// The cracks with a line that leave a corner.
+    pub fn leaving(&self, corner: usize) -> impl Iterator<Item = Crack> + '_ {
+        (0..4).map(move |way| Crack { corner, way }).filter(|crack| self.has(*crack))
+    }
+
+    /// How many cracks with a line leave a corner.
+    pub fn degree(&self, corner: usize) -> usize {
+        self.leaving(corner).count()
+    }
+
+    /// The two pixels that a crack parts, in columns and rows: on its left and on its right, seen along its way with rows
+    /// running down the page.
+    pub fn pixels(&self, crack: Crack) -> [[i32; 2]; 2] {
+        let [column, row] = self.place(crack.corner).map(|i| i as i32);
+        match crack.way {
+            0 => [[column, row - 1], [column, row]],
+            1 => [[column, row], [column - 1, row]],
+            2 => [[column - 1, row], [column - 1, row - 1]],
+            _ => [[column - 1, row - 1], [column, row - 1]],
+        }
+    }
+
+    /// The jump over a crack.
+    pub fn jump(&self, jumps: &JumpMap, crack: Crack) -> f32 {
+        let Some((corner, flag)) = self.flag(crack) else { return 0.0 };
+        let [column, row] = self.place(corner);
+        if column >= jumps.columns || row >= jumps.rows {
+            return 0.0;
+        }
+        if flag == 1 { jumps.down(column, row) } else { jumps.across(column, row) }
+    }
+}

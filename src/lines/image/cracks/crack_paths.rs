@@ -1,0 +1,150 @@
+//! [`Path`]: lines between pixels from junction to junction, and straight on through junctions.
+
+use rustc_hash::FxHashMap;
+
+use super::crack_lattice::{Crack, Lattice};
+
+/// Corners over which the direction of a line is measured at a junction.
+const DIRECTION: usize = 10;
+
+/// Cosine of the sharpest turn a line takes at a junction: 50 degrees.
+const STRAIGHT: f64 = 0.643;
+
+/// A line over the corners of pixels.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(crate) struct Path {
+    pub cracks: Vec<Crack>,
+    /// Whether it ends where it begins, at no junction.
+    pub closed: bool,
+}
+
+impl Path {
+    /// The corner after so many cracks.
+    pub fn corner(&self, lattice: &Lattice, after: usize) -> usize {
+        match self.cracks.get(after) {
+            Some(crack) => crack.corner,
+            None => self.cracks.last().and_then(|crack| lattice.end(*crack)).unwrap_or(0),
+        }
+    }
+
+    fn turned(&self, lattice: &Lattice) -> Self {
+        let back = |crack: &Crack| Crack {
+            corner: lattice.end(*crack).unwrap_or(crack.corner),
+            way: (crack.way + 2) % 4,
+        };
+        Self { cracks: self.cracks.iter().rev().map(back).collect(), closed: self.closed }
+    }
+
+    /// From its beginning into it, as a unit vector.
+    fn direction(&self, lattice: &Lattice) -> [f64; 2] {
+        let [from, to] = [0, self.cracks.len().min(DIRECTION)]
+            .map(|after| lattice.place(self.corner(lattice, after)).map(|i| i as f64));
+        let [x, y] = [to[0] - from[0], to[1] - from[1]];
+        let length = (x * x + y * y).sqrt().max(f64::MIN_POSITIVE);
+        [x / length, y / length]
+    }
+}
+
+/// All lines of a lattice, each crack in one of them. Where three or four meet, the straightest pairs go on through.
+pub(crate) fn paths(lattice: &Lattice) -> Vec<Path> {
+    let branches = branches(lattice);
+    join(lattice, branches)
+}
+
+/// Lines from junction or loose end to the next, then those without any.
+fn branches(lattice: &Lattice) -> Vec<Path> {
+    let mut done = vec![0_u8; lattice.len()];
+    let mut branches = Vec::new();
+    let mut follow = |first: Crack, done: &mut Vec<u8>| {
+        let mut path = Path::default();
+        let mut next = Some(first);
+        while let Some(crack) = next {
+            let Some(end) = lattice.end(crack) else { break };
+            done[crack.corner] |= 1 << crack.way;
+            done[end] |= 1 << ((crack.way + 2) % 4);
+            path.cracks.push(crack);
+            let is_through = lattice.degree(end) == 2;
+            next = is_through
+                .then(|| lattice.leaving(end).find(|crack| done[end] & (1 << crack.way) == 0))
+                .flatten();
+            path.closed = is_through && next.is_none() && end == first.corner;
+        }
+        branches.push(path);
+    };
+    let corners = lattice.corners();
+    for rings in [false, true] {
+        for corner in corners.iter().copied() {
+            if !rings && lattice.degree(corner) == 2 {
+                continue;
+            }
+            for crack in lattice.leaving(corner) {
+                if done[corner] & (1 << crack.way) == 0 {
+                    follow(crack, &mut done);
+                }
+            }
+        }
+    }
+    branches
+}
+
+/// One of the two ends of a branch: its beginning, or its end.
+type End = (usize, bool);
+
+/// Joins branches that go straight on at junctions.
+fn join(lattice: &Lattice, branches: Vec<Path>) -> Vec<Path> {
+    let next = pairs(lattice, &branches);
+    let mut used = vec![false; branches.len()];
+    let mut paths = Vec::with_capacity(branches.len());
+    // Those that begin at an end that goes on nowhere first; what is left are rings through junctions.
+    for rings in [false, true] {
+        for start in 0..branches.len() {
+            for end in [false, true] {
+                if used[start] || (!rings && next.contains_key(&(start, end))) {
+                    continue;
+                }
+                let mut path = Path { closed: branches[start].closed, ..Path::default() };
+                let mut at = Some((start, end));
+                while let Some((branch, from)) = at.filter(|(branch, _)| !used[*branch]) {
+                    used[branch] = true;
+                    let own = &branches[branch];
+                    path.cracks.extend(if from { own.turned(lattice).cracks } else { own.cracks.clone() });
+                    at = next.get(&(branch, !from)).copied();
+                }
+                path.closed |= at == Some((start, end)) && !path.cracks.is_empty();
+                paths.push(path);
+            }
+        }
+    }
+    paths
+}
+
+/// Which end of a branch goes on in which.
+fn pairs(lattice: &Lattice, branches: &[Path]) -> FxHashMap<End, End> {
+    let mut ends: Vec<(usize, End, [f64; 2])> = Vec::with_capacity(2 * branches.len());
+    for (id, branch) in branches.iter().enumerate().filter(|(_, branch)| !branch.closed) {
+        ends.push((branch.corner(lattice, 0), (id, false), branch.direction(lattice)));
+        let turned = branch.turned(lattice);
+        ends.push((turned.corner(lattice, 0), (id, true), turned.direction(lattice)));
+    }
+    ends.sort_unstable_by_key(|(corner, end, _)| (*corner, *end));
+    let mut next = FxHashMap::default();
+    for meeting in ends.chunk_by(|a, b| a.0 == b.0) {
+        let mut turns: Vec<(f64, End, End)> = Vec::new();
+        for (i, (_, a, to_a)) in meeting.iter().enumerate() {
+            for (_, b, to_b) in &meeting[i + 1..] {
+                let cosine = -(to_a[0] * to_b[0] + to_a[1] * to_b[1]);
+                if cosine > STRAIGHT {
+                    turns.push((cosine, *a, *b));
+                }
+            }
+        }
+        turns.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        for (_, a, b) in turns {
+            if !next.contains_key(&a) && !next.contains_key(&b) {
+                next.insert(a, b);
+                next.insert(b, a);
+            }
+        }
+    }
+    next
+}

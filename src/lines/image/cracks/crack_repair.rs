@@ -1,0 +1,75 @@
+//! Closes small gaps in lines between pixels, and takes off spurs.
+
+use super::crack_lattice::{Crack, Lattice};
+use super::jump_tiles::JumpMap;
+
+/// Gaps of up to this many cracks are closed, where there is a jump all the way.
+const GAP: usize = 4;
+
+/// Branches of up to this many cracks with a loose end are noise.
+const SPUR: usize = 4;
+
+/// Leads loose ends on along the largest jumps, where that takes them to another line within a few cracks.
+pub(crate) fn close_gaps(lattice: &mut Lattice, jumps: &JumpMap) {
+    let loose: Vec<usize> = ends(lattice);
+    for start in loose {
+        let Some(first) = lattice.leaving(start).next().filter(|_| lattice.degree(start) == 1) else {
+            continue;
+        };
+        let mut way: Vec<Crack> = Vec::with_capacity(GAP);
+        // The line's own last corners: leading back to them closes nothing.
+        let mut own = vec![start];
+        own.extend(walk(lattice, first, 2 * GAP).iter().filter_map(|crack| lattice.end(*crack)));
+        let mut at = start;
+        let mut met = false;
+        while way.len() < GAP && !met {
+            let next = (0..4)
+                .map(|way| Crack { corner: at, way })
+                .filter(|crack| !lattice.has(*crack))
+                .filter(|crack| lattice.end(*crack).is_some_and(|end| !own.contains(&end)))
+                .map(|crack| (lattice.jump(jumps, crack), crack))
+                .filter(|(jump, _)| *jump > 0.0)
+                .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.way.cmp(&a.1.way)));
+            let Some((_, crack)) = next else { break };
+            let Some(end) = lattice.end(crack) else { break };
+            way.push(crack);
+            own.push(end);
+            met = lattice.degree(end) > 0;
+            at = end;
+        }
+        if met {
+            way.into_iter().for_each(|crack| lattice.put(crack, true));
+        }
+    }
+}
+
+/// Takes off short branches, and short lines that hang on nothing.
+pub(crate) fn take_off_spurs(lattice: &mut Lattice) {
+    for start in ends(lattice) {
+        let Some(first) = lattice.leaving(start).next().filter(|_| lattice.degree(start) == 1) else {
+            continue;
+        };
+        let branch = walk(lattice, first, SPUR + 1);
+        if branch.len() <= SPUR {
+            branch.into_iter().for_each(|crack| lattice.put(crack, false));
+        }
+    }
+}
+
+/// The corners that just one line runs from.
+fn ends(lattice: &Lattice) -> Vec<usize> {
+    lattice.corners().into_iter().filter(|corner| lattice.degree(*corner) == 1).collect()
+}
+
+/// The cracks of a line from a loose end to where it branches or ends, no more than `most`.
+fn walk(lattice: &Lattice, first: Crack, most: usize) -> Vec<Crack> {
+    let mut branch = vec![first];
+    while branch.len() < most {
+        let Some(last) = branch.last().copied() else { break };
+        let Some(at) = lattice.end(last) else { break };
+        let mut on = lattice.leaving(at).filter(|crack| lattice.end(*crack) != Some(last.corner));
+        let (Some(next), None) = (on.next(), on.next()) else { break };
+        branch.push(next);
+    }
+    branch
+}

@@ -1,0 +1,66 @@
+//! [`JumpMap`]: the jumps of an image, kept in tiles: lines run through all rows of it, but through few of its tiles, and memory
+//! that is not touched costs nothing.
+
+use crate::parallel::prelude::*;
+
+/// Rows and columns of a tile: a page of memory.
+const HIGH: usize = 16;
+const WIDE: usize = 32;
+
+/// Jumps between neighbouring pixels that may be edges; 0 elsewhere.
+pub(crate) struct JumpMap {
+    pub columns: usize,
+    pub rows: usize,
+    /// The columns with jumps, row after row.
+    pub with_jumps: Vec<Vec<u32>>,
+    /// To each pixel from the one on its left, and from the one above. Tile after tile, in each row after row.
+    jumps: Vec<[f32; 2]>,
+}
+
+impl JumpMap {
+    /// `of_row` puts the jumps of a row, each with its column.
+    pub fn new(
+        columns: usize,
+        rows: usize,
+        of_row: impl Fn(usize, &mut dyn FnMut(usize, [f32; 2])) + Sync + Send,
+    ) -> Self {
+        let band = columns.next_multiple_of(WIDE) * HIGH;
+        let mut jumps = vec![[0.0; 2]; band * rows.div_ceil(HIGH)];
+        let of_band = |(number, own): (usize, &mut [[f32; 2]])| {
+            let in_row = |row: usize| {
+                let mut found = Vec::new();
+                of_row(row, &mut |column, jumps| {
+                    own[in_band(column, row)] = jumps;
+                    found.push(column as u32);
+                });
+                found
+            };
+            (number * HIGH..((number + 1) * HIGH).min(rows)).map(in_row).collect::<Vec<_>>()
+        };
+        let with_jumps = jumps.par_chunks_mut(band).enumerate().flat_map_iter(of_band).collect();
+        Self { columns, rows, with_jumps, jumps }
+    }
+
+    fn at(&self, column: usize, row: usize) -> [f32; 2] {
+        let band = self.columns.next_multiple_of(WIDE) * HIGH;
+        self.jumps[row / HIGH * band + in_band(column, row)]
+    }
+
+    /// From the pixel on the left to a pixel.
+    #[inline]
+    pub fn across(&self, column: usize, row: usize) -> f32 {
+        self.at(column, row)[0]
+    }
+
+    /// From the pixel above to a pixel.
+    #[inline]
+    pub fn down(&self, column: usize, row: usize) -> f32 {
+        self.at(column, row)[1]
+    }
+}
+
+/// Where the jumps to a pixel are kept among those of the same row of tiles.
+#[inline]
+fn in_band(column: usize, row: usize) -> usize {
+    column / WIDE * (WIDE * HIGH) + row % HIGH * WIDE + column % WIDE
+}

@@ -1,0 +1,150 @@
+//! [`Jumps`]: how much depth and normals change from a pixel to the next.
+//!
+//! Edges of an image lie between pixels, not on them. Of neighbouring pairs of pixels the one with the largest jump says where.
+
+use std::ops::Range;
+
+use super::crest_test::NO_ECHO;
+use super::jump_tiles::JumpMap;
+use crate::lines::image::{EdgeTest, ImageOptions};
+use crate::mesh::Mesh;
+use crate::view::raster::{Maps, NO_FRONT};
+
+/// The difference of opposite pixels that the test after Ishaya takes for an edge by itself: half a step of its hardware, and
+/// normals 29 degrees apart half-way into the picture. Only what jumps more than what hangs on it.
+const OPPOSITE: [f32; 2] = [0.0442, 0.33];
+
+/// The jump over a straight edge that makes p of the gradient test 0.75, in units of its k: pixels beside the edge
+/// have half the jump for a gradient, and those behind them none.
+const GRADIENT: f32 = 1.732;
+
+/// The least jump from one surface to another.
+const SURE: f32 = 1.01 * NO_ECHO;
+
+/// Columns that are passed over at once where nothing is an edge.
+const RUN: usize = 32;
+
+/// How much depth and normals jump between pixels, in units of what alone is an edge by its test.
+pub(crate) struct Jumps<'a> {
+    mesh: &'a Mesh,
+    maps: &'a Maps,
+    /// Whether there are several parts or materials, and borders of them jump by themselves.
+    parts: bool,
+    depth: f32,
+    normal: f32,
+}
+
+impl<'a> Jumps<'a> {
+    pub fn new(mesh: &'a Mesh, maps: &'a Maps, options: &ImageOptions) -> Self {
+        let [depth, normal] = match options.test {
+            EdgeTest::Gradient => {
+                [options.gradient_depth, options.gradient_normal].map(|k| GRADIENT * k as f32)
+            }
+            EdgeTest::Opposite => OPPOSITE,
+        };
+        let differ = |face: usize| {
+            mesh.face_part[face] != mesh.face_part[0] || mesh.face_material[face] != mesh.face_material[0]
+        };
+        let parts = options.parts && (0..mesh.triangles.len()).any(differ);
+        Self { mesh, maps, parts, depth: 1.0 / depth, normal: 1.0 / normal }
+    }
+
+    /// The jump of depth between two neighbours, with the pixels before and behind them in line: what neither side's slope
+    /// explains.
+    #[inline]
+    pub fn of_depth(&self, [before, a, b, behind]: [usize; 4]) -> f32 {
+        let depths = &self.maps.depths;
+        let step = depths[b] - depths[a];
+        let left = step - (depths[a] - depths[before]);
+        let right = step - (depths[behind] - depths[b]);
+        left.abs().min(right.abs()) * self.depth
+    }
+
+    #[inline]
+    fn of_normal(&self, a: usize, b: usize) -> f32 {
+        let (a, b) = (self.maps.normals[a], self.maps.normals[b]);
+        ((a[0] - b[0]).abs() + (a[1] - b[1]).abs() + (a[2] - b[2]).abs()) / 3.0 * self.normal
+    }
+
+    /// Both jumps as one, if the pixels are edges. What parts two surfaces is no echo of anything: where depth jumps,
+    /// and between parts and materials, if these count.
+    #[inline]
+    fn of(&self, line: [usize; 4], are_edges: bool) -> f32 {
+        let parts = self.parts && self.part_things(line[1], line[2]);
+        let least = |parts: bool| if parts { SURE } else { 0.0 };
+        if !are_edges {
+            return least(parts);
+        }
+        let (depth, normal) = (self.of_depth(line), self.of_normal(line[1], line[2]));
+        (depth * depth + normal * normal).sqrt().max(least(parts || depth >= 1.0))
+    }
+
+    /// Whether two pixels show faces of different parts or materials.
+    #[inline]
+    fn part_things(&self, a: usize, b: usize) -> bool {
+        let faces = &self.maps.faces;
+        let (a, b) = (faces[a], faces[b]);
+        if a == b || a == NO_FRONT || b == NO_FRONT {
+            return false;
+        }
+        let [a, b] =
+            [a, b].map(|face| (self.mesh.face_part[face as usize], self.mesh.face_material[face as usize]));
+        a != b
+    }
+
+    /// The pixel on the left of one and itself, with those before and behind them.
+    #[inline]
+    pub fn line_across(&self, column: usize, row: usize) -> [usize; 4] {
+        let last = self.maps.columns - 1;
+        [column.saturating_sub(2), column - 1, column, (column + 1).min(last)]
+            .map(|column| row * self.maps.columns + column)
+    }
+
+    /// The pixel above one and itself, with those before and behind them.
+    #[inline]
+    pub fn line_down(&self, column: usize, row: usize) -> [usize; 4] {
+        let last = self.maps.rows - 1;
+        [row.saturating_sub(2), row - 1, row, (row + 1).min(last)].map(|row| row * self.maps.columns + column)
+    }
+
+    /// The jumps between pixels that are edges.
+    pub fn map(&self, edges: &[bool]) -> JumpMap {
+        let columns = self.maps.columns;
+        JumpMap::new(columns, self.maps.rows, |row, put| {
+            for first in (0..columns).step_by(RUN) {
+                let run = first..(first + RUN).min(columns);
+                if self.may_jump(edges, row, run.clone()) {
+                    self.along(edges, row, run, put);
+                }
+            }
+        })
+    }
+
+    /// Whether there may be a jump within a run of a row: nothing parts what is on one face, unless the test has it.
+    fn may_jump(&self, edges: &[bool], row: usize, run: Range<usize>) -> bool {
+        let own = row * self.maps.columns;
+        // All of them, which is faster than to stop at the first.
+        self.parts || edges[own + run.start..own + run.end].iter().fold(false, |any, edge| any | edge)
+    }
+
+    /// The jumps of a run of a row.
+    fn along(&self, edges: &[bool], row: usize, run: Range<usize>, put: &mut dyn FnMut(usize, [f32; 2])) {
+        let (columns, faces) = (self.maps.columns, &self.maps.faces);
+        for column in run {
+            let pixel = row * columns + column;
+            let may_part = |other: usize| edges[pixel] || (self.parts && faces[pixel] != faces[other]);
+            let mut jumps = [0.0; 2];
+            if column > 0 && may_part(pixel - 1) {
+                let are_edges = edges[pixel] && edges[pixel - 1];
+                jumps[0] = self.of(self.line_across(column, row), are_edges);
+            }
+            if row > 0 && may_part(pixel - columns) {
+                let are_edges = edges[pixel] && edges[pixel - columns];
+                jumps[1] = self.of(self.line_down(column, row), are_edges);
+            }
+            if jumps != [0.0; 2] {
+                put(column, jumps);
+            }
+        }
+    }
+}

@@ -1,0 +1,28 @@
+//! The nine pixels around a place of a map.
+
+use crate::view::raster::{Maps, NO_FRONT};
+
+/// Row by row; the pixel itself is the fifth. Beyond the rim of the picture its nearest pixel stands in.
+pub(crate) type Around = [usize; 9];
+
+/// The pixels around one.
+#[inline]
+pub(crate) fn around(columns: usize, rows: usize, column: usize, row: usize) -> Around {
+    let lines = [row.saturating_sub(1), row, (row + 1).min(rows - 1)].map(|row| row * columns);
+    let across = [column.saturating_sub(1), column, (column + 1).min(columns - 1)];
+    let mut at = [0; 9];
+    for (i, line) in lines.into_iter().enumerate() {
+        for (j, column) in across.into_iter().enumerate() {
+            at[3 * i + j] = line + column;
+        }
+    }
+    at
+}
+
+impl Maps {
+    /// Whether none of the pixels around a place shows a face.
+    #[inline]
+    pub(crate) fn is_bare(&self, at: &Around) -> bool {
+        at.iter().all(|pixel| self.faces[*pixel] == NO_FRONT)
+    }
+}

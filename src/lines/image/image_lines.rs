@@ -1,0 +1,221 @@
+//! [`ImageLines`]: curves between the pixels of maps.
+
+use crate::parallel::prelude::*;
+use glam::DVec2;
+use rustc_hash::FxHashMap;
+
+use super::ImageOptions;
+use crate::lines::image::cracks::crack_lattice::{Crack, Lattice};
+use crate::lines::image::cracks::crack_paths::{Path, paths};
+use crate::lines::image::cracks::crack_repair::{close_gaps, take_off_spurs};
+use crate::lines::image::cracks::crack_sides::{Owner, Side, sides};
+use crate::lines::image::cracks::crest_test::NO_ECHO;
+use crate::lines::image::cracks::jump_tiles::JumpMap;
+use crate::lines::image::cracks::pixel_jumps::Jumps;
+use crate::lines::image::cracks::taut_path::{Bend, Gate, crossings, taut};
+use crate::mesh::{MaterialId, Mesh, PartId};
+use crate::view::raster::Maps;
+
+/// A point of a line in the image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImagePoint {
+    /// Where it is in the camera's frame, user units.
+    pub position: DVec2,
+    /// Depth of what is nearer there, along the optical axis, world units.
+    pub depth: f64,
+}
+
+/// A straight piece of a line in the image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ImagePiece {
+    /// Its ends in [`ImageLines::points`].
+    pub ends: [u32; 2],
+    /// The part of the surface on its nearer side.
+    pub part: PartId,
+    /// The material of that.
+    pub material: MaterialId,
+    /// Whether depth does not jump across it: both surfaces that meet in it are seen.
+    pub both_seen: bool,
+    /// Whether background is on its other side.
+    pub silhouette: bool,
+    /// Number of the line that it is a piece of.
+    pub line: u32,
+}
+
+/// Lines found in the image. Pieces meet because they share a point.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct ImageLines {
+    /// Ends of pieces.
+    pub points: Vec<ImagePoint>,
+    /// The pieces, line after line.
+    pub pieces: Vec<ImagePiece>,
+    /// Number of lines.
+    pub lines: u32,
+}
+
+/// Traces the edges that a test found: along the cracks between pixels over which more jumps than beside them.
+#[must_use]
+pub fn trace(mesh: &Mesh, maps: &Maps, edges: &[bool], options: &ImageOptions) -> ImageLines {
+    let jumps = Jumps::new(mesh, maps, options);
+    let jump_map = jumps.map(edges);
+    let mut lattice = Lattice::crests(&jump_map);
+    close_gaps(&mut lattice, &jump_map);
+    take_off_spurs(&mut lattice);
+    let mut paths = paths(&lattice);
+    paths.retain(|path| is_line(&lattice, &jump_map, path));
+    let pulled: Vec<Pulled> =
+        paths.into_par_iter().map(|path| pull(mesh, maps, &jumps, &lattice, path)).collect();
+    assemble(&lattice, maps, &pulled)
+}
+
+/// Lines of fewer cracks are noise unless they jump like nothing else near by and hang on another line.
+const SHORTEST: usize = 12;
+
+/// Lines of fewer cracks that hang on no other are noise unless they jump like nothing else near by.
+const SHORTEST_LOOSE: usize = 40;
+
+/// Whether a path is more than noise.
+fn is_line(lattice: &Lattice, jumps: &JumpMap, path: &Path) -> bool {
+    let count = path.cracks.len();
+    let jump: f32 = path.cracks.iter().map(|crack| lattice.jump(jumps, *crack)).sum();
+    let hangs = [0, count].iter().any(|after| lattice.degree(path.corner(lattice, *after)) > 2);
+    let is_strong = jump >= NO_ECHO * count as f32;
+    match (is_strong, hangs) {
+        (true, true) => true,
+        (true, false) => count >= SHORTEST,
+        (false, true) => count >= SHORTEST && jump >= count as f32,
+        (false, false) => count >= SHORTEST_LOOSE && jump >= count as f32,
+    }
+}
+
+/// A path with its taut line.
+struct Pulled {
+    path: Path,
+    bends: Vec<Bend>,
+    crossings: Vec<DVec2>,
+    sides: Vec<Side>,
+}
+
+fn pull(mesh: &Mesh, maps: &Maps, jumps: &Jumps, lattice: &Lattice, mut path: Path) -> Pulled {
+    let centre = |[column, row]: [i32; 2]| DVec2::new(f64::from(column) + 0.5, f64::from(row) + 0.5);
+    let gates_of = |cracks: &[Crack]| -> Vec<Gate> {
+        cracks.iter().map(|crack| lattice.pixels(*crack).map(centre)).collect()
+    };
+    let corner = |after: usize| {
+        let [column, row] = lattice.place(path.corner(lattice, after));
+        DVec2::new(column as f64, row as f64)
+    };
+    let mut gates = gates_of(&path.cracks);
+    let (mut start, mut end) = (corner(0), corner(path.cracks.len()));
+    let mut bends = taut(start, &gates, end);
+    // A ring begins at a bend that it has anyway.
+    let half = gates.len() / 2;
+    let bend = bends.iter().skip(1).take(bends.len().saturating_sub(2));
+    if let (true, Some(bend)) = (path.closed, bend.min_by_key(|bend| bend.gate.abs_diff(half)).copied()) {
+        path.cracks.rotate_left(bend.gate);
+        gates = gates_of(&path.cracks);
+        (start, end) = (bend.at, bend.at);
+        bends = taut(start, &gates, end);
+    }
+    let crossings = crossings(&bends, &gates);
+    let sides = sides(mesh, maps, jumps, lattice, &path.cracks);
+    Pulled { path, bends, crossings, sides }
+}
+
+impl Pulled {
+    /// Where the line is after so many cracks.
+    fn at(&self, after: usize) -> DVec2 {
+        let last = self.crossings.len().saturating_sub(1);
+        let [a, b] = [after.saturating_sub(1), after.min(last)].map(|i| self.crossings[i]);
+        a.midpoint(b)
+    }
+
+    /// Places along the line where it has a point, in half cracks: bends lie on cracks, all else between them.
+    fn stops(&self, junctions: &FxHashMap<usize, u32>, lattice: &Lattice) -> Vec<(usize, Stop)> {
+        let n = self.path.cracks.len();
+        let mut stops: Vec<(usize, Stop)> = Vec::with_capacity(self.bends.len());
+        let inner = self.bends.len().saturating_sub(2);
+        stops.extend(
+            self.bends.iter().skip(1).take(inner).map(|bend| (2 * bend.gate + 1, Stop::Bend(bend.at))),
+        );
+        for after in 0..=n {
+            let corner = self.path.corner(lattice, after);
+            if let Some(point) = junctions.get(&corner) {
+                stops.push((2 * after, Stop::Junction(*point)));
+            } else if after == 0 || after == n {
+                let bend = if after == 0 { self.bends.first() } else { self.bends.last() };
+                stops.extend(bend.map(|bend| (2 * after, Stop::Bend(bend.at))));
+            } else if self.sides[after - 1].owner != self.sides[after].owner {
+                stops.push((2 * after, Stop::Bend(self.at(after))));
+            }
+        }
+        stops.sort_by_key(|(at, _)| *at);
+        stops
+    }
+}
+
+/// A point of a line to be.
+#[derive(Debug, Clone, Copy)]
+enum Stop {
+    Bend(DVec2),
+    Junction(u32),
+}
+
+fn assemble(lattice: &Lattice, maps: &Maps, pulled: &[Pulled]) -> ImageLines {
+    let mut lines = ImageLines { lines: pulled.len() as u32, ..ImageLines::default() };
+    let point = |at: DVec2, depth: f64| ImagePoint { position: at / maps.scale, depth };
+    // Lines that go through junctions say where these are; all others end there.
+    let mut junctions: FxHashMap<usize, u32> = FxHashMap::default();
+    for through in [true, false] {
+        for own in pulled {
+            let n = own.path.cracks.len();
+            let inner = if own.path.closed { 0..n } else { 1..n };
+            for after in (0..=n).filter(|after| inner.contains(after) == through) {
+                let corner = own.path.corner(lattice, after);
+                if lattice.degree(corner) > 2 {
+                    junctions.entry(corner).or_insert_with(|| {
+                        let side = &own.sides[after.min(n - 1)];
+                        let [column, row] = lattice.place(corner);
+                        let at = if through { own.at(after) } else { DVec2::new(column as f64, row as f64) };
+                        lines.points.push(point(at, side.depth));
+                        (lines.points.len() - 1) as u32
+                    });
+                }
+            }
+        }
+    }
+    for (line, own) in pulled.iter().enumerate() {
+        let n = own.path.cracks.len();
+        let stops = own.stops(&junctions, lattice);
+        let mut ends: Vec<u32> = Vec::with_capacity(stops.len());
+        for (at, stop) in &stops {
+            ends.push(match stop {
+                Stop::Junction(id) => *id,
+                Stop::Bend(_) if own.path.closed && *at == 2 * n => ends[0],
+                Stop::Bend(position) => {
+                    lines.points.push(point(*position, own.sides[(at / 2).min(n - 1)].depth));
+                    (lines.points.len() - 1) as u32
+                }
+            });
+        }
+        for (stops, ends) in stops.windows(2).zip(ends.windows(2)) {
+            let [from, to] = [ends[0], ends[1]];
+            let [a, b] = [from, to].map(|id| lines.points[id as usize].position);
+            if from != to && a != b {
+                let middle = (stops[0].0 + stops[1].0) / 4;
+                let side = own.sides[middle.min(n - 1)];
+                let Owner { part, material, both_seen } = side.owner;
+                let silhouette = side.silhouette;
+                lines.pieces.push(ImagePiece {
+                    ends: [from, to],
+                    part,
+                    material,
+                    both_seen,
+                    silhouette,
+                    line: line as u32,
+                });
+            }
+        }
+    }
+    lines
+}

@@ -1,0 +1,31 @@
+//! Image-space lines: where maps of normals and depth jump from pixel to pixel, for any mesh.
+//!
+//! 1. One of two tests marks the pixels that are edges (`edge_tests`, one file for each paper).
+//! 2. Lines run along the cracks between pixels with the largest jump, by non-maximum suppression (`cracks`).
+//! 3. Each line is the shortest curve that keeps its pixels on their two sides (`image_lines`).
+//!
+//! Files, in reading order: [`image_options`] the `[lines.image]` table; [`soup_normals`] normals of
+//! unconnected faces; [`edge_tests`]; [`cracks`]; [`image_lines`]; [`ink_dilation`] wider lines in
+//! `edges.png`.
+
+mod cracks;
+pub mod edge_tests;
+mod image_lines;
+pub mod image_options;
+pub mod ink_dilation;
+pub mod soup_normals;
+
+pub use image_lines::{ImageLines, ImagePiece, ImagePoint, trace};
+pub use image_options::{Dilation, EdgeTest, ImageOptions, Source};
+pub use soup_normals::Loose;
+
+use crate::view::raster::Maps;
+
+/// Which pixels of the maps are edges by the test that the options name, row after row.
+#[must_use]
+pub fn edges(maps: &Maps, options: &ImageOptions) -> Vec<bool> {
+    match options.test {
+        EdgeTest::Gradient => edge_tests::gradient_test::edges(maps, options),
+        EdgeTest::Opposite => edge_tests::opposite_test::edges(maps, options),
+    }
+}

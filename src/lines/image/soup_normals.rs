@@ -1,0 +1,152 @@
+//! [`Loose`]: normals of surfaces whose faces do not hold together.
+//!
+//! A polygon soup has no connectivity: each face ends by itself, next to others that go on where it ends. Lines in the image need
+//! none, but the normals of the surface: faces of which corners lie within a px of each other, and which bend by less than a
+//! crease, are taken for one surface there. Closed surfaces have no loose corners.
+
+use crate::parallel::prelude::*;
+use glam::{DVec3, IVec3};
+
+use crate::mesh::{EdgeFaces, FaceId, Mesh};
+use crate::view::View;
+
+/// Corners within this many px of the frame are one place.
+const REACH_PX: f64 = 1.0;
+
+/// No more faces than this are asked in each of the 27 cells around a corner: where so many meet within a px, nothing is seen of one.
+const MOST: usize = 16;
+
+/// Faces that have corners at open edges, and the normals there.
+#[derive(Debug, Clone, Default)]
+pub struct Loose {
+    /// For each face its number among those with normals, or [`NONE`]; empty if none is loose.
+    number: Vec<u32>,
+    normals: Vec<[DVec3; 3]>,
+}
+
+const NONE: u32 = u32::MAX;
+
+/// A corner of a face at an open vertex.
+#[derive(Clone, Copy)]
+struct Corner {
+    cell: IVec3,
+    face: u32,
+    position: DVec3,
+    /// On the side that is seen, as long as twice the area.
+    normal: DVec3,
+}
+
+impl Loose {
+    /// The loose faces of a mesh in a view. Those that bend by more than an angle (degrees) stay apart; `normals` are those of
+    /// faces that hold together, at their corners and on their outer side.
+    #[must_use]
+    pub fn new(
+        mesh: &Mesh,
+        view: &View,
+        crease_deg: f64,
+        normals: impl Fn(u32) -> [DVec3; 3] + Sync,
+    ) -> Self {
+        if mesh.edges.border_count() == 0 {
+            return Self::default();
+        }
+        let mut open = vec![false; mesh.positions.len()];
+        for edge in 0..mesh.edges.len() {
+            if matches!(mesh.edges.faces(edge), EdgeFaces::One(_)) {
+                mesh.edges.vertices[edge].iter().for_each(|v| open[*v as usize] = true);
+            }
+        }
+        let loose: Vec<u32> = (0..mesh.triangles.len() as u32)
+            .filter(|face| mesh.triangles[*face as usize].iter().any(|v| open[*v as usize]))
+            .collect();
+        let reach = (REACH_PX * view.frame.px_at(view.frame.focus)).max(f64::MIN_POSITIVE);
+        let corners_of = |face: u32| {
+            let normal = seen_normal(mesh, view, face);
+            mesh.triangles[face as usize].iter().filter(|v| open[**v as usize]).map(move |v| {
+                let position = mesh.positions[*v as usize];
+                Corner { cell: (position / reach).floor().as_ivec3(), face, position, normal }
+            })
+        };
+        let mut corners: Vec<Corner> = loose.iter().copied().flat_map(corners_of).collect();
+        corners.par_sort_unstable_by_key(|corner| (corner.cell.to_array(), corner.face));
+        let least = crease_deg.to_radians();
+        let near =
+            Near { corners: &corners, reach, cosine: crate::geometry::numbers::portable_math::cos(least) };
+        let normals_of = |face: &u32| {
+            let mut own = normals(*face);
+            let side = if view.facing[*face as usize] { 1.0 } else { -1.0 };
+            for (normal, v) in own.iter_mut().zip(mesh.triangles[*face as usize]) {
+                if open[v as usize] {
+                    let position = mesh.positions[v as usize];
+                    *normal = side
+                        * near.normal(position, seen_normal(mesh, view, *face)).unwrap_or(*normal * side);
+                }
+            }
+            own
+        };
+        let found: Vec<[DVec3; 3]> = loose.par_iter().map(normals_of).collect();
+        let mut number = vec![NONE; mesh.triangles.len()];
+        for (i, face) in loose.iter().enumerate() {
+            number[*face as usize] = i as u32;
+        }
+        Self { number, normals: found }
+    }
+
+    /// The normals at the corners of a face on its outer side, local space; none if it is not loose.
+    #[inline]
+    #[must_use]
+    pub fn normals(&self, face: u32) -> Option<[DVec3; 3]> {
+        let number = *self.number.get(face as usize)?;
+        self.normals.get(number as usize).copied()
+    }
+
+    /// Whether a face has corners at open edges.
+    #[inline]
+    #[must_use]
+    pub fn is_loose(&self, face: u32) -> bool {
+        self.number.get(face as usize).is_some_and(|number| *number != NONE)
+    }
+
+    /// Whether no face is loose.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.normals.is_empty()
+    }
+}
+
+/// Corners by the cells they lie in.
+struct Near<'a> {
+    corners: &'a [Corner],
+    reach: f64,
+    cosine: f64,
+}
+
+impl Near<'_> {
+    /// The normal of the surface around a place that a face is part of.
+    fn normal(&self, position: DVec3, own: DVec3) -> Option<DVec3> {
+        let cell = (position / self.reach).floor().as_ivec3();
+        let unit = own.try_normalize()?;
+        let mut sum = DVec3::ZERO;
+        for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
+            // Cells along z follow each other.
+            for dz in -1..=1 {
+                let cell = cell.saturating_add(IVec3::new(dx, dy, dz));
+                let first = self.corners.partition_point(|corner| corner.cell.to_array() < cell.to_array());
+                let in_cell = self.corners[first..].iter().take_while(|corner| corner.cell == cell);
+                for corner in in_cell.take(MOST) {
+                    let is_near = corner.position.distance_squared(position) <= self.reach * self.reach;
+                    if is_near && corner.normal.dot(unit) >= self.cosine * corner.normal.length() {
+                        sum += corner.normal;
+                    }
+                }
+            }
+        }
+        sum.try_normalize()
+    }
+}
+
+/// The normal of a face on the side that is seen, as long as twice its area.
+fn seen_normal(mesh: &Mesh, view: &View, face: u32) -> DVec3 {
+    let [a, b, c] = mesh.corners(FaceId(face));
+    let normal = (b - a).cross(c - a);
+    if view.facing[face as usize] { normal } else { -normal }
+}

@@ -1,0 +1,266 @@
+//! Isophotes: where the tone of the surface changes, traced through the faces.
+//!
+//! Source: Claes, Di Fiore, Vansichem and Van Reeth, "Fast 3D cartoon rendering with improved
+//! quality by exploiting graphics hardware", IVCNZ 2001, sections 3.5 and 3.6: triangles are cut
+//! where the tone changes, by the number of tones at their corners, and at the centroid where three
+//! meet. Here any number of levels is cut, and instead of at corners the tone is asked with the
+//! interpolated unit normal wherever it bends, so that borders are right inside large faces too.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::level_tracer::{Band, Found, Measures, Node};
+use super::tone_changes::Traced;
+use super::visible_faces::in_sight;
+use crate::geometry::numbers::tolerance;
+use crate::light::{Slope, SurfacePoint};
+use crate::lines::feature_line::segment;
+use crate::lines::{FeatureLines, LineKind, Lit, NO_FACE};
+use crate::mesh::{FaceId, PaintId};
+use crate::parallel::task_size::GRAIN;
+
+/// Adds the isophotes of a lit surface, for each of these sets of lights that are in shadow. With `sees_through` gradients have
+/// steps behind other faces too. Returns what each of them was traced for, in order.
+pub fn find(lit: &Lit, shadowed: &[u32], sees_through: bool, lines: &mut FeatureLines) -> Vec<Traced> {
+    const CHUNK: usize = 1 << 9;
+    let count = lit.mesh.triangles.len();
+    let ready = Ready::new(lit, shadowed, sees_through);
+    let found: Vec<(Vec<Found>, Vec<Traced>)> = (0..count.div_ceil(CHUNK))
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|chunk| {
+            let mut tracer = Tracer::new(lit, &ready);
+            for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
+                if lit.may_be_seen(face) && !lit.mesh.is_degenerate(FaceId(face as u32)) {
+                    tracer.trace(face as u32, shadowed);
+                }
+            }
+            (tracer.found, tracer.traced)
+        })
+        .collect();
+    let (found, traced): (Vec<Vec<Found>>, Vec<Vec<Traced>>) = found.into_iter().unzip();
+    let piece = |(face, ends): Found| (face, LineKind::Isophote, ends);
+    lines.append_in_faces(lit.mesh, &found, piece, |face, kind, ends| {
+        segment(lit.mesh, face, [face, NO_FACE], kind, ends)
+    });
+    traced.concat()
+}
+
+struct Tracer<'a> {
+    lit: &'a Lit<'a>,
+    ready: &'a Ready,
+    found: Vec<Found>,
+    /// The reason why each of these was traced.
+    traced: Vec<Traced>,
+}
+
+/// What is the same for all faces.
+struct Ready {
+    /// A CSS px in user units.
+    px: f64,
+    /// For each channel and each set of shadowed lights the values at all normals of a surface that
+    /// turns its outside to the eye, then its inside; empty where values vary from place to place.
+    values: Vec<Vec<[Vec<f64>; 2]>>,
+    /// For each channel whether it varies from place to place.
+    is_local: Vec<bool>,
+    /// By how much other channels change with the normal.
+    slope: Slope,
+    /// Where there are gradients, which faces may be seen; empty if all of them.
+    in_sight: Vec<bool>,
+}
+
+/// A CSS px in user units, on a page of the usual size.
+pub(crate) fn page_px(lit: &Lit) -> f64 {
+    lit.view.frame.width.max(lit.view.frame.height) / PAGE_PX
+}
+
+impl Ready {
+    fn new(lit: &Lit, shadowed: &[u32], sees_through: bool) -> Self {
+        // Values are the same for all paints.
+        let paint = PaintId(0);
+        let value = |channel: usize, normal: DVec3, shadowed: u32| {
+            let point = SurfacePoint { position: DVec3::ZERO, normal, openness: 1.0 };
+            lit.shading.value(channel, paint, &point, shadowed)
+        };
+        let of = |channel: usize, shadowed: u32| {
+            if lit.shading.is_local(channel) {
+                return [Vec::new(), Vec::new()];
+            }
+            [1.0, -1.0].map(|side| {
+                let normals = lit.normals.normals.par_iter().with_min_len(GRAIN);
+                normals.map(|normal| value(channel, *normal * side, shadowed)).collect()
+            })
+        };
+        let channels = 0..lit.shading.channels();
+        Self {
+            px: page_px(lit),
+            is_local: channels.clone().map(|channel| lit.shading.is_local(channel)).collect(),
+            slope: lit.shading.slope(),
+            values: channels.map(|c| shadowed.iter().map(|s| of(c, *s)).collect()).collect(),
+            in_sight: if lit.shading.most_levels() > tolerance::FEW_LEVELS && !sees_through {
+                in_sight(lit.mesh, lit.view)
+            } else {
+                Vec::new()
+            },
+        }
+    }
+}
+
+impl<'a> Tracer<'a> {
+    fn new(lit: &'a Lit<'a>, ready: &'a Ready) -> Self {
+        Self { lit, ready, found: Vec::new(), traced: Vec::new() }
+    }
+
+    /// Whether no level can be crossed on a face, told from the values at its corners.
+    fn is_even(
+        &self,
+        face: u32,
+        normals: &[DVec3; 3],
+        levels: &[f64],
+        channel: usize,
+        shadow: usize,
+    ) -> bool {
+        let [outside, inside] = &self.ready.values[channel][shadow];
+        let values = if self.lit.view.facing[face as usize] { outside } else { inside };
+        if values.is_empty() {
+            return false;
+        }
+        let [a, b, c] = self.lit.normals.corners[face as usize];
+        let (a, b, c) = (values[a as usize], values[b as usize], values[c as usize]);
+        let [n, m, o] = normals;
+        let turn2 = n.distance_squared(*m).max(m.distance_squared(*o)).max(o.distance_squared(*n));
+        let [low, high] = self.ready.slope.between([a.min(b).min(c), a.max(b).max(c)], turn2.sqrt());
+        levels.partition_point(|level| *level < low) == levels.partition_point(|level| *level <= high)
+    }
+
+    fn trace(&mut self, face: u32, shadowed: &[u32]) {
+        let Lit { mesh, normals, shading, .. } = self.lit;
+        let n = normals.of(face);
+        let is_flat = n[0] == n[1] && n[1] == n[2];
+        let own = [mesh.paint(FaceId(face))];
+        let shown = self.paints_shown(face);
+        let paints = shown.as_deref().unwrap_or(&own);
+        let mut measures = None;
+        for channel in 0..shading.channels() {
+            if is_flat && !self.ready.is_local[channel] {
+                continue;
+            }
+            for (k, paint) in paints.iter().enumerate() {
+                let levels = shading.levels(*paint, channel);
+                if levels.is_empty() || paints[..k].iter().any(|p| shading.levels(*p, channel) == levels) {
+                    continue;
+                }
+                let is_hidden = || self.ready.in_sight.get(face as usize) == Some(&false);
+                if self.lit.is_gradient(channel, levels) && is_hidden() {
+                    continue;
+                }
+                for (shadow, shadowed) in shadowed.iter().enumerate() {
+                    if self.is_even(face, &n, levels, channel, shadow) {
+                        continue;
+                    }
+                    let measures = *measures.get_or_insert_with(|| self.measures(face, &n));
+                    let band = self.band((face, &n), measures, channel, levels, *shadowed);
+                    let nodes = [0, 1, 2].map(|k| self.corner(&band, k, shadow));
+                    band.trace(nodes, &mut self.found);
+                    self.traced.resize(self.found.len(), Traced { channel, shadowed: *shadowed });
+                }
+            }
+        }
+    }
+
+    /// The sides of a face.
+    fn measures(&self, face: u32, n: &[DVec3; 3]) -> Measures {
+        let Lit { mesh, view, .. } = self.lit;
+        let corners = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
+        let length = |i: usize, j: usize| {
+            let way = corners[j].truncate() - corners[i].truncate();
+            // A side that the near plane cuts is as long as can be.
+            if way.is_nan() || corners[i].z.is_nan() || corners[j].z.is_nan() {
+                f64::INFINITY
+            } else {
+                way.length()
+            }
+        };
+        let p = mesh.corners(FaceId(face));
+        Measures {
+            sides: [length(1, 2), length(2, 0), length(0, 1)],
+            spans: [p[1].distance(p[2]), p[2].distance(p[0]), p[0].distance(p[1])],
+            turns: [n[1].distance(n[2]), n[2].distance(n[0]), n[0].distance(n[1])],
+        }
+    }
+
+    fn band(
+        &self,
+        (face, normals): (u32, &[DVec3; 3]),
+        measures: Measures,
+        channel: usize,
+        levels: &'a [f64],
+        shadowed: u32,
+    ) -> Band<'a> {
+        // Strokes of a hatching end there, one by one: less will do.
+        let (near, exact) = if self.lit.shading.bins() == Some(channel) {
+            (tolerance::BIN_PX, tolerance::BIN_VALUE)
+        } else if self.lit.is_gradient(channel, levels) {
+            (tolerance::BIN_PX, tolerance::GRADIENT_VALUE)
+        } else {
+            (tolerance::ISOPHOTE_PX, tolerance::ISOPHOTE_VALUE)
+        };
+        Band {
+            lit: self.lit,
+            px: self.ready.px,
+            face,
+            paint: self.lit.mesh.paint(FaceId(face)),
+            normals: *normals,
+            channel,
+            is_local: self.ready.is_local[channel],
+            slope: self.ready.slope,
+            shadowed,
+            levels,
+            stride: self.lit.stride(face, channel, levels, shadowed),
+            alike: alike(levels),
+            near,
+            exact,
+            measures,
+        }
+    }
+
+    /// The paints that a face shows, if they differ in their levels.
+    fn paints_shown(&self, face: u32) -> Option<Vec<PaintId>> {
+        let Lit { mesh, shading, textures, .. } = self.lit;
+        let textured = textures.on(mesh, face)?;
+        let (first, others) = textured.palette().split_first()?;
+        let differs =
+            |channel| others.iter().any(|p| shading.levels(*p, channel) != shading.levels(*first, channel));
+        Some(if (0..shading.channels()).any(differs) { textured.paints() } else { vec![*first] })
+    }
+
+    /// A corner of a face.
+    fn corner(&self, band: &Band, k: usize, shadow: usize) -> Node {
+        let [outside, inside] = &self.ready.values[band.channel][shadow];
+        let values = if self.lit.view.facing[band.face as usize] { outside } else { inside };
+        match values.get(self.lit.normals.corners[band.face as usize][k] as usize) {
+            Some(value) => Node { weights: UNIT[k], value: *value },
+            None => band.node(UNIT[k]),
+        }
+    }
+}
+
+/// The corners of a face.
+const UNIT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// Pages count as this many px wide.
+const PAGE_PX: f64 = 1000.0;
+
+/// Fewer levels than this part tones that the eye tells apart, so that their borders must be right.
+const FEW_LEVELS: usize = 16;
+
+/// Where there are many, values need be no better than this part of a step.
+const ALIKE: f64 = 0.05;
+
+/// By how much values may be off without a difference that is seen.
+fn alike(levels: &[f64]) -> f64 {
+    match levels {
+        [first, .., last] if levels.len() >= FEW_LEVELS => ALIKE * (last - first) / (levels.len() - 1) as f64,
+        _ => 0.0,
+    }
+}

@@ -1,0 +1,98 @@
+//! Strides: how many steps of a gradient are drawn as one where a face shows them too narrow to be seen one by one.
+//!
+//! Toward a contour, and wherever else light changes fast in the image, hundreds of steps may fall into a px. Nobody sees
+//! them, but each would be hidden, noded and painted. A face whose steps are narrow keeps every second border of them
+//! only, or every fourth, and so on, and what lies between two that are left has the tone in its middle.
+//! Where a neighbour keeps more, the others break off, and the page's triangles close the gap as they do everywhere.
+
+use glam::DVec2;
+
+use super::isophote_lines::page_px;
+use crate::geometry::numbers::tolerance;
+use crate::lines::Lit;
+use crate::mesh::PaintId;
+
+impl Lit<'_> {
+    /// Whether the levels of a channel are so many that nobody sees one by one what they part.
+    pub(crate) fn is_gradient(&self, channel: usize, levels: &[f64]) -> bool {
+        levels.len() > tolerance::FEW_LEVELS && self.shading.bins() != Some(channel)
+    }
+
+    /// How many steps of a channel a face shows as one: a power of two, 1 unless it is a gradient.
+    pub(crate) fn stride(&self, face: u32, channel: usize, levels: &[f64], shadowed: u32) -> usize {
+        let [first, .., last] = levels else { return 1 };
+        if !self.is_gradient(channel, levels) {
+            return 1;
+        }
+        let points = self.mesh.triangles[face as usize].map(|v| self.view.points[v as usize]);
+        let [a, b, c] = points.map(|p| p.truncate());
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        let [n, m, o] = self.normals.of(face);
+        let turn = n.distance(m).max(m.distance(o)).max(o.distance(n));
+        let px = page_px(self);
+        // Light that is not all but linear on a face is as steep as can be in a part of it only.
+        let is_bent = turn > MOST_TURN || (self.shading.is_local(channel) && longest > MOST_PX * px);
+        if is_bent || points.iter().any(|p| p.is_nan()) {
+            return 1;
+        }
+        let paint = PaintId(0);
+        let value = |weights| self.shading.value(channel, paint, &self.point(face, weights), shadowed);
+        let values = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(value);
+        let step = (last - first) / (levels.len() - 1) as f64;
+        let narrow = |stride: usize| {
+            let steep = steepness([a, b, c], values) * tolerance::STEP_PX * px;
+            stride < MOST_STRIDE && steep > step * stride as f64
+        };
+        let mut stride = 1;
+        while narrow(stride) {
+            stride *= 2;
+        }
+        stride
+    }
+
+    /// The band of a point that reaches so many levels, as its face shows it.
+    pub(crate) fn band_shown(
+        &self,
+        face: u32,
+        channel: usize,
+        levels: &[f64],
+        band: usize,
+        shadowed: u32,
+    ) -> usize {
+        match self.stride(face, channel, levels, shadowed) {
+            1 => band,
+            stride => (band / stride * stride + stride / 2).min(levels.len()),
+        }
+    }
+}
+
+/// By how much a linear function changes at most per unit of length, told from its values at three points.
+fn steepness([a, b, c]: [DVec2; 3], [at_a, at_b, at_c]: [f64; 3]) -> f64 {
+    let (u, v) = (b - a, c - a);
+    let (by_u, by_v) = (at_b - at_a, at_c - at_a);
+    let area = u.perp_dot(v);
+    let gradient = DVec2::new(by_u * v.y - by_v * u.y, by_v * u.x - by_u * v.x);
+    if gradient == DVec2::ZERO { 0.0 } else { gradient.length() / area.abs() }
+}
+
+/// Light is all but linear where normals turn by no more than this, radians.
+const MOST_TURN: f64 = 0.25;
+
+/// Where light varies from place to place it is all but linear on faces no longer than this, px.
+const MOST_PX: f64 = 40.0;
+
+/// Most steps that are drawn as one.
+const MOST_STRIDE: usize = 16;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_plane_is_as_steep_as_it_is() {
+        let at = [DVec2::new(1.0, 2.0), DVec2::new(7.0, 3.0), DVec2::new(2.0, 9.0)];
+        let steep = steepness(at, at.map(|p| 5.0 + p.dot(DVec2::new(0.3, -0.4))));
+        assert!((steep - 0.5).abs() < 1e-12);
+        assert_eq!(steepness(at, [1.0; 3]), 0.0);
+    }
+}

@@ -1,0 +1,316 @@
+//! [`Band`]: one channel of light on one face, through which levels are traced.
+//!
+//! The face is cut until the value is all but linear on its pieces; through each the levels are straight, and their ends are
+//! where the value itself is right.
+
+use glam::DVec3;
+
+use crate::light::{Slope, SurfacePoint, TURN_OF_CHORD};
+use crate::lines::Lit;
+use crate::mesh::PaintId;
+
+/// A piece of a level, and the face it lies on. The brighter side is on its left.
+pub(crate) type Found = (u32, [DVec3; 2]);
+
+/// A corner of a piece of a face: its barycentric weights and its value.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Node {
+    pub weights: [f64; 3],
+    pub value: f64,
+}
+
+/// What is traced: one channel of one face.
+pub(crate) struct Band<'a> {
+    pub lit: &'a Lit<'a>,
+    /// A CSS px in user units.
+    pub px: f64,
+    pub face: u32,
+    pub paint: PaintId,
+    /// The normals at its corners.
+    pub normals: [DVec3; 3],
+    pub channel: usize,
+    /// Whether its value varies from place to place and not with the normal alone.
+    pub is_local: bool,
+    /// By how much its value changes with the normal, where it is not local.
+    pub slope: Slope,
+    pub shadowed: u32,
+    pub levels: &'a [f64],
+    /// One in so many of them is drawn: the others are too near to it to be seen.
+    pub stride: usize,
+    /// Values that are off by no more than this cannot be told apart.
+    pub alike: f64,
+    /// How far the curve may lie from where the level is, px.
+    pub near: f64,
+    /// How far the value at a point of the curve may be from the level.
+    pub exact: f64,
+    pub measures: Measures,
+}
+
+/// The sides of a face, each opposite the corner of its number.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Measures {
+    /// Their lengths in the image.
+    pub sides: [f64; 3],
+    /// Their lengths in space.
+    pub spans: [f64; 3],
+    /// By how much normals turn along them, radians.
+    pub turns: [f64; 3],
+}
+
+/// A side of a piece of a face.
+#[derive(Clone, Copy)]
+struct Side {
+    /// By how much normals turn along it, radians.
+    turn: f64,
+    /// Its length in the image.
+    length: f64,
+    /// Whether normals turn so little along it that the value must be all but linear there.
+    is_straight: bool,
+}
+
+impl Band<'_> {
+    /// The point of the face with these weights.
+    pub fn node(&self, weights: [f64; 3]) -> Node {
+        Node {
+            weights,
+            value: self.lit.shading.value(self.channel, self.paint, &self.point(weights), self.shadowed),
+        }
+    }
+
+    /// The point of the face with these weights, as the light of this channel asks for it.
+    fn point(&self, weights: [f64; 3]) -> SurfacePoint {
+        if !self.is_local {
+            let normal = self.lit.normal(self.face, &self.normals, weights);
+            // Where there is no normal, that to the eye stands for it, and this varies from place to place.
+            if normal != DVec3::ZERO {
+                return SurfacePoint { position: DVec3::ZERO, normal, openness: 1.0 };
+            }
+        }
+        self.lit.point(self.face, weights)
+    }
+
+    /// Traces the levels through the face; these are its corners.
+    pub fn trace(&self, corners: [Node; 3], found: &mut Vec<Found>) {
+        self.cut(corners, 0, found);
+    }
+
+    /// Cuts a piece until the value is all but linear in it, then draws the levels through it.
+    ///
+    /// Whether a side is cut depends on the side alone, so that the pieces of neighbours meet.
+    fn cut(&self, nodes: [Node; 3], depth: u32, found: &mut Vec<Found>) {
+        let turns = [self.turn(&nodes, 0), self.turn(&nodes, 1), self.turn(&nodes, 2)];
+        if self.is_out_of_reach(&nodes, turns) {
+            return;
+        }
+        if depth >= DEEPEST {
+            self.draw(nodes, found);
+            return;
+        }
+        let mut sides = [Side { turn: 0.0, length: 0.0, is_straight: true }; 3];
+        let mut middles = [None; 3];
+        for k in 0..3 {
+            let (a, b) = (nodes[(k + 1) % 3], nodes[(k + 2) % 3]);
+            sides[k] = self.side(a, b, turns[k]);
+            if !sides[k].is_straight {
+                let middle = self.node(mean(a.weights, b.weights));
+                if self.is_bent(a, middle, b, sides[k]) {
+                    middles[k] = Some(middle);
+                }
+            }
+        }
+        if middles.iter().any(Option::is_some) {
+            for piece in pieces(nodes, middles).iter().flatten() {
+                self.cut(*piece, depth + 1, found);
+            }
+            return;
+        }
+        if sides.iter().all(|side| side.is_straight) {
+            self.draw(nodes, found);
+            return;
+        }
+        let third = |k: usize| (nodes[0].weights[k] + nodes[1].weights[k] + nodes[2].weights[k]) / 3.0;
+        let centroid = self.node([third(0), third(1), third(2)]);
+        let linear = (nodes[0].value + nodes[1].value + nodes[2].value) / 3.0;
+        let longest = sides.iter().fold(0.0, |longest: f64, side| longest.max(side.length));
+        if self.is_off(&nodes, centroid.value, linear, longest) {
+            for k in 0..3 {
+                self.cut([nodes[k], nodes[(k + 1) % 3], centroid], depth + 1, found);
+            }
+            return;
+        }
+        self.draw(nodes, found);
+    }
+
+    /// By how much normals turn along the side of a piece opposite a corner of it, radians, at most.
+    fn turn(&self, nodes: &[Node; 3], opposite: usize) -> f64 {
+        extent(&self.measures.turns, nodes[(opposite + 1) % 3].weights, nodes[(opposite + 2) % 3].weights)
+    }
+
+    /// Whether no level can be crossed anywhere on a piece, by how far normals turn along its sides.
+    fn is_out_of_reach(&self, nodes: &[Node; 3], turns: [f64; 3]) -> bool {
+        let turn = turns[0].max(turns[1]).max(turns[2]);
+        let (low, high) = if self.is_local {
+            let span = |a: usize, b: usize| extent(&self.measures.spans, nodes[a].weights, nodes[b].weights);
+            let longest = span(0, 1).max(span(1, 2)).max(span(2, 0));
+            let point = self.lit.point(self.face, nodes[0].weights);
+            let turn = turn * TURN_OF_CHORD;
+            self.lit.shading.range(self.channel, self.paint, &point, self.shadowed, turn, longest)
+        } else {
+            let [a, b, c] = [nodes[0].value, nodes[1].value, nodes[2].value];
+            self.slope.between([a.min(b).min(c), a.max(b).max(c)], turn).into()
+        };
+        self.levels.partition_point(|level| *level < low)
+            == self.levels.partition_point(|level| *level <= high)
+    }
+
+    /// A side of a piece along which normals turn by so much.
+    fn side(&self, a: Node, b: Node, turn: f64) -> Side {
+        let length = extent(&self.measures.sides, a.weights, b.weights);
+        // What a cosine is off its chord at most.
+        let off = turn * turn / 8.0 * self.slope.most;
+        let is_straight = !self.is_local
+            && turn <= MOST_TURN
+            && off * length <= self.near * self.px * (a.value - b.value).abs();
+        Side { turn, length, is_straight }
+    }
+
+    /// Whether the value along a side bends so much that a level would cross it elsewhere.
+    fn is_bent(&self, a: Node, middle: Node, b: Node, side: Side) -> bool {
+        let Side { turn, length, .. } = side;
+        let far_reaching = length > LONGEST_PX * self.px && self.is_local;
+        ((far_reaching || turn > MOST_TURN) && length > SHORTEST_PX * self.px)
+            || self.is_off(&[a, b], middle.value, f64::midpoint(a.value, b.value), length)
+    }
+
+    /// Whether a value differs from the linear one so much that a level would be displaced.
+    fn is_off(&self, nodes: &[Node], value: f64, linear: f64, length: f64) -> bool {
+        let off = (value - linear).abs();
+        if length <= SHORTEST_PX * self.px || off <= self.alike {
+            return false;
+        }
+        let (mut low, mut high) = (value, value);
+        for node in nodes {
+            low = low.min(node.value);
+            high = high.max(node.value);
+        }
+        let crossed = self.levels.partition_point(|level| *level < low - off)
+            < self.levels.partition_point(|level| *level <= high + off);
+        crossed && off * length > self.near * self.px * (high - low)
+    }
+
+    fn draw(&self, nodes: [Node; 3], found: &mut Vec<Found>) {
+        let values = nodes.map(|node| node.value);
+        let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let first = self.levels.partition_point(|level| *level <= low);
+        let last = self.levels.partition_point(|level| *level <= high);
+        for number in (first..last).filter(|number| (number + 1) % self.stride == 0) {
+            let level = &self.levels[number];
+            let above = nodes.map(|node| node.value >= *level);
+            // The corner that is alone on its side, and the two others.
+            let Some(alone) =
+                (0..3).find(|k| above[(k + 1) % 3] == above[(k + 2) % 3] && above[*k] != above[(k + 1) % 3])
+            else {
+                continue;
+            };
+            let mut ends = [1, 2].map(|k| self.crossing(nodes[alone], nodes[(alone + k) % 3], *level));
+            // The brighter side lies on the left.
+            if above[alone] {
+                ends.swap(0, 1);
+            }
+            if ends[0] != ends[1] {
+                found.push((self.face, ends));
+            }
+        }
+    }
+
+    /// Where a level crosses a side, from below to above.
+    fn crossing(&self, a: Node, b: Node, level: f64) -> DVec3 {
+        let (low, high) = if a.value < level { (a, b) } else { (b, a) };
+        let at = |t: f64| {
+            let weight = |k: usize| low.weights[k] + (high.weights[k] - low.weights[k]) * t;
+            [weight(0), weight(1), weight(2)]
+        };
+        let (mut t_low, mut t_high) = (0.0, 1.0);
+        let (mut f_low, mut f_high) = (low.value - level, high.value - level);
+        let mut t = 0.0;
+        let mut stays = 0;
+        // Regula falsi after Illinois: an end that stays for a second time counts half.
+        for _ in 0..MOST_ROUNDS {
+            t = t_low + (t_high - t_low) * (-f_low / (f_high - f_low)).clamp(0.0, 1.0);
+            let f = self.node(at(t)).value - level;
+            if f.abs() <= self.exact || t_high - t_low <= f64::EPSILON {
+                break;
+            }
+            if f < 0.0 {
+                (t_low, f_low) = (t, f);
+                f_high = if stays == -1 { f_high / 2.0 } else { f_high };
+                stays = -1;
+            } else {
+                (t_high, f_high) = (t, f);
+                f_low = if stays == 1 { f_low / 2.0 } else { f_low };
+                stays = 1;
+            }
+        }
+        self.lit.lifted(self.face, at(t), self.px)
+    }
+}
+
+/// How often a face is cut in two at most, along each side.
+const DEEPEST: u32 = 9;
+
+/// Rounds of the search along a side.
+const MOST_ROUNDS: u32 = 30;
+
+/// Pieces turn by no more than this, radians, so that no peak hides between their corners.
+const MOST_TURN: f64 = 0.25;
+
+/// Where light varies from place to place, pieces are no longer than this.
+const LONGEST_PX: f64 = 40.0;
+
+/// Pieces this short are not cut again.
+const SHORTEST_PX: f64 = 0.5;
+
+/// Half way between two points of a face.
+fn mean(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [f64::midpoint(a[0], b[0]), f64::midpoint(a[1], b[1]), f64::midpoint(a[2], b[2])]
+}
+
+/// How far it is between two points of a face of which these are the sides (each opposite the corner
+/// of its number), at most; exact along a side.
+#[inline]
+pub(crate) fn extent(sides: &[f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
+    let change = [(a[0] - b[0]).abs(), (a[1] - b[1]).abs(), (a[2] - b[2]).abs()];
+    let mut sum = 0.0;
+    for k in 0..3 {
+        let part = change[(k + 1) % 3].min(change[(k + 2) % 3]);
+        // A side may be as long as can be.
+        if part > 0.0 {
+            sum += sides[k] * part;
+        }
+    }
+    sum
+}
+
+/// A triangle cut at the middles of some of its sides (each opposite the corner of its number).
+pub(crate) fn pieces<N: Copy>(n: [N; 3], middles: [Option<N>; 3]) -> [Option<[N; 3]>; 4] {
+    // Turned so that the cases below are all there are.
+    let turned = |k: usize| {
+        ([n[k], n[(k + 1) % 3], n[(k + 2) % 3]], [middles[k], middles[(k + 1) % 3], middles[(k + 2) % 3]])
+    };
+    for k in 0..3 {
+        let ([a, b, c], m) = turned(k);
+        match m {
+            [Some(p), Some(q), Some(r)] => {
+                return [Some([a, r, q]), Some([r, b, p]), Some([q, p, c]), Some([p, q, r])];
+            }
+            // Two sides that meet in a: the corner is cut off, the rest along a diagonal.
+            [None, Some(q), Some(r)] => {
+                return [Some([a, r, q]), Some([r, b, c]), Some([r, c, q]), None];
+            }
+            [Some(p), None, None] => return [Some([a, b, p]), Some([a, p, c]), None, None],
+            _ => {}
+        }
+    }
+    [Some(n), None, None, None]
+}

@@ -1,0 +1,382 @@
+//! Which pieces of tone borders change the tone: only those are inked as isophotes.
+//!
+//! Tone borders are traced for every set of lights that may be in shadow, each over the whole surface, and so are the borders of
+//! shadows: regions need all of them. But an isophote of the lit surface changes nothing inside the shadow, the border of a shadow
+//! nothing where both tones are one, and an edge nothing where both its sides have one tone. So borders on a face are cut where they
+//! cross each other, edges where these end at them, and in the middle of each piece the tones of both sides are compared, under the
+//! lights that reach it.
+
+use std::ops::Range;
+
+use crate::parallel::prelude::*;
+use glam::{DVec2, DVec3};
+
+use crate::geometry::numbers::tolerance;
+use crate::light::SurfacePoint;
+use crate::lines::shared_points::PointIds;
+use crate::lines::{FeatureLines, FeatureSegment, Lit, NO_FACE};
+use crate::mesh::{FaceId, PaintId};
+
+/// The reason why an isophote was traced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Traced {
+    /// The channel of the shading.
+    pub channel: usize,
+    /// The lights that are in shadow.
+    pub shadowed: u32,
+}
+
+/// Where the tone borders are among the segments of all lines.
+#[derive(Debug, Clone, Default)]
+pub struct ToneBorders {
+    /// Edges between tones, whole ones.
+    pub edges: Range<usize>,
+    /// Isophotes.
+    pub isophotes: Range<usize>,
+    /// The reason why each of these was traced.
+    pub traced: Vec<Traced>,
+    /// Borders of shadows.
+    pub shadows: Range<usize>,
+    /// Which light casts each of these.
+    pub casters: Vec<u32>,
+}
+
+/// Which cast shadows darken what: tones, and bins of hatching.
+#[derive(Debug, Clone, Copy)]
+pub struct Darkens {
+    /// Tones.
+    pub tones: bool,
+    /// Bins of hatching.
+    pub bins: bool,
+}
+
+/// What a border is.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Class {
+    Edge,
+    Isophote(Traced),
+    Shadow(u32),
+}
+
+/// Cuts tone borders where they begin or cease to change the tone, and gives the numbers of the segments that change nothing, ascending.
+/// `shadowed` returns the lights that do not reach points of faces.
+#[must_use]
+pub fn unchanged(
+    lit: &Lit,
+    borders: &ToneBorders,
+    darkens: Darkens,
+    shadowed: impl Fn(&[(u32, DVec3)]) -> Vec<u32>,
+    lines: &mut FeatureLines,
+) -> Vec<u32> {
+    let finder = Finder { lit, borders, darkens, lines };
+    let mut cuts = finder.cuts_on_faces();
+    cuts.extend(finder.cuts_on_edges());
+    cuts.sort_by(|a, b| a.segment.cmp(&b.segment).then(a.at.total_cmp(&b.at)));
+    cuts.dedup_by(|b, a| a.segment == b.segment && b.at - a.at < SAME_PLACE);
+
+    let pieces = finder.pieces(&cuts);
+    let asked: Vec<[Option<(u32, DVec3)>; 2]> = pieces.par_iter().map(|piece| finder.asked(piece)).collect();
+    let points: Vec<(u32, DVec3)> = asked.iter().flatten().flatten().copied().collect();
+    let mut masks = shadowed(&points).into_iter();
+    let masks: Vec<[u32; 2]> = asked
+        .iter()
+        .map(|sides| sides.map(|side| side.and_then(|_| masks.next()).unwrap_or_default()))
+        .collect();
+    let changes: Vec<bool> =
+        pieces.par_iter().zip(&masks).map(|(piece, masks)| finder.changes(piece, *masks)).collect();
+    rewrite(lit, &pieces, &changes, lines)
+}
+
+/// Cuts nearer to each other than this part of a segment are one.
+const SAME_PLACE: f64 = 1e-9;
+
+/// Lights do not reach points of an edge by what stands on the face next to it: so far towards its middle they are asked for, as part of the
+/// way.
+const INWARD: f64 = 1e-4;
+
+/// Where a segment is cut.
+#[derive(Clone, Copy)]
+struct Cut {
+    segment: usize,
+    at: f64,
+    point: DVec3,
+}
+
+/// A piece of a segment between two cuts, or its ends.
+#[derive(Clone, Copy)]
+struct Piece {
+    segment: usize,
+    ends: [Option<DVec3>; 2],
+    middle: DVec3,
+}
+
+struct Finder<'a> {
+    lit: &'a Lit<'a>,
+    borders: &'a ToneBorders,
+    darkens: Darkens,
+    lines: &'a FeatureLines,
+}
+
+impl Finder<'_> {
+    fn class(&self, segment: usize) -> Class {
+        let ToneBorders { isophotes, traced, shadows, casters, .. } = self.borders;
+        if isophotes.contains(&segment) {
+            return traced.get(segment - isophotes.start).map_or(Class::Edge, |own| Class::Isophote(*own));
+        }
+        match shadows.contains(&segment) {
+            true => casters.get(segment - shadows.start).map_or(Class::Edge, |own| Class::Shadow(*own)),
+            false => Class::Edge,
+        }
+    }
+
+    fn ends(&self, segment: usize) -> [DVec3; 2] {
+        self.lines.segments[segment].ends.map(|end| self.lines.position(self.lit.mesh, end))
+    }
+
+    /// Isophotes and borders of shadows, by their faces.
+    fn on_faces(&self) -> Vec<(u32, usize)> {
+        let ToneBorders { isophotes, shadows, .. } = self.borders;
+        let all = isophotes.clone().chain(shadows.clone());
+        let mut on_faces: Vec<(u32, usize)> =
+            all.map(|segment| (self.lines.segments[segment].hosts[0], segment)).collect();
+        on_faces.par_sort_unstable();
+        on_faces
+    }
+
+    /// Where borders on a face cross.
+    fn cuts_on_faces(&self) -> Vec<Cut> {
+        let on_faces = self.on_faces();
+        let faces: Vec<&[(u32, usize)]> =
+            on_faces.chunk_by(|a, b| a.0 == b.0).filter(|own| own.len() > 1).collect();
+        faces.into_par_iter().flat_map_iter(|own| self.crossings(own)).collect()
+    }
+
+    fn crossings(&self, own: &[(u32, usize)]) -> Vec<Cut> {
+        let [a, b, c] = self.lit.mesh.corners(FaceId(own[0].0));
+        let right = (b - a).normalize_or_zero();
+        let up = (b - a).cross(c - a).cross(right).normalize_or_zero();
+        let flat = |p: DVec3| DVec2::new((p - a).dot(right), (p - a).dot(up));
+        let mut flattened: Vec<(usize, Class, [DVec2; 2])> = own
+            .iter()
+            .map(|(_, segment)| (*segment, self.class(*segment), self.ends(*segment).map(flat)))
+            .collect();
+        let low = |ends: &[DVec2; 2]| ends[0].x.min(ends[1].x);
+        flattened.sort_by(|a, b| low(&a.2).total_cmp(&low(&b.2)).then(a.0.cmp(&b.0)));
+        let mut cuts = Vec::new();
+        for (k, (first, class, [p, q])) in flattened.iter().enumerate() {
+            let reach = p.x.max(q.x);
+            for (other, its_class, [r, s]) in
+                flattened[k + 1..].iter().take_while(|(_, _, ends)| low(ends) <= reach)
+            {
+                if class == its_class {
+                    continue;
+                }
+                let (u, v) = (*q - *p, *s - *r);
+                let turn = u.perp_dot(v);
+                let (at, its) = ((*r - *p).perp_dot(v) / turn, (*r - *p).perp_dot(u) / turn);
+                if turn == 0.0 || !(0.0..=1.0).contains(&at) || !(0.0..=1.0).contains(&its) {
+                    continue;
+                }
+                // Borders of shadows lie on the face itself.
+                let (on, t) =
+                    if matches!(its_class, Class::Shadow(_)) { (*other, its) } else { (*first, at) };
+                let [from, to] = self.ends(on);
+                let point = from.lerp(to, t);
+                cuts.push(Cut { segment: *first, at, point });
+                cuts.push(Cut { segment: *other, at: its, point });
+            }
+        }
+        cuts.retain(|cut| cut.at > SAME_PLACE && cut.at < 1.0 - SAME_PLACE);
+        cuts
+    }
+
+    /// Where borders on its faces end at an edge.
+    fn cuts_on_edges(&self) -> Vec<Cut> {
+        let on_faces = self.on_faces();
+        let frame = &self.lit.view.frame;
+        let px = frame.width.max(frame.height) / 1000.0;
+        let of_edge = |segment: usize| {
+            let [from, to] = self.ends(segment);
+            let (way, hosts) = (to - from, self.lines.segments[segment].hosts);
+            let per_px = if frame.perspective { frame.depth(from).abs() } else { 1.0 } * px / frame.scale;
+            let near = tolerance::LIFT_PX * per_px;
+            let own = hosts.into_iter().flat_map(|face| {
+                let first = on_faces.partition_point(|own| own.0 < face);
+                on_faces[first..].iter().take_while(move |own| own.0 == face)
+            });
+            let mut cuts = Vec::new();
+            for p in own.flat_map(|(_, border)| self.ends(*border)) {
+                let at = (p - from).dot(way) / way.length_squared();
+                let point = from + way * at;
+                if at > SAME_PLACE && at < 1.0 - SAME_PLACE && point.distance(p) <= near {
+                    cuts.push(Cut { segment, at, point });
+                }
+            }
+            cuts
+        };
+        self.borders.edges.clone().into_par_iter().flat_map_iter(of_edge).collect()
+    }
+
+    /// The pieces of all tone borders, in order.
+    fn pieces(&self, cuts: &[Cut]) -> Vec<Piece> {
+        let ToneBorders { edges, isophotes, shadows, .. } = self.borders;
+        let mut pieces = Vec::new();
+        let mut next = cuts.iter().peekable();
+        for segment in edges.clone().chain(isophotes.clone()).chain(shadows.clone()) {
+            let [a, b] = self.ends(segment);
+            let (mut from, mut start) = (0.0, None);
+            loop {
+                let cut = next.next_if(|cut| cut.segment == segment);
+                let to = cut.map_or(1.0, |cut| cut.at);
+                let end = cut.map(|cut| cut.point);
+                let middle = a.lerp(b, f64::midpoint(from, to));
+                pieces.push(Piece { segment, ends: [start, end], middle });
+                (from, start) = (to, end);
+                if cut.is_none() {
+                    break;
+                }
+            }
+        }
+        pieces
+    }
+
+    /// The faces beside a piece, and where on them it is asked which lights are in shadow.
+    fn asked(&self, piece: &Piece) -> [Option<(u32, DVec3)>; 2] {
+        let mesh = self.lit.mesh;
+        let hosts = self.lines.segments[piece.segment].hosts;
+        let on_edge = self.class(piece.segment) == Class::Edge;
+        hosts.map(|face| {
+            let corners = (face != NO_FACE).then(|| mesh.corners(FaceId(face)))?;
+            let middle = corners.into_iter().sum::<DVec3>() / 3.0;
+            let inward = if on_edge { (middle - piece.middle) * INWARD } else { DVec3::ZERO };
+            let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize_or_zero();
+            let p = piece.middle + inward;
+            Some((face, p - normal * (p - corners[0]).dot(normal)))
+        })
+    }
+
+    /// Whether the tone changes at a piece, given which lights do not reach it on both its faces.
+    fn changes(&self, piece: &Piece, masks: [u32; 2]) -> bool {
+        let FeatureSegment { hosts, .. } = self.lines.segments[piece.segment];
+        let sides = |face: u32| self.point(face, piece.middle);
+        match self.class(piece.segment) {
+            Class::Edge => {
+                let (Some(first), Some(second)) = (sides(hosts[0]), sides(hosts[1])) else { return true };
+                let mesh = self.lit.mesh;
+                let paint = |face: u32| mesh.paint(FaceId(face));
+                let is_plain = |face: u32| self.lit.textures.on(mesh, face).is_none();
+                paint(hosts[0]) != paint(hosts[1])
+                    || !hosts.into_iter().all(is_plain)
+                    || self.look(first.0, &first.1, masks[0]) != self.look(second.0, &second.1, masks[1])
+            }
+            Class::Shadow(caster) => sides(hosts[0]).is_none_or(|(paint, point)| {
+                let bit = 1 << caster;
+                self.look(paint, &point, masks[0] | bit) != self.look(paint, &point, masks[0] & !bit)
+            }),
+            Class::Isophote(traced) => {
+                sides(hosts[0]).is_none_or(|(paint, point)| self.is_level(paint, &point, traced, masks[0]))
+            }
+        }
+    }
+
+    /// What is seen of a point of a face.
+    fn point(&self, face: u32, p: DVec3) -> Option<(PaintId, SurfacePoint)> {
+        let lit = self.lit;
+        let [a, b, c] = lit.mesh.corners(FaceId(face));
+        let normal = (b - a).cross(c - a);
+        let twice = normal.length_squared();
+        let share = |from: DVec3, to: DVec3| (to - from).cross(p - from).dot(normal) / twice;
+        let weights = [share(b, c), share(c, a), share(a, b)].map(|share| share.clamp(0.0, 1.0));
+        let sum: f64 = weights.iter().sum();
+        (twice > 0.0 && sum > 0.0)
+            .then(|| (lit.paint(face, p), lit.point(face, weights.map(|weight| weight / sum))))
+    }
+
+    /// The lights that are dark for a channel.
+    fn mask(&self, channel: usize, shadowed: u32) -> u32 {
+        let is_bin = self.lit.shading.bins() == Some(channel);
+        let darkens = if is_bin { self.darkens.bins } else { self.darkens.tones };
+        if darkens { shadowed } else { 0 }
+    }
+
+    fn bands(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> Vec<u16> {
+        let shading = self.lit.shading;
+        let band = |channel: usize| {
+            let value = shading.value(channel, paint, point, self.mask(channel, shadowed));
+            shading.levels(paint, channel).partition_point(|level| *level <= value) as u16
+        };
+        (0..shading.channels()).map(band).collect()
+    }
+
+    /// The tone and the bin of a point.
+    fn look(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> (u16, Option<u16>) {
+        let bands = self.bands(paint, point, shadowed);
+        self.look_of(paint, &bands)
+    }
+
+    fn look_of(&self, paint: PaintId, bands: &[u16]) -> (u16, Option<u16>) {
+        let shading = self.lit.shading;
+        let bin = shading.bins().and_then(|channel| bands.get(channel)).copied();
+        (shading.tone(paint, bands), bin)
+    }
+
+    /// Whether a level that was traced is one under the lights that reach the point, and parts two tones.
+    fn is_level(&self, paint: PaintId, point: &SurfacePoint, traced: Traced, shadowed: u32) -> bool {
+        let shading = self.lit.shading;
+        let Traced { channel, shadowed: assumed } = traced;
+        let value = |shadowed: u32| shading.value(channel, paint, point, shadowed);
+        let own = value(self.mask(channel, shadowed));
+        if (own - value(assumed)).abs() > tolerance::ISOPHOTE_VALUE {
+            return false;
+        }
+        let levels = shading.levels(paint, channel);
+        let off = |level: &f64| (level - own).abs();
+        let Some((nearest, _)) = levels.iter().enumerate().min_by(|a, b| off(a.1).total_cmp(&off(b.1)))
+        else {
+            return false;
+        };
+        let mut bands = self.bands(paint, point, shadowed);
+        let mut look_with = |band: usize| {
+            bands[channel] = band as u16;
+            self.look_of(paint, &bands)
+        };
+        look_with(nearest) != look_with(nearest + 1)
+    }
+}
+
+/// Puts the pieces in the place of their segments; gives the numbers of those where nothing changes, ascending.
+fn rewrite(lit: &Lit, pieces: &[Piece], changes: &[bool], lines: &mut FeatureLines) -> Vec<u32> {
+    let mut unchanged = Vec::new();
+    let first = lit.mesh.positions.len() as u32;
+    let mut ids = PointIds::default();
+    let mut at = 0;
+    for own in pieces.chunk_by(|a, b| a.segment == b.segment) {
+        let verdicts = &changes[at..at + own.len()];
+        at += own.len();
+        let number = own[0].segment;
+        let whole = lines.segments[number];
+        let mut k = 0;
+        while k < own.len() {
+            // Pieces in a row of which one thing is so are one.
+            let run = verdicts[k..].iter().take_while(|verdict| **verdict == verdicts[k]).count();
+            let mut end = |point: Option<DVec3>, whole: u32| {
+                point.map_or(whole, |p| ids.of(&mut lines.points, first, p))
+            };
+            let ends = [end(own[k].ends[0], whole.ends[0]), end(own[k + run - 1].ends[1], whole.ends[1])];
+            let segment = FeatureSegment { ends, ..whole };
+            let id = if k == 0 {
+                lines.segments[number] = segment;
+                number
+            } else {
+                lines.segments.push(segment);
+                lines.segments.len() - 1
+            };
+            if !verdicts[k] {
+                unchanged.push(id as u32);
+            }
+            k += run;
+        }
+    }
+    unchanged.sort_unstable();
+    unchanged
+}

@@ -1,0 +1,102 @@
+//! Which faces a nearer one may leave something of in sight: steps of gradients are not sought on the others.
+//!
+//! A buffer of pixels proposes only. Lines are hidden exactly, wherever they come from; what could be missed is the step of a
+//! gradient in a sliver narrower than a px, which nobody can see.
+
+use crate::parallel::prelude::*;
+
+use crate::lines::Lit;
+use crate::mesh::Mesh;
+use crate::view::View;
+use crate::view::raster::{FaceBuffer, Screen};
+
+/// Whether something of each face may be seen.
+pub(crate) fn in_sight(mesh: &Mesh, view: &View) -> Vec<bool> {
+    let screen = Screen::new(mesh, view);
+    let buffer = FaceBuffer::new(&screen);
+    // The pixels that an extent touches, and one more on each side.
+    let pixels = |low: f32, high: f32, count: usize| {
+        (low - 1.0).max(0.0) as usize..((high + 2.0).max(0.0) as usize).min(count)
+    };
+    let is_in_sight = |face: usize| {
+        let (corners, _) = screen.triangle(face);
+        if corners.iter().flatten().any(|x| !x.is_finite()) {
+            return true;
+        }
+        let low = |axis: usize| corners[0][axis].min(corners[1][axis]).min(corners[2][axis]);
+        let high = |axis: usize| corners[0][axis].max(corners[1][axis]).max(corners[2][axis]);
+        let columns = pixels(low(0), high(0), buffer.columns);
+        let rows = pixels(low(1), high(1), buffer.rows);
+        let nearest = high(2) + SLACK;
+        let in_front = |pixel: usize| buffer.nearness(pixel).is_none_or(|nearness| nearness <= nearest);
+        columns.len() * rows.len() > MOST_PIXELS
+            || rows
+                .into_iter()
+                .any(|row| columns.clone().any(|column| in_front(row * buffer.columns + column)))
+    };
+    (0..mesh.triangles.len())
+        .into_par_iter()
+        .with_min_len(1 << 10)
+        .with_max_len(1 << 11)
+        .map(is_in_sight)
+        .collect()
+}
+
+/// For each part whether its faces are drawn where they show their inside: those of solid parts never, those of other parts if any
+/// pixel does. Strokes along hidden insides would change those next to them.
+pub(crate) fn shows_inside(lit: &Lit) -> Vec<bool> {
+    let Lit { mesh, view, solid, .. } = *lit;
+    let count = mesh.face_part.iter().map(|part| part.index() + 1).max().unwrap_or(0);
+    // Where the near plane cuts a part open, none is solid.
+    if solid.is_empty() {
+        return vec![true; count];
+    }
+    let mut shows = vec![false; count];
+    if (0..mesh.triangles.len()).any(|face| !view.facing[face] && lit.may_be_seen(face)) {
+        let buffer = FaceBuffer::new(&Screen::new(mesh, view));
+        let fronts = (0..buffer.columns * buffer.rows).filter_map(|pixel| buffer.front(pixel));
+        let insides =
+            fronts.map(|face| face as usize).filter(|face| !view.facing[*face] && lit.may_be_seen(*face));
+        insides.for_each(|face| shows[mesh.face_part[face].index()] = true);
+    }
+    shows
+}
+
+/// Nearness from 0 to 1 is off by no more than this in single precision.
+const SLACK: f32 = 1e-5;
+
+/// Faces in a box of more pixels than this are not looked at.
+const MOST_PIXELS: usize = 1 << 14;
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::mesh::{FaceId, Soup};
+    use crate::scene::{Camera, UpAxis};
+
+    #[test]
+    fn what_is_behind_a_sheet_is_out_of_sight() {
+        // Three small squares: on the sheet, under it, and under its border.
+        let mut positions = Vec::new();
+        let mut triangles = Vec::new();
+        let squares = [(4.0, 0.0, 0.0), (0.4, 0.0, 1.0), (0.4, 0.0, -0.3), (0.4, 4.4, -0.3)];
+        for (half, x, z) in squares {
+            let first = positions.len() as u32;
+            for (dx, dy) in [(-half, -half), (half, -half), (half, half), (-half, half)] {
+                positions.push(DVec3::new(x + dx, dy, z));
+            }
+            triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+        }
+        let mesh = Mesh::build(Soup { positions: positions.clone(), triangles, ..Soup::default() });
+        let camera = Camera::azimuth_elevation(0.0, 90.0, UpAxis::Z).fit_points(&positions, 0.1);
+        let view = View::new(&mesh, &camera);
+        for (face, is_in_sight) in in_sight(&mesh, &view).into_iter().enumerate() {
+            let middle = mesh.corners(FaceId(face as u32)).into_iter().sum::<DVec3>() / 3.0;
+            let middle = middle + mesh.origin;
+            let is_under = middle.z < -0.1 && middle.x.abs() < 1.0;
+            assert_eq!(is_in_sight, !is_under, "{middle}");
+        }
+    }
+}

@@ -1,0 +1,223 @@
+//! [`Faces`]: which faces reach a line, and which pieces of it are joints.
+
+use glam::{DVec2, DVec3};
+
+use super::ray_fan::{Around, Ray, doubt};
+use crate::mesh::bvh::box_tree::BoxTree;
+use crate::mesh::normals::normal_carriers::height;
+use crate::mesh::{FaceId, Mesh, PartId};
+
+/// Faces are tested on both sides of a line, at this many times the reach of contact.
+const BESIDE: f64 = 4.0;
+
+/// Pieces of lines shorter than this many times that distance come from the test, not from the shape.
+const SHORTEST: f64 = 8.0;
+
+/// The faces of a mesh by where they are, and the kind of each.
+pub(crate) struct Faces<'a> {
+    mesh: &'a Mesh,
+    kinds: &'a [u32],
+    tree: BoxTree,
+    /// The greatest reach of contact of all parts.
+    contact: f64,
+}
+
+/// A piece of a line, and whether it is a joint.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Piece {
+    /// Where it ends, as a part of the line's length.
+    pub end: f64,
+    /// The vertex of the mesh at its end, if there is one.
+    pub vertex: Option<u32>,
+    pub is_joint: bool,
+}
+
+/// A straight line from end to end.
+struct Way {
+    from: DVec3,
+    to: DVec3,
+    along: DVec3,
+    length: f64,
+}
+
+/// A face at a line.
+struct Reached {
+    face: u32,
+    normal: DVec3,
+    /// The least height of the triangle that says which plane it is in.
+    height: f64,
+    /// The parts of the line's length that it covers: first on the side of normal × line, then on the other one.
+    covers: [Option<[f64; 2]>; 2],
+}
+
+impl<'a> Faces<'a> {
+    /// None if there is nothing to join: parts of one kind.
+    pub fn new(mesh: &'a Mesh, kinds: &'a [u32]) -> Option<Self> {
+        let of = |face: u32| kind(mesh, kinds, face);
+        let mut owners: Vec<(u32, PartId)> =
+            (0..mesh.triangles.len() as u32).map(|face| (of(face), mesh.face_part[face as usize])).collect();
+        owners.sort_unstable();
+        owners.dedup();
+        if !owners.windows(2).any(|pair| pair[0].0 == pair[1].0) {
+            return None;
+        }
+        let contact = owners.iter().map(|(_, part)| mesh.extents.of(*part).contact).fold(0.0, f64::max);
+        let active: Vec<bool> =
+            (0..mesh.triangles.len() as u32).map(|face| !mesh.is_degenerate(FaceId(face))).collect();
+        let half = DVec3::splat(mesh.extents.diagonal / 2.0);
+        let (low, high) = (mesh.extents.middle - half, mesh.extents.middle + half);
+        let tree = BoxTree::new(&mesh.positions, &mesh.triangles, &active, low, high);
+        Some(Self { mesh, kinds, tree, contact })
+    }
+
+    /// The pieces of a line of a part, in order; `None` if none is a joint, or if more than `most` faces are near.
+    pub fn pieces(&self, part: PartId, [from, to]: [DVec3; 2], most: usize) -> Option<Vec<Piece>> {
+        let along = (to - from).try_normalize()?;
+        let way = Way { from, to, along, length: from.distance(to) };
+        let mut near = self.near(&way, most)?;
+        let own = self.mesh.extents.of(part).contact;
+        let contact_of = |face: u32| self.mesh.extent(FaceId(face)).contact.max(own);
+        near.retain(|face| self.reached(&way, *face, contact_of(*face)).is_some());
+        // Parts of one kind must be among them.
+        let owner = |face: &u32| (kind(self.mesh, self.kinds, *face), self.mesh.face_part[*face as usize]);
+        let is_shared = |face: &u32| {
+            let (kind, part) = owner(face);
+            near.iter().map(owner).any(|other| other.0 == kind && other.1 != part)
+        };
+        if !near.iter().any(is_shared) {
+            return None;
+        }
+        let contact = near.iter().map(|face| contact_of(*face)).fold(own, f64::max);
+        let reached: Vec<Reached> =
+            near.iter().filter_map(|face| self.reached(&way, *face, contact)).collect();
+        let pieces = self.cut(&way, &reached, contact);
+        pieces.iter().any(|piece| piece.is_joint).then_some(pieces)
+    }
+
+    /// The faces whose boxes come near that of a line, ascending.
+    fn near(&self, way: &Way, most: usize) -> Option<Vec<u32>> {
+        let around = 2.0 * BESIDE * self.contact;
+        let (low, high) = (way.from.min(way.to) - around, way.from.max(way.to) + around);
+        let mut near = Vec::new();
+        self.tree.near_box(low, high, |face| near.push(face));
+        near.sort_unstable();
+        (near.len() <= most).then_some(near)
+    }
+
+    /// The stretches that a face covers on both sides of a line, if its plane holds the line.
+    fn reached(&self, way: &Way, face: u32, contact: f64) -> Option<Reached> {
+        let mesh = self.mesh;
+        let corners = mesh.corners(FaceId(face));
+        let carrier = mesh.carriers.binary_search_by_key(&face, |pair| pair[0]);
+        let known = carrier.map_or(corners, |at| mesh.corners(FaceId(mesh.carriers[at][1])));
+        let normal = (known[1] - known[0]).cross(known[2] - known[0]).try_normalize()?;
+        let side = normal.cross(way.along).try_normalize()?;
+        let flat = corners.map(|corner| {
+            let from = corner - way.from;
+            DVec2::new(from.dot(way.along) / way.length, from.dot(side))
+        });
+        let beside = BESIDE * contact;
+        // Where the plane holds the line, within rounding.
+        let heights = [way.from, way.to].map(|end| normal.dot(end - corners[0]));
+        let held = held(heights, contact)?;
+        let least = SHORTEST * beside / way.length;
+        let covers = [beside, -beside].map(|at| {
+            let [start, end] = covered(&flat, at)?;
+            let own = [start.max(held[0]), end.min(held[1])];
+            // Of planes that cross the line less is near.
+            (own[1] - own[0] > least.min(0.5 * (end - start).min(1.0)) && own[1] > 0.0 && own[0] < 1.0)
+                .then_some(own)
+        });
+        if covers == [None; 2] {
+            return None;
+        }
+        Some(Reached { face, normal, height: height(&known), covers })
+    }
+
+    /// The pieces of a line, given the faces that reach it.
+    fn cut(&self, way: &Way, reached: &[Reached], contact: f64) -> Vec<Piece> {
+        let least = SHORTEST * BESIDE * contact / way.length;
+        let mut cuts: Vec<f64> =
+            reached.iter().flat_map(|own| own.covers.into_iter().flatten().flatten()).collect();
+        cuts.retain(|t| *t > least && *t < 1.0 - least);
+        cuts.sort_by(f64::total_cmp);
+        cuts.dedup_by(|b, a| *b - *a < least);
+        let right = way.along.any_orthonormal_vector();
+        let up = way.along.cross(right);
+        let mut pieces: Vec<Piece> = Vec::with_capacity(cuts.len() + 1);
+        let mut start = 0.0;
+        for end in cuts.into_iter().chain([1.0]) {
+            let rays = self.rays(way, reached, f64::midpoint(start, end), contact);
+            let is_joint = Around::new(rays, right, up).is_joint();
+            match pieces.last_mut().filter(|last| last.is_joint == is_joint) {
+                Some(last) => last.end = end,
+                None => pieces.push(Piece { end, vertex: None, is_joint }),
+            }
+            start = end;
+        }
+        for piece in &mut pieces {
+            piece.vertex = self.vertex_at(way.from.lerp(way.to, piece.end), reached, BESIDE * contact);
+        }
+        pieces
+    }
+
+    /// The faces at a place of a line as rays.
+    fn rays(&self, way: &Way, reached: &[Reached], at: f64, contact: f64) -> Vec<Ray> {
+        let mesh = self.mesh;
+        let mut rays = Vec::new();
+        for own in reached {
+            let side = own.normal.cross(way.along).normalize_or_zero();
+            for (cover, (side, begins)) in own.covers.iter().zip([(side, false), (-side, true)]) {
+                if cover.is_some_and(|[start, end]| (start..=end).contains(&at)) {
+                    rays.push(Ray {
+                        way: side,
+                        begins,
+                        doubt: doubt(contact, own.height, way.length),
+                        kind: kind(mesh, self.kinds, own.face),
+                        part: mesh.face_part[own.face as usize],
+                        body: mesh.body(own.face),
+                    });
+                }
+            }
+        }
+        rays
+    }
+
+    /// The vertex of some faces nearest to a point, within `reach`.
+    fn vertex_at(&self, point: DVec3, reached: &[Reached], reach: f64) -> Option<u32> {
+        let vertices = reached.iter().flat_map(|own| self.mesh.triangles[own.face as usize]);
+        let distance = |v: u32| self.mesh.positions[v as usize].distance(point);
+        let near = vertices.map(|v| (distance(v), v)).filter(|(distance, _)| *distance <= reach);
+        near.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))).map(|(_, v)| v)
+    }
+}
+
+/// The kind of a face.
+fn kind(mesh: &Mesh, kinds: &[u32], face: u32) -> u32 {
+    let paint = mesh.paint(FaceId(face)).0;
+    kinds.get(paint as usize).copied().unwrap_or(paint)
+}
+
+/// Between which parts of a line's length it is no farther than `contact` from a plane, given its heights over it at both ends.
+fn held([from, to]: [f64; 2], contact: f64) -> Option<[f64; 2]> {
+    let rise = to - from;
+    if rise == 0.0 {
+        return (from.abs() <= contact).then_some([f64::NEG_INFINITY, f64::INFINITY]);
+    }
+    let at = [-contact, contact].map(|height| (height - from) / rise);
+    let held = [at[0].min(at[1]), at[0].max(at[1])];
+    (held[0] < 1.0 && held[1] > 0.0).then_some(held)
+}
+
+/// Between which parts of a line's length a triangle covers what is `at` to its side.
+fn covered(corners: &[DVec2; 3], at: f64) -> Option<[f64; 2]> {
+    let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
+    for k in 0..3 {
+        let (p, q) = (corners[k], corners[(k + 1) % 3]);
+        if (p.y < at) != (q.y < at) {
+            let x = p.x + (q.x - p.x) * ((at - p.y) / (q.y - p.y));
+            (start, end) = (start.min(x), end.max(x));
+        }
+    }
+    (start < end && end > 0.0 && start < 1.0).then_some([start, end])
+}

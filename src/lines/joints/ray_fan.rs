@@ -1,0 +1,202 @@
+//! [`Around`]: the faces around a short stretch of a line, seen along the line, and whether surfaces run on over it.
+//!
+//! In the plane across the line each face that reaches it is a ray. The two rays of a corner of a solid enclose its material; where
+//! solids touch face on face, two rays coincide and material lies on both sides of them. So material of one kind is bounded by the rays
+//! with material on one side alone. A line is no edge of the union of parts if these rays are none, or two that are opposite.
+
+use glam::DVec3;
+
+use crate::geometry::numbers::tolerance::UNSURE_SINE;
+use crate::mesh::PartId;
+
+/// A face at a line, seen along the line.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ray {
+    /// Away from the line, a unit vector across it.
+    pub way: DVec3,
+    /// Whether material begins behind the ray, for one who turns about the line from `right` to `up`.
+    pub begins: bool,
+    /// The sine of its possible error.
+    pub doubt: f64,
+    pub kind: u32,
+    pub part: PartId,
+    pub body: PartId,
+}
+
+/// Rays about a line, sorted by their angle.
+pub(crate) struct Around {
+    /// Each ray with the number of its direction.
+    rays: Vec<(Ray, usize)>,
+    /// The ray of each direction that is known best.
+    directions: Vec<Ray>,
+}
+
+impl Around {
+    /// Rays in the plane of `right` and `up`.
+    pub fn new(mut rays: Vec<Ray>, right: DVec3, up: DVec3) -> Self {
+        rays.sort_by(|a, b| turn(a.way, right, up).total_cmp(&turn(b.way, right, up)));
+        let is_one =
+            |a: &Ray, b: &Ray| a.way.cross(b.way).length() <= a.doubt + b.doubt && a.way.dot(b.way) > 0.0;
+        let mut count = 0;
+        let mut numbered: Vec<(Ray, usize)> = Vec::with_capacity(rays.len());
+        for ray in rays {
+            count += usize::from(numbered.last().is_none_or(|(last, _)| !is_one(last, &ray)));
+            numbered.push((ray, count - 1));
+        }
+        // The last ones may go on in the first.
+        if let [(first, _), .., (last, number)] = numbered.as_slice()
+            && *number > 0
+            && is_one(last, first)
+        {
+            let number = *number;
+            numbered.iter_mut().filter(|(_, own)| *own == number).for_each(|(_, own)| *own = 0);
+            count -= 1;
+        }
+        let best = |number: usize| {
+            let own = numbered.iter().filter(|(_, own)| *own == number).map(|(ray, _)| *ray);
+            own.min_by(|a, b| a.doubt.total_cmp(&b.doubt))
+        };
+        let directions = (0..count).filter_map(best).collect();
+        Self { rays: numbered, directions }
+    }
+
+    /// Whether parts of one kind meet here and surfaces of no kind end or turn.
+    pub fn is_joint(&self) -> bool {
+        let mut kinds: Vec<u32> = self.rays.iter().map(|(ray, _)| ray.kind).collect();
+        kinds.sort_unstable();
+        kinds.dedup();
+        let mut plane: Option<[usize; 2]> = None;
+        let mut is_shared = false;
+        for kind in kinds {
+            match *self.bounds(kind).as_slice() {
+                [] => {}
+                [a, b] if self.is_opposite(a, b) && plane.is_none_or(|plane| plane == [a, b]) => {
+                    plane = Some([a, b]);
+                }
+                _ => return false,
+            }
+            let mut parts = self.rays.iter().filter(|(ray, _)| ray.kind == kind).map(|(ray, _)| ray.part);
+            let first = parts.next();
+            is_shared |= parts.any(|part| Some(part) != first);
+        }
+        is_shared
+    }
+
+    /// The directions of the surface of one kind, away from the line.
+    fn bounds(&self, kind: u32) -> Vec<usize> {
+        let count = self.directions.len();
+        let own =
+            |body: PartId| self.rays.iter().filter(move |(ray, _)| ray.kind == kind && ray.body == body);
+        let mut bodies: Vec<PartId> =
+            self.rays.iter().filter(|(ray, _)| ray.kind == kind).map(|(ray, _)| ray.body).collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        // How many bodies fill what follows each direction, and where there are surfaces without an inside.
+        let (mut filled, mut sheets) = (vec![0; count], vec![false; count]);
+        for body in bodies {
+            let mut steps = vec![0i32; count];
+            own(body).for_each(|(ray, at)| steps[*at] += if ray.begins { 1 } else { -1 });
+            let is_closed = steps.iter().sum::<i32>() == 0;
+            let sums = steps.iter().scan(0, |sum, step| {
+                *sum += step;
+                Some(*sum)
+            });
+            let mut depths: Vec<i32> = sums.collect();
+            let least = depths.iter().copied().min().unwrap_or_default();
+            depths.iter_mut().for_each(|depth| *depth -= least);
+            for (_, at) in own(body) {
+                let before = depths[(at + count - 1) % count];
+                sheets[*at] |= !is_closed || (before == 0 && depths[*at] == 0);
+            }
+            if is_closed {
+                filled.iter_mut().zip(depths).for_each(|(filled, depth)| *filled += depth);
+            }
+        }
+        let is_bound = |at: &usize| {
+            let (before, after) = (filled[(at + count - 1) % count] == 0, filled[*at] == 0);
+            before != after || (sheets[*at] && before)
+        };
+        (0..count).filter(is_bound).collect()
+    }
+
+    fn is_opposite(&self, a: usize, b: usize) -> bool {
+        let (a, b) = (&self.directions[a], &self.directions[b]);
+        a.way.cross(b.way).length() <= a.doubt + b.doubt && a.way.dot(b.way) < 0.0
+    }
+}
+
+/// A number that grows with the angle from `right` by way of `up`, from 0 to 4.
+fn turn(way: DVec3, right: DVec3, up: DVec3) -> f64 {
+    let (x, y) = (way.dot(right), way.dot(up));
+    let share = y / (x.abs() + y.abs());
+    let share = if share.is_nan() { 0.0 } else { share };
+    match (x >= 0.0, y >= 0.0) {
+        (true, true) => share,
+        (false, _) => 2.0 - share,
+        (true, false) => 4.0 + share,
+    }
+}
+
+/// The sine of the largest error of a triangle's angle about a line, given its least height and the line's length, if rounding moves
+/// corners by half of `contact`.
+pub(crate) fn doubt(contact: f64, height: f64, length: f64) -> f64 {
+    (contact / height + contact / length).min(UNSURE_SINE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rays at degrees about z: where material begins, and where it ends.
+    fn around(corners: &[(u32, u32, [f64; 2])]) -> Around {
+        let ray = |degrees: f64, begins: bool, kind: u32, part: u32| {
+            let angle = degrees.to_radians();
+            let way = DVec3::new(
+                crate::geometry::numbers::portable_math::cos(angle),
+                crate::geometry::numbers::portable_math::sin(angle),
+                0.0,
+            );
+            Ray { way, begins, doubt: 1e-6, kind, part: PartId(part), body: PartId(part) }
+        };
+        let rays = corners.iter().flat_map(|(kind, part, [from, to])| {
+            [ray(*from, true, *kind, *part), ray(*to, false, *kind, *part)]
+        });
+        Around::new(rays.collect(), DVec3::X, DVec3::Y)
+    }
+
+    #[test]
+    fn only_what_leaves_a_plane_or_nothing_is_a_joint() {
+        let is_joint = |corners: &[(u32, u32, [f64; 2])]| {
+            // Turned by any angle.
+            let found: Vec<bool> = [0.0, 45.0, 100.0, 180.0, 269.0]
+                .map(|turn| {
+                    around(
+                        &corners
+                            .iter()
+                            .map(|(k, p, [a, b])| (*k, *p, [a + turn, b + turn]))
+                            .collect::<Vec<_>>(),
+                    )
+                    .is_joint()
+                })
+                .to_vec();
+            assert!(found.iter().all(|one| *one == found[0]), "{corners:?}: {found:?}");
+            found[0]
+        };
+        // Two boxes side by side, and three of a wall.
+        assert!(is_joint(&[(0, 0, [180.0, 270.0]), (0, 1, [270.0, 360.0])]));
+        assert!(is_joint(&[(0, 0, [0.0, 90.0]), (0, 1, [90.0, 180.0]), (0, 2, [180.0, 360.0])]));
+        // The end of a box within another one, flush with it.
+        assert!(is_joint(&[(0, 0, [180.0, 270.0]), (0, 1, [180.0, 360.0])]));
+        // The edge of one box alone, of a box on a wider one, of two that meet in an edge alone, and of one that turns a little.
+        assert!(!is_joint(&[(0, 0, [180.0, 270.0])]));
+        assert!(!is_joint(&[(0, 0, [0.0, 90.0]), (0, 1, [180.0, 360.0])]));
+        assert!(!is_joint(&[(0, 0, [0.0, 90.0]), (0, 1, [180.0, 270.0])]));
+        assert!(!is_joint(&[(0, 0, [180.0, 270.0]), (0, 1, [270.0, 361.0])]));
+        // One part alone, and another material.
+        assert!(!is_joint(&[(0, 0, [180.0, 360.0])]));
+        assert!(!is_joint(&[(0, 0, [180.0, 270.0]), (1, 1, [270.0, 360.0])]));
+        // On a floor of another material, and before one that ends there.
+        assert!(is_joint(&[(0, 0, [0.0, 90.0]), (0, 1, [90.0, 180.0]), (1, 2, [180.0, 360.0])]));
+        assert!(!is_joint(&[(0, 0, [0.0, 90.0]), (0, 1, [90.0, 180.0]), (1, 2, [180.0, 300.0])]));
+    }
+}

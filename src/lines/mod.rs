@@ -1,0 +1,148 @@
+//! Feature lines: curves on the surface that may be drawn.
+//!
+//! 1. `edges` classifies mesh edges: contours, borders, creases and material boundaries. `joints` removes
+//!    seams of parts.
+//! 2. `intersections` finds the curves along which surfaces pass through each other.
+//! 3. `zero_sets` traces smooth contours, suggestive contours, ridges and valleys through the faces.
+//! 4. `isophotes` traces where the tone changes; `paint_borders` where painted colours change (`textures`).
+//! 5. `image` finds lines in maps of depth and normals, for meshes without connectivity.
+//!
+//! Files, in reading order: [`line_kind`]; [`line_options`] the `[lines]` table; [`feature_line`] segments
+//! and curves; [`prepared_surface`] a mesh with creases and normals; [`shared_points`] point ids by position;
+//! [`edges`]; [`joints`]; [`intersections`]; [`zero_sets`]; [`isophotes`]; [`textures`]; [`paint_borders`];
+//! [`image`].
+
+pub mod edges;
+pub mod feature_line;
+pub mod image;
+pub mod intersections;
+pub mod isophotes;
+pub mod joints;
+pub mod line_kind;
+pub mod line_options;
+pub mod paint_borders;
+pub mod prepared_surface;
+mod shared_points;
+pub mod textures;
+pub mod zero_sets;
+
+pub use edges::edge_search::EdgeSearch;
+pub use feature_line::{ContourCurve, FeatureLines, FeatureSegment, NO_FACE, Role};
+pub use image::{ImageOptions, Source};
+pub use isophotes::lit_surface::Lit;
+pub(crate) use isophotes::visible_faces::{in_sight, shows_inside};
+pub use line_kind::LineKind;
+pub use line_options::{Contours, HiddenLines, LineOptions, Normals};
+pub use prepared_surface::{Finer, Surface};
+pub use textures::view_textures::Textures;
+pub use zero_sets::interior::InsideOptions;
+
+use crate::parallel::prelude::*;
+
+use crate::light;
+use crate::mesh::intersect::intersection_curves::IntersectionCurves;
+use crate::surface::{Origin, Patches};
+use crate::view::View;
+
+/// n·v as contours are traced from it, one per smooth vertex: averaged where it is near zero.
+#[must_use]
+pub fn facing(surface: &Surface, view: &View) -> Vec<f64> {
+    let Surface { mesh, smooth, .. } = surface;
+    let mut facing = light::facing(mesh, smooth, &view.frame);
+    light::smooth_near_zero(mesh, smooth, &view.frame, &mut facing);
+    facing
+}
+
+/// What was made once for all views of a surface.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Known<'a> {
+    /// A search for lines along edges; one that does not fit the mesh is left alone.
+    pub search: Option<&'a EdgeSearch>,
+    /// All curves along which the surface passes through itself: [`intersections::intersection_lines::all_curves`].
+    pub intersections: Option<&'a IntersectionCurves>,
+}
+
+/// All feature lines of a view of a surface that the options ask for.
+#[must_use]
+pub fn extract(surface: &Surface, view: &View, options: &LineOptions) -> FeatureLines {
+    extract_with(surface, Known::default(), view, options)
+}
+
+/// All feature lines of a view, found with the help of what was made once for all views of the surface.
+#[must_use]
+pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &LineOptions) -> FeatureLines {
+    let mut lines = FeatureLines::default();
+    if !options.enabled || options.kinds.is_empty() {
+        return lines;
+    }
+    let Surface { mesh, smooth, .. } = surface;
+    let (asked, overlap) = (options, edges::coplanar_overlaps::is_asked(mesh));
+    let with_borders = || {
+        let more =
+            [LineKind::Border, LineKind::Material].into_iter().filter(|kind| !options.kinds.contains(kind));
+        LineOptions { kinds: options.kinds.iter().copied().chain(more).collect(), ..options.clone() }
+    };
+    let with_borders = overlap.then(with_borders);
+    let options = with_borders.as_ref().unwrap_or(options);
+    let along_edges = || match known.search.filter(|search| search.fits(mesh)) {
+        None => edges::edge_lines::find(surface, view, options),
+        Some(search) => {
+            let among = search.candidates(mesh, view).items;
+            edges::edge_lines::find_among(&among, surface, view, options)
+        }
+    };
+    let contours = || {
+        let wanted = !smooth.is_empty() && options.kinds.contains(&LineKind::Contour);
+        wanted.then(|| {
+            let facing = facing(surface, view);
+            (zero_sets::smooth_contours::find(mesh, view, smooth, &facing), facing)
+        })
+    };
+    let sought = options.kinds.contains(&LineKind::Intersection) && known.intersections.is_none();
+    let curves = || sought.then(|| intersections::intersection_lines::find(mesh, view, options.hidden));
+    // None of them needs another.
+    let ((segments, contours), curves) =
+        crate::parallel::join(|| crate::parallel::join(along_edges, contours), curves);
+    lines.segments = segments;
+    let wires = if options.kinds.contains(&LineKind::Wire) && !mesh.wires.is_empty() {
+        edges::free_wires::find(mesh, &lines.segments)
+    } else {
+        Vec::new()
+    };
+    let options = asked;
+    let overlaid =
+        overlap.then(|| edges::coplanar_overlaps::settle(mesh, view, &mut lines.segments, options));
+    if let Some((contours, facing)) = contours {
+        lines.append_contours(contours);
+        edges::ripple_edges::tell(mesh, view, smooth, &facing, &mut lines.segments);
+    }
+    if options.kinds.contains(&LineKind::Intersection)
+        && let Some(curves) = known.intersections.or(curves.as_ref())
+    {
+        intersections::intersection_lines::add(curves, mesh, view, &mut lines);
+    }
+    if zero_sets::interior::wanted(options) {
+        // Contours along edges of the mesh need no normals, lines inside always do.
+        let own = smooth
+            .is_empty()
+            .then(|| prepared_surface::normals(mesh, &Patches::new(mesh, options.crease_deg, false), &[]));
+        let smooth = own.as_ref().unwrap_or(smooth);
+        let curvature = zero_sets::interior::curvature(mesh, smooth, &options.inside);
+        zero_sets::interior::find(mesh, view, smooth, &curvature, options, &mut lines);
+    }
+    lines.segments.extend(wires.iter().map(FeatureSegment::of_wire));
+    if let Some(overlaid) = overlaid {
+        overlaid.append_to(mesh, &mut lines);
+    }
+    tell_origins(surface, &mut lines);
+    lines
+}
+
+/// Tells how the surfaces came about that lines lie on.
+fn tell_origins(surface: &Surface, lines: &mut FeatureLines) {
+    if surface.origins.iter().all(|origin| *origin == Origin::Constructed) {
+        return;
+    }
+    let origin = |face: u32| surface.origins.get(face as usize).copied().unwrap_or_default();
+    lines.segments.par_iter_mut().for_each(|s| s.origin = origin(s.hosts[0]).max(origin(s.hosts[1])));
+}

@@ -1,0 +1,148 @@
+//! Where the colours of pictures and of vertices change on a face, and along its sides.
+
+use glam::DVec2;
+
+use super::vertex_colour_borders::TintedFace;
+use crate::lines::Lit;
+use crate::lines::isophotes::isophote_lines::page_px;
+use crate::lines::textures::picture_levels::OnPicture;
+use crate::lines::textures::textured_face::Textured;
+use crate::mesh::PaintId;
+use crate::scene::textures::texel_plane::side_crossings::{TexelSide, turn};
+
+/// A piece of a border on a face.
+pub(crate) struct Piece {
+    /// In barycentric weights.
+    pub ends: [[f64; 3]; 2],
+    /// What it parts: twice the same where a picture only changes its scale.
+    pub paints: [PaintId; 2],
+}
+
+/// What lies on a face of the borders between its colours.
+pub(crate) fn borders(lit: &Lit, face: u32, textured: &Textured) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    let middle = |[a, b]: [[f64; 3]; 2]| [0, 1, 2].map(|k| f64::midpoint(a[k], b[k]));
+    if let Some(on) = textured.picture {
+        of_picture(lit, face, &on, |ends, colours| {
+            let paints = textured.parted(colours, middle(ends));
+            pieces.extend(paints.map(|paints| Piece { ends, paints }));
+        });
+        let own = lit.mesh.paint(crate::mesh::FaceId(face));
+        let sides = side_ends(lit, face);
+        let lines = on.level_lines(&sides).into_iter();
+        let lines = lines.map(|line| line.map(|(side, part)| on_side(sides[side], part)));
+        pieces.extend(lines.map(|ends| Piece { ends, paints: [own; 2] }));
+    }
+    if let Some((tints, light)) = textured.tints {
+        for (ends, parted) in TintedFace::new(lit, face, tints, light, page_px(lit)).borders() {
+            let paints = textured.parted_tints(parted, middle(ends)).filter(|[a, b]| a != b);
+            pieces.extend(paints.map(|paints| Piece { ends, paints }));
+        }
+    }
+    pieces
+}
+
+/// The places on a side of a face where its colours change, from one end to the other: in barycentric weights.
+pub(crate) fn changes_along(lit: &Lit, face: u32, textured: &Textured, ends: [u32; 2]) -> Vec<[f64; 3]> {
+    let vertices = lit.mesh.triangles[face as usize];
+    let Some([from, to]) = corners_of(vertices, ends) else { return Vec::new() };
+    let mut found = Vec::new();
+    if let Some(on) = textured.picture {
+        for level in on.levels() {
+            let Some(corners) = on.corners(level) else { continue };
+            let side = side(corners, [from, to]);
+            let parts = on.borders(level).into_iter().filter_map(|(border, _)| side.crossing(border));
+            let places = parts.map(|(part, _)| on_side([from, to], part));
+            found.extend(places.filter(|at| on.level(*at) == level));
+        }
+        let whole = [on_side([from, to], 0.0), on_side([from, to], 1.0)];
+        found.extend(on.level_ends(whole).into_iter().map(|part| on_side([from, to], part)));
+    }
+    if let Some((tints, light)) = textured.tints {
+        let borders = TintedFace::new(lit, face, tints, light, page_px(lit)).borders();
+        let all = borders.into_iter().flat_map(|(ends, _)| ends);
+        found.extend(all.filter(|at| at[3 - from - to] == 0.0));
+    }
+    found.retain(|at| at[from] > 0.0 && at[to] > 0.0);
+    found.sort_by(|a, b| a[to].total_cmp(&b[to]));
+    found.dedup();
+    found
+}
+
+/// The corners of a face that are these vertices.
+fn corners_of(vertices: [u32; 3], ends: [u32; 2]) -> Option<[usize; 2]> {
+    let [from, to] = ends.map(|v| vertices.iter().position(|own| *own == v));
+    Some([from?, to?]).filter(|[from, to]| from != to)
+}
+
+/// A point of a side, so far on the way from one corner to the other.
+fn on_side([from, to]: [usize; 2], part: f64) -> [f64; 3] {
+    let mut weights = [0.0; 3];
+    weights[from] = 1.0 - part;
+    weights[to] = part;
+    weights
+}
+
+/// A side of a face in the plane of the texels.
+fn side(corners: [DVec2; 3], [from, to]: [usize; 2]) -> TexelSide {
+    let inside = turn(corners[from], corners[to], corners[3 - from - to]) >= 0.0;
+    TexelSide { from: corners[from], to: corners[to], inside }
+}
+
+/// The sides of a face, each from the vertex of the lesser number, so that both its faces cut it from the same end on.
+fn side_ends(lit: &Lit, face: u32) -> [[usize; 2]; 3] {
+    let vertices = lit.mesh.triangles[face as usize];
+    [0, 1, 2].map(|k| {
+        let next = (k + 1) % 3;
+        if vertices[k] < vertices[next] { [k, next] } else { [next, k] }
+    })
+}
+
+/// What lies on a face of the borders of its picture.
+fn of_picture(lit: &Lit, face: u32, on: &OnPicture, mut put: impl FnMut([[f64; 3]; 2], [u8; 2])) {
+    let ends = side_ends(lit, face);
+    for level in on.levels() {
+        let Some(corners) = on.corners(level) else { continue };
+        let whole = turn(corners[0], corners[1], corners[2]);
+        let sides = ends.map(|ends| side(corners, ends));
+        let mut met: Vec<(f64, [f64; 3])> = Vec::new();
+        for (border, parted) in on.borders(level) {
+            met.clear();
+            for (side, ends) in sides.iter().zip(ends) {
+                if let Some((part, along)) = side.crossing(border) {
+                    met.push((along, on_side(ends, part)));
+                }
+            }
+            if whole != 0.0 {
+                let is_in = |p: DVec2| sides.iter().all(|side| side.admits(p));
+                for (along, end) in [(0.0, border[0]), (1.0, border[1])] {
+                    if is_in(end) {
+                        met.push((along, weights(&corners, end)));
+                    }
+                }
+            }
+            met.sort_by(|a, b| a.0.total_cmp(&b.0));
+            for pair in met.chunks_exact(2) {
+                within(on, [pair[0].1, pair[1].1], level).into_iter().for_each(|ends| put(ends, parted));
+            }
+        }
+    }
+}
+
+/// The parts of a piece of border that are of a level.
+fn within(on: &OnPicture, ends: [[f64; 3]; 2], level: usize) -> Vec<[[f64; 3]; 2]> {
+    let cuts = on.level_ends(ends);
+    let at = |part: f64| [0, 1, 2].map(|k| ends[0][k] + (ends[1][k] - ends[0][k]) * part);
+    let mut places: Vec<(f64, [f64; 3])> = vec![(0.0, ends[0])];
+    places.extend(cuts.into_iter().filter(|part| *part > 0.0 && *part < 1.0).map(|part| (part, at(part))));
+    places.push((1.0, ends[1]));
+    let parts = places.windows(2).map(|pair| (f64::midpoint(pair[0].0, pair[1].0), [pair[0].1, pair[1].1]));
+    parts.filter(|(middle, _)| on.level(at(*middle)) == level).map(|(_, ends)| ends).collect()
+}
+
+/// The barycentric weights of a point of the plane of the texels.
+fn weights(corners: &[DVec2; 3], at: DVec2) -> [f64; 3] {
+    let shares = [0, 1, 2].map(|k| turn(at, corners[(k + 1) % 3], corners[(k + 2) % 3]));
+    let whole: f64 = shares.iter().sum();
+    shares.map(|share| share / whole)
+}

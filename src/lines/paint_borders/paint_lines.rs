@@ -1,0 +1,77 @@
+//! The borders between the colours of pictures, and between those of vertices, on the faces that show them.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::face_borders::{Piece, borders};
+use super::tone_edges::Seam;
+use crate::lines::feature_line::segment;
+use crate::lines::isophotes::isophote_lines::page_px;
+use crate::lines::shared_points::PointIds;
+use crate::lines::{FeatureLines, FeatureSegment, LineKind, Lit, NO_FACE};
+use crate::mesh::FaceId;
+
+/// Adds the borders between painted colours on faces, and edges of which only some parts two.
+pub fn find(lit: &Lit, seams: Vec<Seam>, lines: &mut FeatureLines) {
+    if lit.textures.is_empty() {
+        return;
+    }
+    const CHUNK: usize = 1 << 11;
+    let px = page_px(lit);
+    let count = lit.mesh.triangles.len();
+    let found: Vec<Vec<(u32, LineKind, [DVec3; 2])>> = (0..count.div_ceil(CHUNK))
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|chunk| {
+            let mut pieces = Vec::new();
+            for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(count) {
+                let face = face as u32;
+                let is_seen = lit.may_be_seen(face as usize) && !lit.mesh.is_degenerate(FaceId(face));
+                if !is_seen {
+                    continue;
+                }
+                let mut put = |kind: LineKind, ends: [[f64; 3]; 2]| {
+                    let ends = ends.map(|weights| lit.lifted(face, weights, px));
+                    if ends[0] != ends[1] {
+                        pieces.push((face, kind, ends));
+                    }
+                };
+                if let Some(textured) = lit.textures.on(lit.mesh, face) {
+                    for Piece { ends, paints: [a, b] } in borders(lit, face, &textured) {
+                        put(lit.textures.parting(a, b), ends);
+                    }
+                }
+                if let Some(ink) = lit.textures.ink_on(lit.mesh, face) {
+                    for Piece { ends, paints } in borders(lit, face, &ink) {
+                        let kind = lit.textures.parting_ink(lit.mesh, face, paints);
+                        if kind == LineKind::Artist {
+                            put(kind, ends);
+                        }
+                    }
+                }
+            }
+            pieces
+        })
+        .collect();
+    let own = lines.points.len();
+    lines.append_in_faces(
+        lit.mesh,
+        &found,
+        |piece| piece,
+        |face, kind, ends| segment(lit.mesh, face, [face, NO_FACE], kind, ends),
+    );
+    if seams.is_empty() {
+        return;
+    }
+    let first = lit.mesh.positions.len() as u32;
+    let mut ids = PointIds::new(&lines.points[own..], first + own as u32);
+    for Seam { segment, pieces } in seams {
+        for (places, kind) in pieces {
+            let ends = [0, 1].map(|k| match places[k] {
+                None => segment.ends[k],
+                Some(weights) => ids.of(&mut lines.points, first, lit.lifted(segment.hosts[0], weights, px)),
+            });
+            lines.segments.push(FeatureSegment { ends, kind, ..segment });
+        }
+    }
+}

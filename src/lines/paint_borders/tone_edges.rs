@@ -1,0 +1,252 @@
+//! Edges of the mesh across which the surface looks different: another part or material, or another
+//! tone because its normals differ.
+
+use crate::parallel::prelude::*;
+use rustc_hash::FxHashSet;
+
+use super::face_borders;
+use crate::light::ShadedNormals;
+use crate::lines::feature_line::segment;
+use crate::lines::textures::textured_face::Textured;
+use crate::lines::{FeatureLines, FeatureSegment, LineKind, Lit};
+use crate::mesh::{EdgeFaces, EdgeSet, FaceId, MaterialId, Mesh, PaintId, PartId};
+use crate::scene::Paints;
+
+/// Places along an edge where both its sides are looked at. What differs between them only ends
+/// there: the border runs on to the end of the edge, with the same look on both sides.
+const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
+
+/// The edges across which a surface may look different, whatever the light: where parts, materials or
+/// normals differ, or what is shown of pictures or of the colours of vertices. The same for all views.
+#[must_use]
+pub fn candidates(mesh: &Mesh, normals: &ShadedNormals, paints: &Paints) -> EdgeSet {
+    let mut varies = vec![false; paints.list.len()];
+    for (paint, _) in &paints.varied {
+        if let Some(varies) = varies.get_mut(paint.index()) {
+            *varies = true;
+        }
+    }
+    let varies = |face: u32| {
+        varies.get(mesh.paint(FaceId(face)).index()).is_some_and(|varies| *varies)
+            || paints.inked.iter().any(|(material, _)| *material == mesh.face_material[face as usize])
+    };
+    let uv = |face: u32, v: u32| {
+        let corner = mesh.triangles[face as usize].iter().position(|t| *t == v).unwrap_or_default();
+        mesh.uvs.get(mesh.corner_uvs.get(face as usize)?[corner] as usize)
+    };
+    let colour = |face: u32, v: u32| {
+        let corner = mesh.triangles[face as usize].iter().position(|t| *t == v).unwrap_or_default();
+        mesh.corner_colours.get(face as usize).map(|corners| corners[corner])
+    };
+    let differ = |[first, second]: [u32; 2], ends: [u32; 2]| {
+        let owner = |face: u32| owner(mesh, face);
+        let normal = |face: u32, v: u32| {
+            let corner = mesh.triangles[face as usize].iter().position(|t| *t == v).unwrap_or_default();
+            normals.normals[normals.corners[face as usize][corner] as usize]
+        };
+        owner(first) != owner(second)
+            || ends.iter().any(|v| normal(first, *v) != normal(second, *v))
+            || (varies(first)
+                && ends
+                    .iter()
+                    .any(|v| uv(first, *v) != uv(second, *v) || colour(first, *v) != colour(second, *v)))
+    };
+    EdgeSet::collect(mesh.edges.len(), |edge| match mesh.edges.faces(edge) {
+        EdgeFaces::One(_) => false,
+        EdgeFaces::Two { faces, .. } => differ(faces, mesh.edges.vertices[edge]),
+        EdgeFaces::Many(_) => true,
+    })
+}
+
+/// An edge that is one kind of line in some places, and another in others.
+#[derive(Debug, Clone)]
+pub struct Seam {
+    /// The whole of it.
+    pub(crate) segment: FeatureSegment,
+    /// What each piece is, from end to end: where it begins and ends in the first face, in barycentric weights; none at the ends
+    /// of the edge.
+    pub(crate) pieces: Vec<([Option<[f64; 3]>; 2], LineKind)>,
+}
+
+/// Adds those of the candidates that part two looks, for any of these sets of lights that are in
+/// shadow, and are no lines yet; gives those that are several lines, which are left to be added.
+pub fn find(lit: &Lit, candidates: &EdgeSet, shadowed: &[u32], lines: &mut FeatureLines) -> Vec<Seam> {
+    let edges: Vec<usize> = candidates.iter().collect();
+    let mut found: Vec<Seam> = edges
+        .par_iter()
+        .with_min_len(1 << 9)
+        .with_max_len(1 << 10)
+        .filter_map(|edge| parting(lit, *edge, shadowed))
+        .collect();
+    if found.is_empty() {
+        return found;
+    }
+    let known: FxHashSet<[u32; 2]> = lines.segments.iter().map(|segment| segment.ends).collect();
+    found.retain(|seam| !known.contains(&seam.segment.ends));
+    let (cut, whole): (Vec<Seam>, Vec<Seam>) = found.into_iter().partition(|seam| !seam.pieces.is_empty());
+    lines.segments.extend(whole.into_iter().map(|seam| seam.segment));
+    cut
+}
+
+fn parting(lit: &Lit, edge: usize, shadowed: &[u32]) -> Option<Seam> {
+    let mesh = lit.mesh;
+    let ends = mesh.edges.vertices[edge];
+    let is_real = |face: &u32| !mesh.is_degenerate(FaceId(*face));
+    let (first, second) = match mesh.edges.faces(edge) {
+        EdgeFaces::One(_) => return None,
+        EdgeFaces::Two { faces: [first, second], .. } => (first, second),
+        EdgeFaces::Many(faces) => {
+            // The first face, and one that looks different.
+            let first = *faces.iter().find(|f| is_real(f))?;
+            let other = |f: &&u32| **f != first && is_real(f) && differ(lit, ends, [first, **f], shadowed);
+            (first, *faces.iter().find(other)?)
+        }
+    };
+    let faces = [first, second];
+    if !faces.iter().all(is_real) {
+        return None;
+    }
+    let is_parting = differ(lit, ends, faces, shadowed);
+    if !is_parting && faces.iter().any(|face| lit.textures.ink_on(mesh, *face).is_none()) {
+        return None;
+    }
+    let mut pieces = kinds_along(lit, ends, faces);
+    pieces.dedup_by(|next, last| {
+        let is_one = next.1 == last.1;
+        if is_one {
+            last.0[1] = next.0[1];
+        }
+        is_one
+    });
+    let kind = pieces.first().map_or(LineKind::Isophote, |(_, kind)| *kind);
+    if !is_parting && pieces.len() == 1 && kind == LineKind::Isophote {
+        return None;
+    }
+    pieces.retain(|(places, _)| places.iter().any(Option::is_some));
+    Some(Seam { segment: segment(mesh, first, faces, kind, ends), pieces })
+}
+
+/// What the line is on an edge that parts two faces, piece by piece.
+fn kinds_along(lit: &Lit, ends: [u32; 2], faces: [u32; 2]) -> Vec<([Option<[f64; 3]>; 2], LineKind)> {
+    let mesh = lit.mesh;
+    let [a, b] = faces.map(|face| (mesh.face_part[face as usize], mesh.face_material[face as usize]));
+    if a != b || !lit.textures.has_artist() {
+        return vec![([None, None], LineKind::Isophote)];
+    }
+    if let [Some(first), Some(second)] = faces.map(|face| lit.textures.ink_on(mesh, face)) {
+        let kind = |at: f64| {
+            let [a, b] = [(&first, faces[0]), (&second, faces[1])]
+                .map(|(ink, face)| ink.paint(weights_along(mesh, ends, face, at)));
+            a.zip(b).map_or(LineKind::Isophote, |(a, b)| lit.textures.parting_ink(mesh, faces[0], [a, b]))
+        };
+        let places = stretches(lit, ends, faces, |face| lit.textures.ink_on(mesh, face));
+        return places.into_iter().map(|at| (at, kind(middle(lit, ends, faces[0], at)))).collect();
+    }
+    let kind = |at: f64| {
+        let [a, b] = faces.map(|face| paint_along(lit, ends, face, at));
+        lit.textures.parting(a, b)
+    };
+    let places = stretches(lit, ends, faces, |face| lit.textures.on(mesh, face));
+    places.into_iter().map(|at| (at, kind(middle(lit, ends, faces[0], at)))).collect()
+}
+
+/// The paint of a face so far along an edge.
+fn paint_along(lit: &Lit, ends: [u32; 2], face: u32, at: f64) -> PaintId {
+    let textured = lit.textures.on(lit.mesh, face);
+    let weights = weights_along(lit.mesh, ends, face, at);
+    textured.and_then(|textured| textured.paint(weights)).unwrap_or_else(|| lit.mesh.paint(FaceId(face)))
+}
+
+/// The barycentric weights in a face of a point so far along an edge.
+fn weights_along(mesh: &Mesh, ends: [u32; 2], face: u32, at: f64) -> [f64; 3] {
+    mesh.triangles[face as usize].map(|v| match v {
+        v if v == ends[0] => 1.0 - at,
+        v if v == ends[1] => at,
+        _ => 0.0,
+    })
+}
+
+/// How far along an edge the middle of a stretch lies.
+fn middle(lit: &Lit, ends: [u32; 2], face: u32, places: [Option<[f64; 3]>; 2]) -> f64 {
+    let corner = lit.mesh.triangles[face as usize].iter().position(|v| *v == ends[1]).unwrap_or_default();
+    let [from, to] = [(places[0], 0.0), (places[1], 1.0)].map(|(at, end)| at.map_or(end, |at| at[corner]));
+    f64::midpoint(from, to)
+}
+
+/// The stretches of an edge on which neither face changes the colour that is shown on it: where each begins and ends in the first face, in
+/// barycentric weights; none at the ends of the edge.
+fn stretches<'a>(
+    lit: &Lit,
+    ends: [u32; 2],
+    faces: [u32; 2],
+    shown: impl Fn(u32) -> Option<Textured<'a>>,
+) -> Vec<[Option<[f64; 3]>; 2]> {
+    let corners = faces.map(|face| {
+        let corner = |v: u32| lit.mesh.triangles[face as usize].iter().position(|own| *own == v);
+        [corner(ends[0]).unwrap_or_default(), corner(ends[1]).unwrap_or_default()]
+    });
+    let mut places: Vec<[f64; 3]> = Vec::new();
+    for (face, own) in faces.into_iter().zip(corners) {
+        let Some(textured) = shown(face) else { continue };
+        for at in face_borders::changes_along(lit, face, &textured, ends) {
+            let mut weights = [0.0; 3];
+            weights[corners[0][0]] = at[own[0]];
+            weights[corners[0][1]] = at[own[1]];
+            places.push(weights);
+        }
+    }
+    let to = corners[0][1];
+    places.sort_by(|a, b| a[to].total_cmp(&b[to]));
+    places.dedup_by(|b, a| b[to] - a[to] < SAME_PLACE);
+    let ends = [None].into_iter().chain(places.into_iter().map(Some)).chain([None]);
+    let ends: Vec<Option<[f64; 3]>> = ends.collect();
+    ends.windows(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// Places on an edge that are nearer to each other than this part of it are one.
+const SAME_PLACE: f64 = 1e-9;
+
+/// What a face belongs to, and its paint.
+fn owner(mesh: &Mesh, face: u32) -> (PartId, MaterialId, PaintId) {
+    (mesh.face_part[face as usize], mesh.face_material[face as usize], mesh.paint(FaceId(face)))
+}
+
+/// Whether two faces look different anywhere along their edge.
+fn differ(lit: &Lit, ends: [u32; 2], faces: [u32; 2], shadowed: &[u32]) -> bool {
+    let mesh = lit.mesh;
+    let owner = |face: u32| owner(mesh, face);
+    if owner(faces[0]) != owner(faces[1]) {
+        return true;
+    }
+    let corner = |face: u32, v: u32| mesh.triangles[face as usize].iter().position(|t| *t == v);
+    if show_different(lit, ends, faces) {
+        return true;
+    }
+    let place = |face: u32| Some([corner(face, ends[0])?, corner(face, ends[1])?]);
+    let (Some(a), Some(b)) = (place(faces[0]), place(faces[1])) else { return false };
+    let normals = faces.map(|face| lit.normals.of(face));
+    if (0..2).all(|k| normals[0][a[k]] == normals[1][b[k]]) {
+        return false;
+    }
+    // Both sides belong to the same and have the same paint: only their tones may differ.
+    let look = |face: u32, at: [usize; 2], t: f64, shadowed: u32| {
+        let mut weights = [0.0; 3];
+        weights[at[0]] = 1.0 - t;
+        weights[at[1]] = t;
+        lit.tone(mesh.paint(FaceId(face)), &lit.point(face, weights), shadowed)
+    };
+    let differs = |t: f64, shadowed: u32| look(faces[0], a, t, shadowed) != look(faces[1], b, t, shadowed);
+    shadowed.iter().any(|shadowed| PLACES.iter().any(|t| differs(*t, *shadowed)))
+}
+
+/// Whether two faces show different colours anywhere along their edge.
+fn show_different(lit: &Lit, ends: [u32; 2], faces: [u32; 2]) -> bool {
+    if faces.iter().any(|face| lit.textures.on(lit.mesh, *face).is_none()) {
+        return false;
+    }
+    stretches(lit, ends, faces, |face| lit.textures.on(lit.mesh, face)).into_iter().any(|places| {
+        let at = middle(lit, ends, faces[0], places);
+        let [a, b] = faces.map(|face| paint_along(lit, ends, face, at));
+        a != b
+    })
+}

@@ -1,0 +1,132 @@
+//! Where the colours of vertices, as they pass into each other on faces, fall into others of a few colours.
+//!
+//! Between corners light is linear; how it looks is not. Faces are cut until it is within a fraction of a px, side by side, so
+//! that neighbours cut the side they share alike; in each piece borders are those of [`super::colour_voronoi`].
+
+use super::colour_voronoi::{Border, borders};
+use crate::colour::oklab::{Oklab, distance2};
+use crate::lines::Lit;
+use crate::lines::isophotes::level_tracer::{extent, pieces};
+use crate::scene::paints::vertex_colours::Tints;
+
+/// How far borders may lie beside their place, px.
+const NEAR_PX: f64 = 0.1;
+
+/// Pieces this short are not cut again, px.
+const SHORTEST_PX: f64 = 0.5;
+
+/// How often a face is cut in two at most, along each side.
+const DEEPEST: u32 = 6;
+
+/// How much farther looks may go on the way between two than these are from each other.
+const STRAY: f32 = 1.5;
+
+/// A face whose corners are coloured.
+pub(crate) struct TintedFace<'a> {
+    tints: &'a Tints,
+    /// The light of its corners, in the order of the vertices' numbers.
+    light: [[f64; 3]; 3],
+    /// The corner of the face that comes first, second, third in that order.
+    order: [usize; 3],
+    /// The lengths of its sides, px, each opposite the corner of its number in that order.
+    sides: [f64; 3],
+}
+
+#[derive(Clone, Copy)]
+struct Node {
+    weights: [f64; 3],
+    look: Oklab,
+}
+
+impl<'a> TintedFace<'a> {
+    /// A face with this light at its corners; `px` is that of the page in user units.
+    pub fn new(lit: &Lit, face: u32, tints: &'a Tints, light: [[f32; 3]; 3], px: f64) -> Self {
+        let vertices = lit.mesh.triangles[face as usize];
+        let mut order = [0, 1, 2];
+        order.sort_by_key(|k| vertices[*k]);
+        let points = order.map(|k| lit.view.points[vertices[k] as usize]);
+        let length = |i: usize, j: usize| {
+            let way = points[j].truncate() - points[i].truncate();
+            let is_cut = way.is_nan() || points[i].z.is_nan() || points[j].z.is_nan();
+            // A side that the near plane cuts is as long as can be.
+            if is_cut { f64::INFINITY } else { way.length() / px }
+        };
+        let sides = [length(1, 2), length(2, 0), length(0, 1)];
+        Self { tints, light: order.map(|k| light[k].map(f64::from)), order, sides }
+    }
+
+    /// The borders on the face, in its barycentric weights.
+    pub fn borders(&self) -> Vec<Border> {
+        let mut found = Vec::new();
+        self.cut([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|w| self.node(w)), 0, &mut found);
+        let in_place = |ordered: [f64; 3]| {
+            let mut weights = [0.0; 3];
+            self.order.iter().zip(ordered).for_each(|(k, weight)| weights[*k] = weight);
+            weights
+        };
+        found.iter_mut().for_each(|(ends, _)| *ends = ends.map(in_place));
+        found
+    }
+
+    fn node(&self, weights: [f64; 3]) -> Node {
+        // From the first corner on, so that both faces of a side add up the same.
+        let sum = |k: usize| (0..3).map(|c| self.light[c][k] * weights[c]).sum::<f64>();
+        Node { weights, look: self.tints.looks([sum(0), sum(1), sum(2)]) }
+    }
+
+    fn cut(&self, nodes: [Node; 3], depth: u32, found: &mut Vec<Border>) {
+        if self.is_one(&nodes) {
+            return;
+        }
+        if depth < DEEPEST {
+            let middle = |i: usize, j: usize| self.bend(nodes[i], nodes[j]);
+            let middles = [middle(1, 2), middle(2, 0), middle(0, 1)];
+            if middles.iter().any(Option::is_some) {
+                pieces(nodes, middles)
+                    .into_iter()
+                    .flatten()
+                    .for_each(|piece| self.cut(piece, depth + 1, found));
+                return;
+            }
+        }
+        let mut nodes = nodes;
+        // From the corner on that is nearest to the first of the face, whichever face asks.
+        nodes.sort_by(|a, b| order(b, a));
+        let within =
+            |at: [f64; 3]| [0, 1, 2].map(|k| (0..3).map(|c| nodes[c].weights[k] * at[c]).sum::<f64>());
+        let own = borders(nodes.map(|node| node.look), self.tints.palette());
+        found.extend(own.into_iter().map(|(ends, parted)| (ends.map(within), parted)));
+    }
+
+    /// The middle of a side along which looks bend so much that borders would be displaced.
+    fn bend(&self, a: Node, b: Node) -> Option<Node> {
+        let length = extent(&self.sides, a.weights, b.weights);
+        if length <= SHORTEST_PX || a.look == b.look {
+            return None;
+        }
+        let middle = self.node([0, 1, 2].map(|k| f64::midpoint(a.weights[k], b.weights[k])));
+        let straight = [0, 1, 2].map(|k| f32::midpoint(a.look[k], b.look[k]));
+        let off = f64::from(distance2(middle.look, straight)).sqrt();
+        (off * length > NEAR_PX * f64::from(distance2(a.look, b.look)).sqrt()).then_some(middle)
+    }
+
+    /// Whether all of a piece is certainly nearest to one colour.
+    fn is_one(&self, nodes: &[Node; 3]) -> bool {
+        let look = nodes[0].look;
+        let reach = nodes.iter().map(|node| distance2(look, node.look)).fold(0.0, f32::max).sqrt() * STRAY;
+        let mut best = [f32::INFINITY; 2];
+        for far in self.tints.palette().iter().map(|colour| distance2(*colour, look).sqrt()) {
+            if far < best[0] {
+                best = [far, best[0]];
+            } else if far < best[1] {
+                best[1] = far;
+            }
+        }
+        best[1] - best[0] > 2.0 * reach
+    }
+}
+
+/// Which of two points of a face lies nearer to its first corner, then to its second.
+fn order(a: &Node, b: &Node) -> std::cmp::Ordering {
+    (0..3).fold(std::cmp::Ordering::Equal, |known, k| known.then(a.weights[k].total_cmp(&b.weights[k])))
+}

@@ -1,0 +1,303 @@
+//! [`Surface`]: a mesh with what its options make of it: which edges are hard, which faces round.
+
+use std::borrow::Cow;
+
+use super::LineOptions;
+use super::line_options::{Contours, Normals};
+use crate::light::{self, Cones};
+use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::{EdgeFaces, Mesh};
+use crate::scene::Camera;
+use crate::surface::creases::pose_creases::bent;
+use crate::surface::normals::file_normals::file_cosines;
+use crate::surface::patches::patch_layout;
+use crate::surface::refine::mesh_splice::{Cuts, Refined, splice};
+use crate::surface::{HardEdges, Origin, Patches, SmoothNormals};
+use crate::view::Frame;
+
+/// Normals of one surface on both sides of an edge differ by no more than this cosine (20 degrees)
+/// where the file has it smooth.
+const SAME_NORMAL_COSINE: f32 = 0.94;
+
+/// A mesh and the surface it stands for. The same for all views, but for [`Surface::finer_for`].
+#[derive(Debug, Clone, Default)]
+pub struct Surface {
+    /// The faces.
+    pub mesh: Mesh,
+    /// Where the surface is creased.
+    pub hard: HardEdges,
+    /// Sharp edges that are no creases and where the surface is not round either.
+    pub wrinkles: EdgeSet,
+    /// The middle edges of narrow roundings: they are drawn as creases, and the surface goes on over them.
+    pub roundings: EdgeSet,
+    /// The normals of its rounded parts, whose contours are smooth; none with
+    /// [`Contours::Mesh`].
+    pub smooth: SmoothNormals,
+    /// How the surface at each face came about.
+    pub origins: Vec<Origin>,
+    /// Which connected piece each face is of; empty if there is but one, or nobody asked.
+    pub pieces: Vec<u32>,
+    /// Whether faces were cut that the model does not have.
+    pub refined: bool,
+    /// A camera for which nothing needs to be cut, if one is known.
+    pub fine_for: Option<Camera>,
+}
+
+impl Surface {
+    /// The surface of a mesh, as the options have it.
+    #[must_use]
+    pub fn new(mesh: Mesh, options: &LineOptions) -> Self {
+        Self::with_patches(mesh, options).0
+    }
+
+    /// The surface of a mesh, and its patches where any are round, so that [`Surface::posed`] can follow when it moves.
+    #[must_use]
+    pub fn with_patches(mut mesh: Mesh, options: &LineOptions) -> (Self, Option<Patches>) {
+        if !options.enabled {
+            return (Self { mesh, ..Self::default() }, None);
+        }
+        if options.contours == Contours::Mesh {
+            let (hard, origins, pieces) = patch_layout::of_faces(&mesh, options.crease_deg);
+            return (Self { mesh, hard, origins, pieces, ..Self::default() }, None);
+        }
+        let patches = Patches::new(&mesh, options.crease_deg, options.contours == Contours::Smooth);
+        if options.normals == Normals::Auto {
+            mesh.forget_normals(|face| !patches.believed[face as usize]);
+        }
+        let smooth = normals(&mesh, &patches, &[]);
+        let surface = Self {
+            mesh,
+            hard: patches.hard.clone(),
+            wrinkles: patches.wrinkles.clone(),
+            roundings: patches.roundings.clone(),
+            smooth,
+            origins: patches.origins.clone(),
+            pieces: patches.pieces.clone(),
+            refined: false,
+            fine_for: None,
+        };
+        (surface, Some(patches))
+    }
+
+    /// This surface with its mesh moved: creased and round where it was, which is how it is meant and not how it bends at a moment, and
+    /// creased where the pose folds it, but for figures, whose skin is round however it bends. `patches` are those that it was made with;
+    /// `before` has the mesh as it was at earlier moments, the latest first, and `crease_deg` is that of its options
+    /// ([`bent`]).
+    #[must_use]
+    pub fn posed(
+        &self,
+        mesh: Mesh,
+        patches: Option<&Patches>,
+        crease_deg: f64,
+        before: impl Iterator<Item = Mesh>,
+    ) -> Self {
+        let is_figure = |edge: usize| {
+            let figure = |patches: &Patches| {
+                mesh.edges.faces(edge).list().iter().any(|face| patches.figure[*face as usize])
+            };
+            patches.is_some_and(figure)
+        };
+        let hard = &self.hard;
+        let folds =
+            bent(&self.mesh, &mesh, crease_deg, |edge| !hard.is_hard(edge) && !is_figure(edge), before);
+        let smooth = patches.map_or_else(SmoothNormals::default, |patches| normals(&mesh, patches, &folds));
+        Self {
+            hard: hard.clone().with(&mesh, &folds),
+            wrinkles: self.wrinkles.clone(),
+            roundings: self.roundings.clone(),
+            mesh,
+            smooth,
+            origins: self.origins.clone(),
+            pieces: self.pieces.clone(),
+            refined: false,
+            fine_for: None,
+        }
+    }
+
+    /// The surface with more triangles where a coarse rounded part would show its corners to the
+    /// camera.
+    #[must_use]
+    pub fn finer_for(mut self, camera: &Camera) -> Self {
+        let Some(cuts) = self.cuts_for(camera, None) else {
+            self.fine_for = Some(*camera);
+            return self;
+        };
+        let sides = self.sides_of_roundings();
+        let (mesh, smooth) = (std::mem::take(&mut self.mesh), std::mem::take(&mut self.smooth));
+        self.of_finer(splice(Cow::Owned(mesh), Cow::Owned(smooth), cuts), &sides).surface
+    }
+
+    /// The surface with more triangles where a coarse rounded part would show its corners to the camera; none
+    /// if no part would, or if it has them. With the [`Cones`] of this surface it is the same and made sooner.
+    #[must_use]
+    pub fn refined_for(&self, camera: &Camera, cones: Option<&Cones>) -> Option<Finer> {
+        let cuts = self.cuts_for(camera, cones)?;
+        let finer = splice(Cow::Borrowed(&self.mesh), Cow::Borrowed(&self.smooth), cuts);
+        Some(self.of_finer(finer, &self.sides_of_roundings()))
+    }
+
+    fn cuts_for(&self, camera: &Camera, cones: Option<&Cones>) -> Option<Cuts> {
+        if self.refined || self.fine_for.as_ref() == Some(camera) {
+            return None;
+        }
+        light::cuts_near_contours(&self.mesh, &self.smooth, cones, &Frame::new(camera, self.mesh.origin))
+    }
+
+    /// The surface of a mesh that is finer than this one's, with the [`Self::sides_of_roundings`].
+    fn of_finer(&self, finer: Refined, sides: &[[u32; 2]]) -> Finer {
+        let Refined { mesh, smooth, hosts, kept, edges } = finer;
+        let surface = Self {
+            hard: self.hard.carried(&edges, mesh.edges.len()),
+            wrinkles: self.wrinkles.carried(&edges, mesh.edges.len()),
+            roundings: self
+                .roundings
+                .carried(&edges, mesh.edges.len())
+                .with(&pieces_between(&mesh, (&hosts, kept), sides), mesh.edges.len()),
+            mesh,
+            smooth,
+            origins: hosts.iter().filter_map(|face| self.origins.get(*face as usize).copied()).collect(),
+            pieces: hosts.iter().filter_map(|face| self.pieces.get(*face as usize).copied()).collect(),
+            refined: true,
+            fine_for: None,
+        };
+        Finer { surface, hosts, kept }
+    }
+
+    /// The faces on both sides of each middle edge of a narrow rounding, in order.
+    fn sides_of_roundings(&self) -> Vec<[u32; 2]> {
+        let sides = |edge| match self.mesh.edges.faces(edge) {
+            EdgeFaces::Two { faces, .. } => Some(ascending(faces)),
+            _ => None,
+        };
+        let mut found: Vec<[u32; 2]> = self.roundings.iter().filter_map(sides).collect();
+        found.sort_unstable();
+        found
+    }
+}
+
+/// Two numbers in order.
+fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// The edges of a finer mesh at which pieces of faces meet that were on both sides of an edge: what that edge was cut into. `sides` are
+/// ascending.
+fn pieces_between(mesh: &Mesh, (hosts, kept): (&[u32], usize), sides: &[[u32; 2]]) -> Vec<usize> {
+    if sides.is_empty() {
+        return Vec::new();
+    }
+    let is_piece = |edge: usize| match mesh.edges.faces(edge) {
+        EdgeFaces::Two { faces, .. } if faces.iter().all(|face| *face as usize >= kept) => {
+            sides.binary_search(&ascending(faces.map(|face| hosts[face as usize]))).is_ok()
+        }
+        _ => false,
+    };
+    EdgeSet::collect(mesh.edges.len(), is_piece).iter().collect()
+}
+
+/// A surface some of whose faces were cut for a camera.
+#[derive(Debug, Clone)]
+pub struct Finer {
+    /// The surface with the pieces.
+    pub surface: Surface,
+    /// The face of the surface without that each of its faces is, or is part of.
+    pub hosts: Vec<u32>,
+    /// How many of its faces are whole: the first ones, whose hosts ascend.
+    pub kept: usize,
+}
+
+/// The normals of the patches that are meant to be round, parted at folds as well: edges, ascending.
+pub(crate) fn normals(mesh: &Mesh, patches: &Patches, folds: &[usize]) -> SmoothNormals {
+    let parted = |edge: usize| parts(mesh, edge, patches) || folds.binary_search(&edge).is_ok();
+    SmoothNormals::new(mesh, |face| patches.rounded[face as usize], parted)
+}
+
+/// Whether an edge parts two rounded surfaces: by its angle and what is around it, or where the file's
+/// normals have it creased. Figures are shaded round over edges that by themselves would be creases.
+fn parts(mesh: &Mesh, edge: usize, patches: &Patches) -> bool {
+    if patches.rims.contains(edge) || patches.wrinkles.contains(edge) {
+        return true;
+    }
+    let hard = patches.hard.is_hard(edge);
+    match file_normals_differ(mesh, edge) {
+        None => hard,
+        Some(differ) => differ || (hard && !patches.figure[mesh.edges.faces(edge).list()[0] as usize]),
+    }
+}
+
+/// Whether the file creases the surface at an edge; `None` where it has no normals.
+fn file_normals_differ(mesh: &Mesh, edge: usize) -> Option<bool> {
+    let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return None };
+    Some(file_cosines(mesh, edge, faces)?.iter().any(|cosine| *cosine < SAME_NORMAL_COSINE))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use glam::DVec3;
+
+    use super::*;
+    use crate::geometry::numbers::portable_math::{cos, sin};
+    use crate::mesh::Soup;
+    use crate::scene::Projection;
+
+    /// A ball of 16 meridians and so many rings between its poles.
+    fn ball(rings: u32) -> Mesh {
+        const AROUND: u32 = 16;
+        let mut soup = Soup { positions: vec![DVec3::NEG_Z, DVec3::Z], ..Soup::default() };
+        for ring in 1..=rings {
+            let up = TAU / 2.0 * (f64::from(ring) / f64::from(rings + 1) - 0.5);
+            let turns = (0..AROUND).map(|step| TAU * f64::from(step) / f64::from(AROUND));
+            soup.positions
+                .extend(turns.map(|turn| DVec3::new(cos(up) * cos(turn), cos(up) * sin(turn), sin(up))));
+        }
+        let at = |ring: u32, step: u32| 2 + ring * AROUND + step % AROUND;
+        for step in 0..AROUND {
+            soup.triangles.extend([
+                [0, at(0, step + 1), at(0, step)],
+                [1, at(rings - 1, step), at(rings - 1, step + 1)],
+            ]);
+            for ring in 0..rings - 1 {
+                let [a, b] = [at(ring, step), at(ring, step + 1)];
+                soup.triangles.extend([[a, b, b + AROUND], [a, b + AROUND, a + AROUND]]);
+            }
+        }
+        Mesh::build(soup)
+    }
+
+    #[test]
+    fn middle_edges_are_whole_where_faces_are_cut() {
+        let options = LineOptions { contours: Contours::Smooth, ..LineOptions::default() };
+        let mut surface = Surface::new(ball(7), &options);
+        let is_level = |mesh: &Mesh, edge: usize| {
+            mesh.edges.vertices[edge]
+                .iter()
+                .all(|v| (mesh.positions[*v as usize] + mesh.origin).z.abs() < 1e-6)
+        };
+        let edges = surface.mesh.edges.len();
+        surface.roundings = EdgeSet::collect(edges, |edge| is_level(&surface.mesh, edge));
+        assert_eq!(surface.roundings.iter().count(), 16);
+        let camera = Camera {
+            eye: DVec3::new(3.0, 1.0, 2.0),
+            up: DVec3::Z,
+            target: DVec3::ZERO,
+            projection: Projection::Orthographic { height: 2.5 },
+            width: 1000.0,
+            height: 1000.0,
+            near: None,
+        };
+        let finer = surface.finer_for(&camera);
+        let mesh = &finer.mesh;
+        let place = |v: u32| mesh.positions[v as usize] + mesh.origin;
+        let angle = |edge: usize| {
+            let [a, b] = mesh.edges.vertices[edge].map(place);
+            a.angle_between(b)
+        };
+        let found: Vec<usize> = finer.roundings.iter().collect();
+        assert!(found.len() > 16, "none of them was cut");
+        assert!(found.iter().all(|edge| is_level(mesh, *edge)));
+        let around: f64 = found.iter().map(|edge| angle(*edge)).sum();
+        assert!((around - TAU).abs() < 1e-6, "{around}");
+    }
+}

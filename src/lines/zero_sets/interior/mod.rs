@@ -1,0 +1,186 @@
+//! Interior lines: suggestive contours, ridges and valleys, which show the shape of a surface between its
+//! contours.
+//!
+//! 1. Each finder turns the surface's curvature into a curve over the mesh and a measure along it.
+//! 2. The measure is 1 at the threshold below which nothing is drawn. Curves are cut where it passes 1.
+//! 3. The measure above 1 gives the line its strength, from which its width follows.
+//!
+//! Thresholds are relative to the size of the model's features, so that no style depends on the model's unit.
+//! Source: the measures follow Rusinkiewicz's rtsc; each finder names its paper.
+//!
+//! Files, in reading order: [`interior_options`]; [`suggestive_contours`]; [`ridges`] ridges and valleys;
+//! [`apparent_ridges`].
+
+mod apparent_ridges;
+pub mod interior_options;
+mod ridges;
+mod suggestive_contours;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+pub use interior_options::InsideOptions;
+
+use super::zero_set::{EdgePoint, ZeroSet};
+use crate::geometry::numbers::tolerance;
+use crate::lines::{FeatureLines, FeatureSegment, LineKind, LineOptions, NO_FACE, Role};
+use crate::mesh::Mesh;
+use crate::parallel::task_size::GRAIN;
+use crate::surface::curvature::feature_size::MOST_OF_PART;
+use crate::surface::{Curvature, Origin, SmoothNormals};
+use crate::view::View;
+
+/// The measure from which on a line is as strong as can be.
+const FULL: f64 = 8.0;
+
+const UNSET: u32 = u32::MAX;
+
+/// Whether any line inside is asked for.
+#[must_use]
+pub fn wanted(options: &LineOptions) -> bool {
+    options.kinds.iter().any(|kind| kind.is_inside())
+}
+
+/// The curvature that the lines inside of a mesh are found by.
+#[must_use]
+pub fn curvature(mesh: &Mesh, smooth: &SmoothNormals, options: &InsideOptions) -> Curvature {
+    Curvature::new(mesh, smooth, options.smooth * MOST_OF_PART)
+}
+
+/// Adds the lines inside of the kinds asked for.
+pub fn find(
+    mesh: &Mesh,
+    view: &View,
+    smooth: &SmoothNormals,
+    curvature: &Curvature,
+    options: &LineOptions,
+    lines: &mut FeatureLines,
+) {
+    let seen = Seen::new(mesh, view, smooth, curvature);
+    let wants = |kind| options.kinds.contains(&kind);
+    if wants(LineKind::Suggestive) {
+        suggestive_contours::find(&seen, &options.inside, lines);
+    }
+    if options.inside.apparent && wants(LineKind::Ridge) {
+        apparent_ridges::find(&seen, &options.inside, lines);
+    }
+    let ridges = wants(LineKind::Ridge) && !options.inside.apparent;
+    if ridges || wants(LineKind::Valley) {
+        ridges::find(&seen, ridges, wants(LineKind::Valley), &options.inside, lines);
+    }
+}
+
+/// A surface with its curvature, and how the eye sees it.
+pub(crate) struct Seen<'a> {
+    mesh: &'a Mesh,
+    view: &'a View,
+    smooth: &'a SmoothNormals,
+    curvature: &'a Curvature,
+    /// Whether surfaces may be seen from behind.
+    open: bool,
+    /// The direction to the eye along `dir1`, `dir2` and the normal. One per smooth vertex.
+    eye: Vec<DVec3>,
+}
+
+impl<'a> Seen<'a> {
+    fn new(mesh: &'a Mesh, view: &'a View, smooth: &'a SmoothNormals, curvature: &'a Curvature) -> Self {
+        let frame = &view.frame;
+        let eye = (0..smooth.vertices.len())
+            .into_par_iter()
+            .with_min_len(GRAIN)
+            .map(|v| {
+                let at = mesh.positions[smooth.vertices[v] as usize];
+                let to_eye =
+                    if frame.perspective { (frame.eye - at).normalize_or_zero() } else { -frame.forward };
+                let p = &curvature.principal[v];
+                DVec3::new(to_eye.dot(p.dir1), to_eye.dot(p.dir2), to_eye.dot(curvature.normals[v]))
+            })
+            .collect();
+        // Where the near plane cuts a surface open, its inside is seen.
+        let is_cut = !view.clipped.is_empty() || view.points.iter().any(|p| p.z.is_nan());
+        Self { mesh, view, smooth, curvature, open: mesh.cleaning.borders > 0 || is_cut, eye }
+    }
+
+    /// The size of the features around a point, world units.
+    fn size(&self, point: &EdgePoint) -> f64 {
+        self.curvature.feature_size(point.between[0])
+    }
+
+    /// A number for each smooth vertex.
+    fn field(&self, value: impl Fn(usize) -> f64 + Sync + Send) -> Vec<f64> {
+        (0..self.eye.len()).into_par_iter().with_min_len(GRAIN).map(value).collect()
+    }
+
+    /// Whether a face can be seen at all.
+    fn shows(&self, face: u32) -> bool {
+        self.open || self.view.facing[face as usize]
+    }
+
+    /// 1 where the outside of a face is seen, −1 where its inside is: there the surface bends the
+    /// other way.
+    fn side(&self, face: u32) -> f64 {
+        if self.view.facing[face as usize] { 1.0 } else { -1.0 }
+    }
+
+    /// Adds the pieces of a curve whose measure is over 1, cut where it passes 1.
+    fn add(
+        &self,
+        set: &ZeroSet,
+        kind: impl Fn(u32) -> Option<LineKind>,
+        measure: impl Fn(&EdgePoint, f64) -> f64,
+        lines: &mut FeatureLines,
+    ) {
+        let first = self.mesh.positions.len() as u32;
+        lines.strengths.resize(lines.points.len(), 1.0);
+        let mut ids = vec![UNSET; set.points.len()];
+        for segment in &set.segments {
+            let Some(kind) = kind(segment.face) else { continue };
+            let side = self.side(segment.face);
+            let ends = segment.ends.map(|end| &set.points[end as usize]);
+            let measures = ends.map(|end| measure(end, side));
+            let whole = measures.map(|m| m > 1.0);
+            if whole == [false, false] {
+                continue;
+            }
+            let positions = ends.map(|end| end.position(self.mesh, self.smooth));
+            let mut point = |at: DVec3, strength: f64| {
+                lines.points.push(at);
+                lines.strengths.push(strength as f32);
+                first + lines.points.len() as u32 - 1
+            };
+            let ends = [0, 1].map(|i| {
+                if !whole[i] {
+                    let t = (1.0 - measures[1 - i]) / (measures[i] - measures[1 - i]);
+                    return point(positions[1 - i].lerp(positions[i], t.clamp(0.0, 1.0)), 0.0);
+                }
+                let id = &mut ids[segment.ends[i] as usize];
+                if *id == UNSET {
+                    *id = point(positions[i], strength(measures[i]));
+                }
+                *id
+            });
+            lines.segments.push(FeatureSegment {
+                ends,
+                hosts: [segment.face, NO_FACE],
+                kind,
+                both_seen: true,
+                smooth: true,
+                origin: Origin::default(),
+                role: Role::Line,
+                strength: 0.0,
+                part: self.mesh.face_part[segment.face as usize],
+                material: self.mesh.face_material[segment.face as usize],
+            });
+        }
+    }
+}
+
+/// A threshold by which can be divided.
+fn positive(threshold: f64) -> f64 {
+    threshold.max(tolerance::LEAST_THRESHOLD)
+}
+
+/// How strong a line of this measure is: 0 at 1, 1 from [`FULL`] on.
+fn strength(measure: f64) -> f64 {
+    ((1.0 - 1.0 / measure) / (1.0 - 1.0 / FULL)).clamp(0.0, 1.0)
+}

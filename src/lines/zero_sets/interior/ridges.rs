@@ -1,0 +1,71 @@
+//! Ridges and valleys: where the larger principal curvature is greatest along its own direction.
+//!
+//! Source: Ohtake, Belyaev and Seidel, "Ridge-valley lines on meshes via implicit surface fitting",
+//! SIGGRAPH 2004, section 3: extremality coefficients change their sign between the ends of an
+//! edge, and the curvature grows towards the crossing; with the derivatives of Rusinkiewicz 2004 in
+//! place of the fitted surface's.
+
+use glam::DVec3;
+
+use super::{InsideOptions, Seen, positive};
+use crate::lines::zero_sets::zero_set::{Crossing, EdgePoint, trace_crossings};
+use crate::lines::{FeatureLines, LineKind};
+
+/// Adds the ridges, the valleys or both.
+pub(crate) fn find(
+    seen: &Seen,
+    ridges: bool,
+    valleys: bool,
+    options: &InsideOptions,
+    lines: &mut FeatureLines,
+) {
+    for sign in [1.0, -1.0] {
+        // A ridge of the outside is a valley of the inside.
+        let kind = |face: u32| {
+            let ridge = sign * seen.side(face) > 0.0;
+            match (ridge && ridges, !ridge && valleys) {
+                (true, _) => Some(LineKind::Ridge),
+                (_, true) => Some(LineKind::Valley),
+                _ => None,
+            }
+        };
+        let crossing = |a: u32, b: u32| crossing(seen, sign, a as usize, b as usize);
+        let set = trace_crossings(
+            seen.mesh,
+            seen.smooth,
+            |face| seen.shows(face) && kind(face).is_some(),
+            crossing,
+        );
+        let measure = |point: &EdgePoint, side: f64| {
+            let [a, b] = point.between.map(|v| sign * seen.curvature.principal[v as usize].k1);
+            let threshold = if sign * side > 0.0 { options.ridge } else { options.valley };
+            (a + (b - a) * point.t) * seen.size(point) / positive(threshold)
+        };
+        seen.add(&set, kind, measure, lines);
+    }
+}
+
+/// The crossing of an edge whose ends both bend outwards (`sign` 1) or inwards (−1).
+fn crossing(seen: &Seen, sign: f64, a: usize, b: usize) -> Option<Crossing> {
+    let principal = &seen.curvature.principal;
+    if principal[a].k1 * sign <= 0.0 || principal[b].k1 * sign <= 0.0 {
+        return None;
+    }
+    let derivative = &seen.curvature.derivative;
+    // The way on which the curvature grows.
+    let uphill = |v: usize| principal[v].dir1 * (sign * derivative[v][0]);
+    let way = [a, b].map(|v| seen.mesh.positions[seen.smooth.vertices[v] as usize]);
+    maximum([uphill(a), uphill(b)], way[1] - way[0])
+}
+
+/// Where between the ends of an edge a curvature is greatest, of which is known which way and how
+/// fast it grows at the ends.
+pub(crate) fn maximum(uphill: [DVec3; 2], edge: DVec3) -> Option<Crossing> {
+    // Both ways lead away from each other, or towards each other.
+    if uphill[0].dot(uphill[1]) > 0.0 || (uphill[0] - uphill[1]).dot(edge) <= 0.0 {
+        return None;
+    }
+    let speeds = uphill.map(DVec3::length);
+    let sum = speeds[0] + speeds[1];
+    (sum > 0.0).then(|| Crossing { t: speeds[0] / sum, rising: false })
+}

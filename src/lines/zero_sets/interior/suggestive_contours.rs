@@ -1,0 +1,63 @@
+//! Suggestive contours: where a contour would appear if the eye moved a little.
+//!
+//! The radial curvature is the normal curvature towards the eye. Where it vanishes while growing
+//! towards the eye, n·v has a minimum: the surface almost turns away. Where it falls, n·v has a
+//! maximum: a suggestive highlight.
+//!
+//! Source: DeCarlo, Finkelstein, Rusinkiewicz and Santella, "Suggestive contours for conveying
+//! shape", SIGGRAPH 2003; DeCarlo, Finkelstein and Rusinkiewicz, "Interactive rendering of
+//! suggestive contours with temporal coherence", NPAR 2004, for the test D_w κ_r · tan θ, which
+//! falls to zero where the eye looks straight at the surface; DeCarlo and Rusinkiewicz,
+//! "Highlight lines for conveying shape", NPAR 2007.
+
+use super::{InsideOptions, Seen, positive};
+use crate::lines::zero_sets::zero_set::{EdgePoint, trace};
+use crate::lines::{FeatureLines, LineKind};
+
+/// Adds suggestive contours, and highlights where they are wanted.
+pub(crate) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLines) {
+    // κ_r sin² θ, which vanishes where κ_r does.
+    let radial = seen.field(|v| {
+        let (p, eye) = (&seen.curvature.principal[v], seen.eye[v]);
+        p.k1 * eye.x * eye.x + p.k2 * eye.y * eye.y
+    });
+    let set = trace(seen.mesh, seen.smooth, &radial, |face| seen.shows(face));
+    let change = seen.field(|v| change(seen, v));
+    let size2 = |point: &EdgePoint| seen.size(point) * seen.size(point);
+    let cosine = |point: &EdgePoint| {
+        let [a, b] = point.between.map(|v| seen.eye[v as usize].z);
+        a + (b - a) * point.t
+    };
+    // The test over its threshold; from behind, the surface bends the other way.
+    let measure = |threshold: f64, sense: f64| {
+        let change = &change;
+        move |point: &EdgePoint, side: f64| {
+            let towards = cosine(point) * side;
+            if towards > 0.0 {
+                sense * side * point.value(change) * size2(point) / (positive(threshold) * towards)
+            } else {
+                0.0
+            }
+        }
+    };
+    let kind = |_| Some(LineKind::Suggestive);
+    seen.add(&set, kind, measure(options.suggestive, 1.0), lines);
+    if options.highlights {
+        seen.add(&set, kind, measure(options.highlight, -1.0), lines);
+    }
+}
+
+/// D_w κ_r · sin θ at a smooth vertex: the derivative of the radial curvature towards the eye.
+fn change(seen: &Seen, vertex: usize) -> f64 {
+    let (p, eye) = (&seen.curvature.principal[vertex], seen.eye[vertex]);
+    let [a, b, c, d] = seen.curvature.derivative[vertex];
+    let (u, v) = (eye.x, eye.y);
+    let sin2 = u * u + v * v;
+    if sin2 <= 0.0 {
+        return 0.0;
+    }
+    let along = u * u * (u * a + 3.0 * v * b) + v * v * (3.0 * u * c + v * d);
+    // The second term is what the turning of w itself adds (DeCarlo 2004, appendix).
+    let torsion = (p.k2 - p.k1) * u * v / sin2;
+    along / sin2 - 2.0 * eye.z * torsion * torsion
+}

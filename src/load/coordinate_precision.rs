@@ -1,0 +1,161 @@
+//! The precision of a file's coordinates, measured on the coordinates themselves.
+//!
+//! A text holds decimals, often six, and many programs compute in single precision before they write. So positions lie on a
+//! lattice whose step is much coarser than double precision. The numbers show it:
+//!
+//! - All numbers are single-precision numbers, and some have eight digits or more: single precision.
+//! - Otherwise the step is the unit of the last digit of the numbers with the most digits. Whole numbers and short
+//!   decimals, such as 2.5, are exact: their "step" would be visible in a drawing.
+
+use std::fmt::Write;
+
+use glam::DVec3;
+
+use crate::geometry::numbers::tolerance::VISIBLE_STEP;
+use crate::scene::{Geometry, Scene};
+
+/// The number of positions of a file that are measured, spread evenly.
+const MAX_SAMPLES: usize = 1024;
+
+/// Fewer digits than this say nothing about single precision: nearly every number of seven digits is the shortest text of one.
+const SINGLE_DIGITS: i32 = 8;
+
+/// Numbers with as many digits as this are written in double precision.
+const DOUBLE_DIGITS: i32 = 15;
+
+/// A number written with nine digits differs from the single-precision number it stands for by no more than this share: half a unit of
+/// the ninth digit.
+const SINGLE_ERROR: f64 = 5.000_001e-9;
+
+/// Numbers smaller than this share of the largest are noise around zero, whose digits mean nothing.
+const NOISE_OF_LARGEST: f64 = 1e-6;
+
+/// Notes in each shape of a scene the precision of its positions.
+pub(crate) fn measure(scene: &mut Scene) {
+    let is_open = |geometry: &Geometry| !geometry.single_precision && geometry.lattice_step == 0.0;
+    let count: usize = scene.geometries.iter().filter(|g| is_open(g)).map(|g| g.positions.len()).sum();
+    let every = count.div_ceil(MAX_SAMPLES).max(1);
+    let positions = scene.geometries.iter().filter(|g| is_open(g)).flat_map(|g| &g.positions);
+    let samples: Vec<DVec3> = positions.step_by(every).copied().filter(|p| p.is_finite()).collect();
+    let precision = Precision::of(&samples);
+    for geometry in scene.geometries.iter_mut().filter(|g| is_open(g)) {
+        match precision {
+            Precision::Exact => {}
+            Precision::Single => geometry.single_precision = true,
+            Precision::Decimals(step) => geometry.lattice_step = step,
+        }
+    }
+}
+
+/// The precision that the numbers of a file show.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Precision {
+    /// Whole numbers, short decimals, or double precision.
+    Exact,
+    /// Numbers of single precision.
+    Single,
+    /// Decimals of this unit.
+    Decimals(f64),
+}
+
+impl Precision {
+    fn of(positions: &[DVec3]) -> Self {
+        let numbers = || positions.iter().flat_map(|p| p.to_array());
+        let largest = numbers().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let all = || numbers().filter(|x| x.abs() > NOISE_OF_LARGEST * largest);
+        let mut text = String::new();
+        let mut most_digits = 0;
+        let mut step: f64 = 0.0;
+        for number in all() {
+            let (digits, unit) = digits(number, &mut text);
+            if digits > most_digits {
+                (most_digits, step) = (digits, unit);
+            } else if digits == most_digits {
+                step = step.max(unit);
+            }
+        }
+        if most_digits >= SINGLE_DIGITS && all().all(is_single) {
+            return Self::Single;
+        }
+        if most_digits >= DOUBLE_DIGITS {
+            return Self::Exact;
+        }
+        let low = positions.iter().fold(DVec3::INFINITY, |low, p| low.min(*p));
+        let high = positions.iter().fold(DVec3::NEG_INFINITY, |high, p| high.max(*p));
+        if step > 0.0 && step <= VISIBLE_STEP * low.distance(high) {
+            Self::Decimals(step)
+        } else {
+            Self::Exact
+        }
+    }
+}
+
+/// Whether a number stands for one of single precision: it has nine digits or more of it, or the fewest that tell it from its neighbours.
+fn is_single(number: f64) -> bool {
+    let single = number as f32;
+    (number - f64::from(single)).abs() <= SINGLE_ERROR * number.abs()
+        || single.to_string().parse() == Ok(number)
+}
+
+/// The digits that a number needs, and the unit of the last one.
+fn digits(number: f64, text: &mut String) -> (i32, f64) {
+    text.clear();
+    // The shortest digits that read back as the number; writing to a string does not fail.
+    let _ = write!(text, "{:e}", number.abs());
+    let (mantissa, exponent) = text.split_once('e').unwrap_or((text.as_str(), "0"));
+    let digits = mantissa.bytes().filter(u8::is_ascii_digit).count() as i32;
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    text.clear();
+    let _ = write!(text, "1e{}", exponent + 1 - digits);
+    (digits, text.parse().unwrap_or(0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::dice::Dice;
+
+    fn written(size: f64, write: impl Fn(f64) -> f64) -> Precision {
+        let mut dice = Dice::new(5);
+        let points: Vec<DVec3> = (0..300).map(|_| (dice.point(size)).to_array().map(&write).into()).collect();
+        Precision::of(&points)
+    }
+
+    fn decimals(places: usize) -> impl Fn(f64) -> f64 {
+        move |x| format!("{x:.places$}").parse().unwrap()
+    }
+
+    #[test]
+    fn the_precision_of_a_file_is_that_of_its_writer() {
+        assert_eq!(written(20.0, |x| f64::from(x as f32)), Precision::Single);
+        // C's %.9g, and the shortest digits of a single-precision number.
+        assert_eq!(written(20.0, |x| format!("{:.8e}", x as f32).parse().unwrap()), Precision::Single);
+        assert_eq!(written(20.0, |x| (x as f32).to_string().parse().unwrap()), Precision::Single);
+        let step = |precision| match precision {
+            Precision::Decimals(step) => step,
+            other => panic!("{other:?}"),
+        };
+        for (places, unit) in [(4, 1e-4), (5, 1e-5), (9, 1e-9)] {
+            let found = step(written(20.0, decimals(places)));
+            assert!((found / unit - 1.0).abs() < 1e-9, "{places}: {found}");
+        }
+        let found = step(written(9.0, decimals(6)));
+        assert!((found / 1e-6 - 1.0).abs() < 1e-9, "{found}");
+        // Eight digits are as fine as single precision, and may be either.
+        assert!(matches!(written(20.0, decimals(6)), Precision::Single | Precision::Decimals(_)));
+        // Six digits, C's %g, of numbers up to 20.
+        let found = step(written(20.0, |x| format!("{x:.5e}").parse().unwrap()));
+        assert!((found / 1e-4 - 1.0).abs() < 1e-9, "{found}");
+        assert_eq!(written(20.0, |x| x), Precision::Exact);
+        // Quarters are exact, and so are whole numbers of a small range.
+        assert_eq!(written(20.0, |x| (4.0 * x).round() / 4.0), Precision::Exact);
+        assert_eq!(written(20.0, |x| x.round()), Precision::Exact);
+        assert_eq!(Precision::of(&[]), Precision::Exact);
+    }
+
+    #[test]
+    fn noise_around_zero_says_nothing() {
+        let exact = |x: f64| if x.abs() < 10.0 { 1.224_646_799_147_353_2e-16 } else { x.round() };
+        assert_eq!(written(20.0, exact), Precision::Exact);
+    }
+}

@@ -1,0 +1,104 @@
+//! What pointers of animations (KHR_animation_pointer) lead to.
+//!
+//! Source: Khronos Group, KHR_animation_pointer, and the glTF 2.0 asset object model.
+
+use crate::animation::material_factors::AlphaMode;
+use crate::animation::{Finish, Lens, Property, Shine, Target};
+use crate::error::Error;
+use crate::load::gltf::json::Root;
+use crate::load::gltf::material_reader;
+
+/// The value that a pointer leads to; none if no drawing shows it.
+///
+/// # Errors
+/// If it leads to a thing that the file does not have, or that has no such value.
+pub fn pointed(root: &Root, pointer: &str) -> Result<Option<Target>, Error> {
+    let mut steps = pointer.strip_prefix('/').unwrap_or_default().splitn(2, '/');
+    let (list, rest) = (steps.next().unwrap_or_default(), steps.next().unwrap_or_default());
+    let numbered = |rest: &str| {
+        let (number, path) = rest.split_once('/')?;
+        Some((number.parse::<usize>().ok()?, path.to_owned()))
+    };
+    match list {
+        "nodes" => Ok(numbered(rest).and_then(|(number, path)| node(number, &path))),
+        "cameras" => numbered(rest).map_or(Ok(None), |(number, path)| camera(root, number, &path)),
+        "materials" => numbered(rest).map_or(Ok(None), |(number, path)| material(root, number, &path)),
+        "extensions" => {
+            let rest = rest.strip_prefix("KHR_lights_punctual/lights/");
+            rest.and_then(numbered).map_or(Ok(None), |(number, path)| light(root, number, &path))
+        }
+        _ => Ok(None),
+    }
+}
+
+fn node(number: usize, path: &str) -> Option<Target> {
+    let property = match path {
+        "translation" => Property::Translation,
+        "rotation" => Property::Rotation,
+        "scale" => Property::Scale,
+        "weights" => Property::Weights,
+        "extensions/KHR_node_visibility/visible" => Property::Visible,
+        _ => return None,
+    };
+    Some(Target::Node(number, property))
+}
+
+fn camera(root: &Root, number: usize, path: &str) -> Result<Option<Target>, Error> {
+    let (lens, is_perspective) = match path {
+        "perspective/yfov" => (Lens::FieldOfView, true),
+        "perspective/aspectRatio" => (Lens::Aspect, true),
+        "perspective/znear" => (Lens::Near, true),
+        "orthographic/xmag" => (Lens::HalfWidth, false),
+        "orthographic/ymag" => (Lens::HalfHeight, false),
+        "orthographic/znear" => (Lens::Near, false),
+        // Nothing is too far away to be drawn.
+        _ => return Ok(None),
+    };
+    let own = root.cameras.get(number).ok_or_else(|| absent("camera", number, root.cameras.len()))?;
+    if own.perspective.is_some() != is_perspective {
+        let kind = if is_perspective { "perspective" } else { "orthographic" };
+        return Err(Error::new(format!("it moves `{path}` of camera {number}, which is not {kind}")));
+    }
+    Ok(Some(Target::Camera(number, lens)))
+}
+
+fn light(root: &Root, number: usize, path: &str) -> Result<Option<Target>, Error> {
+    let shine = match path {
+        "color" => Shine::Colour,
+        "intensity" => Shine::Intensity,
+        "range" => Shine::Range,
+        "spot/innerConeAngle" => Shine::InnerAngle,
+        "spot/outerConeAngle" => Shine::OuterAngle,
+        _ => return Ok(None),
+    };
+    let lights = root.extensions.lights.as_ref().map_or(&[][..], |lights| &lights.lights);
+    let own = lights.get(number).ok_or_else(|| absent("light", number, lights.len()))?;
+    if matches!(shine, Shine::InnerAngle | Shine::OuterAngle) && own.kind != "spot" {
+        return Err(Error::new(format!("it moves `{path}` of light {number}, which is not a spot light")));
+    }
+    Ok(Some(Target::Light(number, shine)))
+}
+
+fn material(root: &Root, number: usize, path: &str) -> Result<Option<Target>, Error> {
+    let finish = match path {
+        "pbrMetallicRoughness/baseColorFactor" => Finish::Base,
+        "pbrMetallicRoughness/roughnessFactor" => Finish::Roughness,
+        "emissiveFactor" => Finish::Emissive,
+        "alphaCutoff" => Finish::Cutoff,
+        "extensions/KHR_materials_transmission/transmissionFactor" => Finish::Transmission,
+        _ => return Ok(None),
+    };
+    let own = root.materials.get(number).ok_or_else(|| absent("material", number, root.materials.len()))?;
+    let rest = material_reader::factors(own);
+    let is_drawn = match finish {
+        Finish::Base => !material_reader::is_glossy(own),
+        Finish::Emissive => rest.emissive.is_some(),
+        Finish::Cutoff => rest.mode == AlphaMode::Mask,
+        Finish::Roughness | Finish::Transmission => true,
+    };
+    Ok(is_drawn.then_some(Target::Material(number, finish)))
+}
+
+fn absent(kind: &str, number: usize, count: usize) -> Error {
+    Error::new(format!("it moves {kind} {number}, but the file has {count}"))
+}

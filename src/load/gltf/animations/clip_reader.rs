@@ -1,0 +1,138 @@
+//! Reads the animations of a file as [`Clip`]s.
+
+use super::animation_pointers::pointed;
+use crate::animation::rig::Node;
+use crate::animation::{Channel, Clip, Finish, Interpolation, Property, Shine, Target, Track};
+use crate::error::Error;
+use crate::load::gltf::json::{Animation, AnimationSampler, Channel as JsonChannel, ChannelTarget};
+use crate::load::gltf::storage::buffers::Buffers;
+use crate::scene::Warnings;
+
+/// The clips of a file, by number. What is broken in them, or moves what no drawing shows, is left out with a warning.
+pub fn clips(buffers: &Buffers, nodes: &[Node], warnings: &mut Warnings) -> Vec<Clip> {
+    let mut clips = Vec::new();
+    for (number, animation) in buffers.root.animations.iter().enumerate() {
+        let mut clip = Clip { name: name(number, animation), channels: Vec::new() };
+        for (index, channel) in animation.channels.iter().enumerate() {
+            match read(buffers, nodes, animation, channel) {
+                Ok(Some(channel)) => clip.channels.push(channel),
+                Ok(None) => warnings.count("animated properties that are not drawn", 1),
+                Err(error) => {
+                    let place = error.place.as_ref().map_or_else(String::new, |place| format!("{place}: "));
+                    warnings.note(format!(
+                        "animation `{}`: channel {index} is left out: {place}{}",
+                        clip.name, error.message
+                    ));
+                }
+            }
+        }
+        clips.push(clip);
+    }
+    clips
+}
+
+/// The name of an animation.
+fn name(number: usize, animation: &Animation) -> String {
+    animation.name.clone().unwrap_or_else(|| format!("animation {number}"))
+}
+
+/// One channel; none if it moves nothing that is drawn.
+fn read(
+    buffers: &Buffers,
+    nodes: &[Node],
+    animation: &Animation,
+    channel: &JsonChannel,
+) -> Result<Option<Channel>, Error> {
+    let Some(target) = target(buffers, &channel.target)? else { return Ok(None) };
+    let width = width(nodes, target)?;
+    let number = channel.sampler.ok_or_else(|| Error::new("it has no sampler"))?;
+    let Some(sampler) = animation.samplers.get(number) else {
+        return Err(Error::new(format!("it has sampler {number} of {}", animation.samplers.len())));
+    };
+    let track = track(buffers, sampler, width)?;
+    let numbers = width.numbers();
+    if track.width() != numbers || numbers == 0 {
+        return Err(Error::new(format!("{} numbers a key, where {numbers} are needed", track.width())));
+    }
+    Ok(Some(Channel { target, track }))
+}
+
+/// How many numbers a key has.
+#[derive(Clone, Copy)]
+enum Width {
+    /// So many, each an element of its accessor: a list of weights.
+    Scalars(usize),
+    Three,
+    Four,
+}
+
+impl Width {
+    fn numbers(self) -> usize {
+        match self {
+            Self::Scalars(count) => count,
+            Self::Three => 3,
+            Self::Four => 4,
+        }
+    }
+}
+
+fn width(nodes: &[Node], target: Target) -> Result<Width, Error> {
+    Ok(match target {
+        Target::Node(node, property) => {
+            let Some(own) = nodes.get(node) else {
+                return Err(Error::new(format!("it moves node {node}, but the file has {}", nodes.len())));
+            };
+            match property {
+                Property::Translation | Property::Scale => Width::Three,
+                Property::Rotation => Width::Four,
+                Property::Weights => Width::Scalars(own.weights.len()),
+                Property::Visible => Width::Scalars(1),
+            }
+        }
+        Target::Light(_, Shine::Colour) | Target::Material(_, Finish::Emissive) => Width::Three,
+        Target::Material(_, Finish::Base) => Width::Four,
+        Target::Camera(..) | Target::Light(..) | Target::Material(..) => Width::Scalars(1),
+    })
+}
+
+/// What a channel moves; none if it moves nothing that is drawn.
+fn target(buffers: &Buffers, target: &ChannelTarget) -> Result<Option<Target>, Error> {
+    if let Some(pointer) = &target.extensions.pointer {
+        return pointed(buffers.root, &pointer.pointer);
+    }
+    let property = match target.path.as_str() {
+        "translation" => Property::Translation,
+        "rotation" => Property::Rotation,
+        "scale" => Property::Scale,
+        "weights" => Property::Weights,
+        other => {
+            return Err(Error::new(format!("its path `{}` is unknown", crate::load::gltf::uri::shown(other))));
+        }
+    };
+    // A channel without a node is for extensions to fill.
+    Ok(target.node.map(|node| Target::Node(node, property)))
+}
+
+fn track(buffers: &Buffers, sampler: &AnimationSampler, width: Width) -> Result<Track, Error> {
+    let interpolation = match sampler.interpolation.as_deref() {
+        None | Some("LINEAR") => Interpolation::Linear,
+        Some("STEP") => Interpolation::Step,
+        Some("CUBICSPLINE") => Interpolation::CubicSpline,
+        Some(other) => {
+            return Err(Error::new(format!(
+                "its interpolation `{}` is unknown",
+                crate::load::gltf::uri::shown(other)
+            )));
+        }
+    };
+    let (Some(input), Some(output)) = (sampler.input, sampler.output) else {
+        return Err(Error::new("its sampler has no input or no output"));
+    };
+    let times = buffers.read(input, |[time]: [f64; 1]| time)?;
+    let values = match width {
+        Width::Three => buffers.read(output, |v: [f64; 3]| v)?.into_flattened(),
+        Width::Four => buffers.read(output, |v: [f64; 4]| v)?.into_flattened(),
+        Width::Scalars(_) => buffers.read(output, |[value]: [f64; 1]| value)?,
+    };
+    Track::new(times, values, interpolation).map_err(Error::new)
+}

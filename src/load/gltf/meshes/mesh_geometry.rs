@@ -1,0 +1,330 @@
+//! Makes one [`Geometry`] of all primitives of a mesh, in the pose it is stored in.
+
+use std::collections::BTreeMap;
+
+use glam::{DAffine3, DVec3};
+
+use super::primitive_modes::{Mode, Shape};
+use super::{edge_visibility, skin_and_morphs, vertex_reader};
+use crate::animation::Body;
+use crate::error::Error;
+use crate::load::gltf::json::Primitive;
+use crate::load::gltf::json::lenient_index::Shown;
+use crate::load::gltf::missing_references::Missing;
+use crate::load::gltf::storage::buffers::Buffers;
+use crate::load::gltf::{material_reader, uri};
+use crate::mesh::EdgeMark;
+use crate::scene::{Geometry, Warnings};
+
+/// No normal, no texture coordinate.
+const NONE: [u32; 3] = [u32::MAX; 3];
+
+/// Reads mesh `number`; `joints` carry its vertices to world space if its node has a skin. With it comes what moves its vertices, if
+/// that is asked for.
+///
+/// Triangles without a material get the index one past the last material of the file if others of
+/// the mesh have one.
+pub fn geometry(
+    buffers: &Buffers,
+    number: usize,
+    (weights, joints, rigged): (&[f64], Option<&[DAffine3]>, bool),
+    warnings: &mut Warnings,
+    missing: &mut Missing,
+) -> Result<(Geometry, Vec<Body>), Error> {
+    let Some(mesh) = buffers.root.meshes.get(number) else {
+        let message = format!("is pointed to, but the file has {}", buffers.root.meshes.len());
+        return Err(Error::new(message).at(format!("mesh {number}")));
+    };
+    let mut builder = Builder {
+        buffers,
+        weights,
+        joints,
+        rigged,
+        bodies: Vec::new(),
+        geometry: Geometry::default(),
+        blocks: Vec::new(),
+        painted: Vec::new(),
+        wire_material: None,
+    };
+    let name = mesh.name.as_deref().filter(|name| !name.is_empty());
+    let name = name.map_or_else(String::new, |name| format!(" of `{}`", uri::shown(name)));
+    for (index, primitive) in mesh.primitives.iter().enumerate() {
+        let here = || format!("mesh {number} primitive {index}{name}");
+        builder.add(primitive, &here, warnings, missing).map_err(|error| error.within(here()))?;
+    }
+    Ok(builder.finish())
+}
+
+/// What tells the vertices of one primitive from those of another.
+type Key<'a> = (&'a BTreeMap<String, usize>, &'a [BTreeMap<String, usize>], Option<usize>);
+
+/// Corners of triangles.
+type Triangles = Vec<[u32; 3]>;
+
+struct Builder<'a> {
+    buffers: &'a Buffers<'a>,
+    weights: &'a [f64],
+    joints: Option<&'a [DAffine3]>,
+    /// Whether bodies are kept.
+    rigged: bool,
+    bodies: Vec<Body>,
+    geometry: Geometry,
+    /// Vertices that were read already: exporters like to share them among primitives.
+    blocks: Vec<(Key<'a>, Block)>,
+    /// Material of each primitive and how many triangles it has.
+    painted: Vec<(Option<usize>, usize)>,
+    wire_material: Option<usize>,
+}
+
+/// Where the vertices of a primitive stand in the geometry, and what they have.
+#[derive(Debug, Clone, Copy)]
+struct Block {
+    start: u32,
+    count: u32,
+    normals: bool,
+    uvs: bool,
+}
+
+impl<'a> Builder<'a> {
+    /// Adds a primitive; `here` names it.
+    fn add(
+        &mut self,
+        primitive: &'a Primitive,
+        here: &dyn Fn() -> String,
+        warnings: &mut Warnings,
+        missing: &mut Missing,
+    ) -> Result<(), Error> {
+        let materials = self.buffers.root.materials.len();
+        let material = primitive.material.filter(|material| *material < materials);
+        if let (Some(number), None) = (primitive.material, material) {
+            missing.materials.add(|| {
+                let (here, number) = (here(), Shown(number));
+                format!("{here}: has material {number}, but the file has {materials}; it is drawn without a material")
+            });
+        }
+        let mode = Mode::new(primitive.mode)?;
+        if mode == Mode::Points {
+            warnings.note("points are not drawn");
+            return Ok(());
+        }
+        let (block, ready) = self.vertices(primitive)?;
+        let mut shape = self.shape(primitive, mode, block, ready, warnings)?;
+        let mut marks = match &primitive.extensions.edges {
+            Some(edges) if !edges.is_empty() => {
+                let own = self.geometry.positions.get(block.start as usize..).unwrap_or_default();
+                let own = own.get(..block.count as usize).unwrap_or_default();
+                edge_visibility::marks(self.buffers, edges, &shape.triangles, own, warnings)?
+            }
+            _ => Vec::new(),
+        };
+        for index in shape.triangles.as_flattened_mut().iter_mut().chain(shape.wires.as_flattened_mut()) {
+            *index += block.start;
+        }
+        self.drop_unsound(block, &mut shape, &mut marks, warnings);
+        if !shape.wires.is_empty() {
+            self.wire_material = self.wire_material.or(material);
+        }
+        if !block.uvs && !shape.triangles.is_empty() && self.wants_uvs(material) {
+            missing.uvs.add(|| {
+                let (here, wanted) = (here(), vertex_reader::uv_name(self.buffers, primitive));
+                format!("{here}: its texture wants {wanted}, which it does not have; the plain colour is drawn instead")
+            });
+        }
+        self.painted.push((material, shape.triangles.len()));
+        self.append(block, shape, marks);
+        Ok(())
+    }
+
+    /// Whether a material has a texture that lies on texture coordinates.
+    fn wants_uvs(&self, material: Option<usize>) -> bool {
+        let root = self.buffers.root;
+        let material = material.and_then(|material| root.materials.get(material));
+        let texture = material.and_then(material_reader::base_texture);
+        texture.is_some_and(|texture| texture.index < root.textures.len())
+    }
+
+    /// The vertices of a primitive, read if no primitive before had the same ones; and the
+    /// triangles that come with compressed ones.
+    fn vertices(&mut self, primitive: &'a Primitive) -> Result<(Block, Option<Triangles>), Error> {
+        let variant = vertex_reader::uv_variant(self.buffers, primitive);
+        let key: Key = (&primitive.attributes, &primitive.targets, variant);
+        let shareable = primitive.extensions.draco.is_none();
+        if let Some((_, block)) = self.blocks.iter().find(|(known, _)| shareable && *known == key) {
+            return Ok((*block, None));
+        }
+        let mut streams = vertex_reader::read(self.buffers, primitive)?;
+        let (weights, joints) = (self.weights, self.joints);
+        let asked = (weights, self.rigged);
+        let mut body =
+            skin_and_morphs::body(&streams, self.buffers, primitive, asked, joints.map(<[_]>::len))?;
+        if self.rigged && (!body.targets.is_empty() || joints.is_some()) {
+            body.start = self.geometry.positions.len();
+            (body.positions, body.normals) = (streams.positions.clone(), streams.normals.clone());
+        }
+        body.pose((&mut streams.positions, &mut streams.normals), weights, joints);
+        if !body.positions.is_empty() {
+            self.bodies.push(body);
+        }
+        let (start, count) = (self.geometry.positions.len(), streams.positions.len());
+        if start.saturating_add(count) >= u32::MAX as usize {
+            return Err(Error::new("the mesh has more vertices than can be numbered"));
+        }
+        let block = Block {
+            start: start as u32,
+            count: count as u32,
+            normals: !streams.normals.is_empty(),
+            uvs: !streams.uvs.is_empty(),
+        };
+        let geometry = &mut self.geometry;
+        // Every file of this format stores single precision or less, except where a pose moved it.
+        geometry.single_precision = true;
+        let position = primitive.attributes.get("POSITION");
+        // Joints place vertices anew, at another scale.
+        let position = position.filter(|_| joints.is_none());
+        let step = position.map_or(0.0, |position| self.buffers.step(*position));
+        geometry.lattice_step = geometry.lattice_step.max(step);
+        append_or_take(&mut geometry.normals, start, streams.normals, [0.0; 3]);
+        append_or_take(&mut geometry.uvs, start, streams.uvs, [0.0; 2]);
+        append_or_take(&mut geometry.colours, start, streams.colours, [f32::NAN; 4]);
+        append_or_take(&mut geometry.positions, start, streams.positions, DVec3::ZERO);
+        if shareable {
+            self.blocks.push((key, block));
+        }
+        Ok((block, streams.triangles))
+    }
+
+    /// Triangles and wires, whose indices count from the block's first vertex.
+    fn shape(
+        &self,
+        primitive: &Primitive,
+        mode: Mode,
+        block: Block,
+        ready: Option<Triangles>,
+        warnings: &mut Warnings,
+    ) -> Result<Shape, Error> {
+        let mut shape = Shape::default();
+        if let Some(triangles) = ready {
+            let wrong = triangles.as_flattened().iter().find(|index| **index >= block.count);
+            if let Some(index) = wrong {
+                return Err(Error::new(format!("index {index}, but the mesh has {} vertices", block.count)));
+            }
+            shape.triangles = triangles;
+            return Ok(shape);
+        }
+        let Some(accessor) = primitive.indices else {
+            let run: Vec<u32> = (0..block.count).collect();
+            shape.add(mode, &run, warnings);
+            return Ok(shape);
+        };
+        let indices = self.buffers.indices(accessor)?;
+        let check = |run: &[u32]| match run.iter().copied().max() {
+            Some(most) if most >= block.count => {
+                let at = indices.values.iter().position(|index| *index == most).unwrap_or_default();
+                let message =
+                    format!("index {most} (number {at}), but the mesh has {} vertices", block.count);
+                Err(Error::new(message).at(format!("accessor {accessor}")))
+            }
+            _ => Ok(()),
+        };
+        if mode.runs() {
+            for run in indices.values.split(|index| *index == indices.restart) {
+                check(run)?;
+                shape.add(mode, run, warnings);
+            }
+        } else {
+            check(&indices.values)?;
+            shape.add(mode, &indices.values, warnings);
+        }
+        Ok(shape)
+    }
+
+    /// Drops what has a corner that is no number.
+    fn drop_unsound(
+        &mut self,
+        block: Block,
+        shape: &mut Shape,
+        marks: &mut Vec<[EdgeMark; 3]>,
+        warnings: &mut Warnings,
+    ) {
+        let positions = &self.geometry.positions;
+        let own =
+            positions.get(block.start as usize..(block.start + block.count) as usize).unwrap_or_default();
+        if own.iter().all(|position| position.is_finite()) {
+            return;
+        }
+        let sound = |index: &u32| positions.get(*index as usize).is_some_and(|position| position.is_finite());
+        let keep: Vec<bool> = shape.triangles.iter().map(|corners| corners.iter().all(sound)).collect();
+        let before = (shape.triangles.len(), shape.wires.len());
+        let mut kept = keep.iter();
+        shape.triangles.retain(|_| kept.next().copied().unwrap_or(true));
+        let mut kept = keep.iter();
+        marks.retain(|_| kept.next().copied().unwrap_or(true));
+        shape.wires.retain(|ends| ends.iter().all(sound));
+        let dropped = |before: usize, after: usize| (before - after) as u64;
+        let (triangles, lines) =
+            (dropped(before.0, shape.triangles.len()), dropped(before.1, shape.wires.len()));
+        warnings.count("triangles left out, with a corner that is not a number", triangles);
+        warnings.count("lines left out, with an end that is not a number", lines);
+    }
+
+    fn append(&mut self, block: Block, shape: Shape, marks: Vec<[EdgeMark; 3]>) {
+        let geometry = &mut self.geometry;
+        let start = geometry.triangles.len();
+        let corners = |has: bool| if has { shape.triangles.clone() } else { Vec::new() };
+        let (normals, uvs) = (corners(block.normals), corners(block.uvs));
+        pad_after(&mut geometry.corner_normals, start, normals, shape.triangles.len(), NONE);
+        pad_after(&mut geometry.corner_uvs, start, uvs, shape.triangles.len(), NONE);
+        pad_after(&mut geometry.edge_marks, start, marks, shape.triangles.len(), [EdgeMark::Unmarked; 3]);
+        append_or_take(&mut geometry.triangles, start, shape.triangles, NONE);
+        geometry.wires.extend(shape.wires);
+    }
+
+    fn finish(self) -> (Geometry, Vec<Body>) {
+        let mut geometry = self.geometry;
+        // Nothing points to these any more; they must not widen the bounds either.
+        let sound = geometry.positions.iter().copied().find(|position| position.is_finite());
+        for position in geometry.positions.iter_mut().filter(|position| !position.is_finite()) {
+            *position = sound.unwrap_or_default();
+        }
+        if !geometry.colours.is_empty() {
+            geometry.colours.resize(geometry.positions.len(), [f32::NAN; 4]);
+        }
+        let plain = self.buffers.root.materials.len();
+        let mut used =
+            self.painted.iter().filter(|(_, triangles)| *triangles > 0).map(|(material, _)| *material);
+        let first = used.next().unwrap_or(self.wire_material);
+        geometry.material = self.wire_material.or(first).map(|material| material as u32);
+        if used.any(|material| material != first)
+            || (first != self.wire_material && !geometry.wires.is_empty())
+        {
+            for (material, triangles) in self.painted {
+                let length = geometry.triangle_material.len() + triangles;
+                geometry.triangle_material.resize(length, material.unwrap_or(plain) as u32);
+            }
+        }
+        (geometry, self.bodies)
+    }
+}
+
+/// Puts `more` behind the `start` elements that `all` should have by now, filling up what is
+/// missing. Nothing is copied where `all` is still empty.
+fn append_or_take<T: Copy>(all: &mut Vec<T>, start: usize, more: Vec<T>, filler: T) {
+    if more.is_empty() {
+        return;
+    }
+    if start == 0 {
+        *all = more;
+    } else {
+        all.resize(start, filler);
+        all.extend(more);
+    }
+}
+
+/// Puts `more` behind what arrays should have by now, for arrays that are empty as long as nothing is known,
+/// and else must stay as long as there are triangles.
+fn pad_after<T: Copy>(all: &mut Vec<T>, start: usize, more: Vec<T>, count: usize, filler: T) {
+    append_or_take(all, start, more, filler);
+    if !all.is_empty() {
+        all.resize(start + count, filler);
+    }
+}

@@ -1,0 +1,250 @@
+//! [`Hierarchy`]: which nodes are shown, in which order, and where each stands in the world.
+
+use glam::{DAffine3, DMat3, DQuat, DVec3};
+use serde_json::Value;
+
+use crate::animation::rig::{self, Placement};
+use crate::animation::track::unit_quaternion;
+use crate::animation::{Clip, Property};
+use crate::error::Error;
+use crate::load::gltf::json::{Node, Root};
+use crate::scene::Warnings;
+
+/// The nodes of a file, worked out without recursion, so that a chain of any depth is fine.
+#[derive(Debug)]
+pub struct Hierarchy {
+    /// World transform of every node, shown or not: joints of skins may lie outside the scene.
+    pub world: Vec<DAffine3>,
+    /// The nodes of the scene that is drawn, each once, depth first; with clips also what these show at some time.
+    pub shown: Vec<usize>,
+    /// All nodes at rest, and their numbers, parents first.
+    pub rest: Vec<rig::Node>,
+    pub order: Vec<usize>,
+}
+
+impl Hierarchy {
+    /// Works out the nodes of the default scene; of the first one if none is the default; of all
+    /// nodes without a parent if the file has no scene.
+    pub fn new(root: &Root, warnings: &mut Warnings) -> Result<Self, Error> {
+        let parents = parents(&root.nodes, warnings)?;
+        let rest: Vec<rig::Node> = (root.nodes.iter().zip(&parents).enumerate())
+            .map(|(index, (node, parent))| rig::Node {
+                name: name(root, index),
+                leaves_lines: node.extras.get("motion").and_then(Value::as_bool).unwrap_or(false),
+                parent: *parent,
+                rest: placement(node, index, warnings),
+                weights: weights(root, node),
+                visible: is_visible(index, node),
+            })
+            .collect();
+        let (world, order) = world_transforms(&root.nodes, &rest)?;
+        let shown = shown(root, &rest, is_visible)?;
+        if root.scenes.len() > 1 {
+            let number = root.scene.unwrap_or(0);
+            warnings.note(format!("scene {number} of {} is drawn", root.scenes.len()));
+        }
+        Ok(Self { world, shown, rest, order })
+    }
+
+    /// Shows also what is hidden at rest and clips show at some time.
+    pub fn wake(&mut self, root: &Root, clips: &[Clip]) -> Result<(), Error> {
+        let mut wakes = vec![false; root.nodes.len()];
+        for channel in clips.iter().flat_map(|clip| &clip.channels) {
+            let Some((node, Property::Visible)) = channel.target.of_node() else { continue };
+            if let Some(own) = wakes.get_mut(node) {
+                let times = channel.track.times().iter();
+                *own |=
+                    times.into_iter().any(|time| channel.track.at(*time).iter().any(|value| *value != 0.0));
+            }
+        }
+        if self.rest.iter().zip(&wakes).any(|(node, wakes)| *wakes && !node.visible) {
+            self.shown = shown(root, &self.rest, |index, node| {
+                is_visible(index, node) || wakes.get(index).copied().unwrap_or(false)
+            })?;
+        }
+        Ok(())
+    }
+}
+
+/// The nodes of the scene that is drawn, each once, depth first, but for those that are not visible and what hangs on them.
+fn shown(
+    root: &Root,
+    rest: &[rig::Node],
+    is_visible: impl Fn(usize, &Node) -> bool,
+) -> Result<Vec<usize>, Error> {
+    let number = root.scene.unwrap_or(0);
+    let tops = match root.scenes.get(number) {
+        Some(scene) => scene.nodes.clone(),
+        None if root.scene.is_some() => {
+            let message = format!("is the default scene, but the file has {}", root.scenes.len());
+            return Err(Error::new(message).at(format!("scene {number}")));
+        }
+        None => (rest.iter().enumerate())
+            .filter(|(_, node)| node.parent.is_none())
+            .map(|(index, _)| index)
+            .collect(),
+    };
+    let mut shown = Vec::new();
+    let mut met = vec![false; root.nodes.len()];
+    let mut waiting: Vec<usize> = tops.into_iter().rev().collect();
+    while let Some(index) = waiting.pop() {
+        let Some((node, met)) = root.nodes.get(index).zip(met.get_mut(index)) else {
+            let message = format!("points to node {index}, but the file has {}", root.nodes.len());
+            return Err(Error::new(message).at(format!("scene {number}")));
+        };
+        if !std::mem::replace(met, true) && is_visible(index, node) {
+            shown.push(index);
+            waiting.extend(node.children.iter().rev());
+        }
+    }
+    Ok(shown)
+}
+
+/// The parent of each node.
+fn parents(nodes: &[Node], warnings: &mut Warnings) -> Result<Vec<Option<usize>>, Error> {
+    let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
+    for (index, node) in nodes.iter().enumerate() {
+        for &child in &node.children {
+            let Some(parent) = parents.get_mut(child) else {
+                let message = format!("has node {child} as a child, but the file has {}", nodes.len());
+                return Err(Error::new(message).at(format!("node {index}")));
+            };
+            match parent {
+                None => *parent = Some(index),
+                Some(_) => warnings.count("nodes with more than one parent, drawn under the first", 1),
+            }
+        }
+    }
+    Ok(parents)
+}
+
+/// World transforms, each worked out once its parent's is known, and in which order that is; what is never reached lies in a
+/// cycle.
+fn world_transforms(nodes: &[Node], rest: &[rig::Node]) -> Result<(Vec<DAffine3>, Vec<usize>), Error> {
+    let mut world = vec![None; nodes.len()];
+    let mut order = Vec::with_capacity(nodes.len());
+    let parent = |node: usize| rest.get(node).and_then(|node| node.parent);
+    let mut ready: Vec<usize> = (0..nodes.len()).filter(|node| parent(*node).is_none()).collect();
+    while let Some(index) = ready.pop() {
+        // A child that is listed twice by its parent comes here twice.
+        let Some(node) = nodes.get(index).filter(|_| matches!(world.get(index), Some(None))) else {
+            continue;
+        };
+        let above = parent(index).and_then(|parent| world.get(parent).copied().flatten());
+        let own = rest.get(index).map_or(DAffine3::IDENTITY, |node| node.rest.transform());
+        let place = above.unwrap_or(DAffine3::IDENTITY) * own;
+        if !place.is_finite() {
+            return Err(Error::new("its transform is not finite").at(format!("node {index}")));
+        }
+        if let Some(slot) = world.get_mut(index) {
+            *slot = Some(place);
+        }
+        order.push(index);
+        ready.extend(node.children.iter().filter(|child| parent(**child) == Some(index)));
+    }
+    let placed: Vec<DAffine3> = world.iter().copied().flatten().collect();
+    if placed.len() < nodes.len() {
+        let lost = world.iter().position(Option::is_none).unwrap_or_default();
+        return Err(Error::new("it is its own ancestor; the nodes form a cycle")
+            .at(format!("node {lost}"))
+            .remedy("export the model again"));
+    }
+    Ok((placed, order))
+}
+
+fn is_visible(_: usize, node: &Node) -> bool {
+    node.extensions.visibility.as_ref().and_then(|v| v.visible).unwrap_or(true)
+}
+
+/// How much of each morph target a node's mesh has, one for each that any of its primitives has.
+fn weights(root: &Root, node: &Node) -> Vec<f64> {
+    let Some(mesh) = node.mesh.and_then(|mesh| root.meshes.get(mesh)) else { return Vec::new() };
+    let mut weights = node.weights.as_ref().unwrap_or(&mesh.weights).clone();
+    let targets = mesh.primitives.iter().map(|primitive| primitive.targets.len()).max().unwrap_or(0);
+    weights.resize(targets.max(weights.len()), 0.0);
+    weights
+}
+
+fn placement(node: &Node, index: usize, warnings: &mut Warnings) -> Placement {
+    if let Some(m) = node.matrix {
+        let [a, b, c, _, d, e, f, _, g, h, i, _, x, y, z, _] = m;
+        return Placement::Matrix(DAffine3::from_mat3_translation(
+            DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]),
+            DVec3::new(x, y, z),
+        ));
+    }
+    let rotation = node.rotation.map_or(DQuat::IDENTITY, |quaternion| {
+        unit_quaternion(quaternion).unwrap_or_else(|| {
+            warnings.note(format!("node {index}: its rotation is not a unit quaternion and is ignored"));
+            DQuat::IDENTITY
+        })
+    });
+    Placement::Parts {
+        scale: node.scale.map_or(DVec3::ONE, DVec3::from_array),
+        rotation,
+        translation: node.translation.map_or(DVec3::ZERO, DVec3::from_array),
+    }
+}
+
+/// The name a node is known by: its own, its mesh's, or its number.
+pub fn name(root: &Root, index: usize) -> String {
+    let node = root.nodes.get(index);
+    let mesh = node.and_then(|node| node.mesh).and_then(|mesh| root.meshes.get(mesh));
+    let named = |name: &Option<String>| name.clone().filter(|name| !name.is_empty());
+    node.and_then(|node| named(&node.name))
+        .or_else(|| mesh.and_then(|mesh| named(&mesh.name)))
+        .unwrap_or_else(|| format!("node {index}"))
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    fn hierarchy(json: &str) -> Result<(Hierarchy, Warnings), Error> {
+        let root: Root = serde_json::from_str(json).unwrap();
+        let mut warnings = Warnings::default();
+        Hierarchy::new(&root, &mut warnings).map(|hierarchy| (hierarchy, warnings))
+    }
+
+    #[test]
+    fn transforms_multiply_down_the_tree() {
+        let json = r#"{"scenes":[{"nodes":[0]}],"nodes":[
+            {"children":[1],"scale":[2,2,2],"translation":[1,0,0]},
+            {"matrix":[0,1,0,0, -1,0,0,0, 0,0,1,0, 0,3,0,1]}, {}]}"#;
+        let (hierarchy, warnings) = hierarchy(json).unwrap();
+        assert_eq!(hierarchy.shown, [0, 1]);
+        assert_eq!(hierarchy.world[1].transform_point3(DVec3::X), DVec3::new(1.0, 8.0, 0.0));
+        assert!(warnings.is_empty());
+    }
+
+    #[test]
+    fn cycles_are_refused_wherever_they_are() {
+        let json = r#"{"scenes":[{"nodes":[0]}],"nodes":[{},{"children":[2]},{"children":[1]}]}"#;
+        assert!(hierarchy(json).unwrap_err().to_string().contains("cycle"));
+        let json = r#"{"nodes":[{"children":[0]}]}"#;
+        assert!(hierarchy(json).unwrap_err().to_string().contains("node 0"));
+    }
+
+    #[test]
+    fn scenes_are_chosen() {
+        let nodes = r#""nodes":[{"children":[2]},{},{}]"#;
+        let shown = |head: &str| hierarchy(&format!("{{{head}{nodes}}}")).unwrap().0.shown;
+        assert_eq!(shown(""), [0, 2, 1]);
+        assert_eq!(shown(r#""scene":1,"scenes":[{"nodes":[0]},{"nodes":[1]}],"#), [1]);
+        assert_eq!(shown(r#""scenes":[{"nodes":[0]},{"nodes":[1]}],"#), [0, 2]);
+        assert!(hierarchy(r#"{"scene":3,"scenes":[{}]}"#).is_err());
+        assert!(hierarchy(r#"{"scenes":[{"nodes":[7]}]}"#).is_err());
+    }
+
+    #[test]
+    fn odd_nodes_are_drawn_with_a_warning() {
+        let json = r#"{"nodes":[{"rotation":[0,0,0,0]},{"children":[3]},{"children":[3,3]},{}]}"#;
+        let (hierarchy, warnings) = hierarchy(json).unwrap();
+        assert_eq!(hierarchy.shown, [0, 1, 3, 2]);
+        assert_eq!(warnings.lines().len(), 2);
+        let json =
+            r#"{"nodes":[{"extensions":{"KHR_node_visibility":{"visible":false}},"children":[1]},{}]}"#;
+        assert!(super::tests::hierarchy(json).unwrap().0.shown.is_empty());
+    }
+}

@@ -1,0 +1,341 @@
+//! Reads accessors: every count, offset and stride is checked before memory is asked for.
+
+use super::buffers::Buffers;
+use crate::error::Error;
+use crate::load::gltf::json;
+use crate::load::gltf::json::lenient_index::Shown;
+
+/// Type of one component of an element.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Component {
+    I8,
+    U8,
+    I16,
+    U16,
+    U32,
+    F32,
+}
+
+impl Component {
+    fn new(code: u32) -> Result<Self, Error> {
+        Ok(match code {
+            5120 => Self::I8,
+            5121 => Self::U8,
+            5122 => Self::I16,
+            5123 => Self::U16,
+            5125 => Self::U32,
+            5126 => Self::F32,
+            _ => return Err(Error::new(format!("componentType {code} is not defined in glTF"))),
+        })
+    }
+
+    fn size(self) -> usize {
+        match self {
+            Self::I8 | Self::U8 => 1,
+            Self::I16 | Self::U16 => 2,
+            Self::U32 | Self::F32 => 4,
+        }
+    }
+
+    /// The largest value of a type of indices, which ends a strip.
+    fn restart(self) -> Result<u32, Error> {
+        match self {
+            Self::U8 => Ok(u32::from(u8::MAX)),
+            Self::U16 => Ok(u32::from(u16::MAX)),
+            Self::U32 => Ok(u32::MAX),
+            other => Err(Error::new(format!("indices must be whole numbers without sign, not {other:?}"))),
+        }
+    }
+}
+
+/// The bytes of `count` elements, `stride` apart; no bytes at all stand for zeros.
+#[derive(Debug, Clone, Copy)]
+struct Elements<'a> {
+    bytes: Option<&'a [u8]>,
+    stride: usize,
+    count: usize,
+    component: Component,
+    normalized: bool,
+}
+
+/// Indices as read.
+#[derive(Debug, Clone)]
+pub struct Indices {
+    /// The indices.
+    pub values: Vec<u32>,
+    /// The largest value of their type, which ends a strip.
+    pub restart: u32,
+}
+
+impl Buffers<'_> {
+    fn accessor(&self, index: usize) -> Result<&json::Accessor, Error> {
+        self.root.accessors.get(index).ok_or_else(|| {
+            let count = self.root.accessors.len();
+            Error::new(format!("is pointed to, but the file has {count}"))
+                .at(format!("accessor {}", Shown(index)))
+        })
+    }
+
+    /// How many components an element has, 4 for `VEC4`.
+    pub fn lanes(&self, index: usize) -> Result<usize, Error> {
+        let accessor = self.accessor(index)?;
+        lanes(&accessor.shape).map_err(|error| error.at(format!("accessor {index}")))
+    }
+
+    /// How many elements an accessor announces, unchecked.
+    #[cfg(feature = "draco")]
+    pub fn announced(&self, index: usize) -> Option<usize> {
+        self.root.accessors.get(index).map(|accessor| accessor.count)
+    }
+
+    /// Whether the bytes of an accessor are stored in a view, not in a compressed stream.
+    pub fn is_stored(&self, index: usize) -> bool {
+        self.root.accessors.get(index).is_some_and(|accessor| accessor.buffer_view.is_some())
+    }
+
+    /// Elements of `N` components, made into whatever the caller wants.
+    pub fn read<const N: usize, R: Clone>(
+        &self,
+        index: usize,
+        make: impl Fn([f64; N]) -> R + Copy,
+    ) -> Result<Vec<R>, Error> {
+        let place = |error: Error| error.within(format!("accessor {index}"));
+        let accessor = self.accessor(index)?;
+        let found = self.lanes(index)?;
+        if found != N {
+            let message = format!("it has {} components per element, but {N} are needed", accessor.shape);
+            return Err(place(Error::new(message)));
+        }
+        let elements = self.elements(accessor, N).map_err(place)?;
+        let mut values = elements.collect(make);
+        if let Some(sparse) = &accessor.sparse {
+            self.patch(&mut values, sparse, elements, make).map_err(place)?;
+        }
+        Ok(values)
+    }
+
+    /// The step of the values of an accessor that are stored as whole numbers; 0 for floating-point numbers.
+    pub fn step(&self, index: usize) -> f64 {
+        let Ok(accessor) = self.accessor(index) else { return 0.0 };
+        let largest = match Component::new(accessor.component_type) {
+            Ok(Component::I8) => f64::from(i8::MAX),
+            Ok(Component::U8) => f64::from(u8::MAX),
+            Ok(Component::I16) => f64::from(i16::MAX),
+            Ok(Component::U16) => f64::from(u16::MAX),
+            Ok(Component::U32) => f64::from(u32::MAX),
+            Ok(Component::F32) | Err(_) => return 0.0,
+        };
+        if accessor.normalized { 1.0 / largest } else { 1.0 }
+    }
+
+    /// Indices of a primitive.
+    pub fn indices(&self, index: usize) -> Result<Indices, Error> {
+        let place = |error: Error| error.within(format!("accessor {index}"));
+        let accessor = self.accessor(index)?;
+        if accessor.shape != "SCALAR" {
+            return Err(place(Error::new(format!("indices must be SCALAR, not {}", accessor.shape))));
+        }
+        let restart = Component::new(accessor.component_type).and_then(Component::restart).map_err(place)?;
+        if accessor.sparse.is_some() {
+            let values = self.read(index, |[value]: [f64; 1]| value as u32)?;
+            return Ok(Indices { values, restart });
+        }
+        let elements = self.elements(accessor, 1).map_err(place)?;
+        elements.whole_numbers().map_err(place)
+    }
+
+    /// Plain bytes, one a scalar: the bit fields of some extensions, which are no fractions whatever the file says.
+    pub fn bytes(&self, index: usize) -> Result<Vec<u8>, Error> {
+        let accessor = self.accessor(index)?;
+        if Component::new(accessor.component_type).is_ok_and(|component| component != Component::U8) {
+            let message =
+                format!("bits are stored in unsigned bytes, not componentType {}", accessor.component_type);
+            return Err(Error::new(message).at(format!("accessor {index}")));
+        }
+        if accessor.normalized {
+            return self.read(index, |[value]: [f64; 1]| (value * 255.0).round() as u8);
+        }
+        self.read(index, |[value]: [f64; 1]| value as u8)
+    }
+
+    fn elements(&self, accessor: &json::Accessor, lanes: usize) -> Result<Elements<'_>, Error> {
+        let component = Component::new(accessor.component_type)?;
+        let size = lanes * component.size();
+        let mut elements = Elements {
+            bytes: None,
+            stride: size,
+            count: accessor.count,
+            component,
+            normalized: accessor.normalized,
+        };
+        let Some(view) = accessor.buffer_view else {
+            // Zeros cost the file nothing, so their number is held to what else it holds.
+            if accessor.count > self.total().max(1 << 16) {
+                let message = format!("it has {} elements without data", accessor.count);
+                return Err(Error::new(message));
+            }
+            return Ok(elements);
+        };
+        let (bytes, stride) = self.view(view)?;
+        elements.stride = stride.unwrap_or(size);
+        elements.bytes = Some(elements.within(bytes, accessor.byte_offset, size).map_err(|message| {
+            Error::new(format!("{message} in bufferView {view} of {} bytes", bytes.len()))
+        })?);
+        Ok(elements)
+    }
+
+    fn patch<const N: usize, R: Clone>(
+        &self,
+        values: &mut [R],
+        sparse: &json::Sparse,
+        like: Elements,
+        make: impl Fn([f64; N]) -> R,
+    ) -> Result<(), Error> {
+        let part = |view: usize, offset: usize, component: Component, lanes: usize, normalized: bool| {
+            let (bytes, _) = self.view(view)?;
+            let stride = lanes * component.size();
+            let mut part = Elements { bytes: None, stride, count: sparse.count, component, normalized };
+            part.bytes = Some(part.within(bytes, offset, stride).map_err(|message| {
+                Error::new(format!("sparse: {message} in bufferView {view} of {} bytes", bytes.len()))
+            })?);
+            Ok::<_, Error>(part)
+        };
+        let places = Component::new(sparse.indices.component_type)?;
+        let places = part(sparse.indices.buffer_view, sparse.indices.byte_offset, places, 1, false)?;
+        let changed =
+            part(sparse.values.buffer_view, sparse.values.byte_offset, like.component, N, like.normalized)?;
+        let count = values.len();
+        for (place, value) in places.whole_numbers()?.values.into_iter().zip(changed.collect(make)) {
+            match values.get_mut(place as usize) {
+                Some(old) => *old = value,
+                None => {
+                    let message = format!("sparse index {place} is out of range, there are {count} elements");
+                    return Err(Error::new(message));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+impl<'a> Elements<'a> {
+    /// The part of a view these elements lie in, or what does not fit.
+    fn within(&self, bytes: &'a [u8], offset: usize, size: usize) -> Result<&'a [u8], String> {
+        if self.count == 0 {
+            return Ok(&[]);
+        }
+        if self.stride < size {
+            return Err(format!("elements of {size} bytes do not fit into the stride {}", self.stride));
+        }
+        let end = (self.count - 1).checked_mul(self.stride).and_then(|last| last.checked_add(size));
+        let end = end.and_then(|length| length.checked_add(offset));
+        end.and_then(|end| bytes.get(offset..end)).ok_or_else(|| {
+            format!("{} elements of {size} bytes from byte {offset} on do not fit", self.count)
+        })
+    }
+
+    /// All elements; the kind of number is looked at once, not for each of them.
+    fn collect<const N: usize, R: Clone>(&self, make: impl Fn([f64; N]) -> R) -> Vec<R> {
+        let Some(bytes) = self.bytes else {
+            return vec![make([0.0; N]); self.count];
+        };
+        let stride = self.stride;
+        match (self.component, self.normalized) {
+            (Component::F32, _) => gather(bytes, stride, |b: [u8; 4]| f64::from(f32::from_le_bytes(b)), make),
+            (Component::U32, false) => {
+                gather(bytes, stride, |b: [u8; 4]| f64::from(u32::from_le_bytes(b)), make)
+            }
+            (Component::U16, false) => {
+                gather(bytes, stride, |b: [u8; 2]| f64::from(u16::from_le_bytes(b)), make)
+            }
+            (Component::I16, false) => {
+                gather(bytes, stride, |b: [u8; 2]| f64::from(i16::from_le_bytes(b)), make)
+            }
+            (Component::U8, false) => gather(bytes, stride, |[b]: [u8; 1]| f64::from(b), make),
+            (Component::I8, false) => {
+                gather(bytes, stride, |b: [u8; 1]| f64::from(i8::from_le_bytes(b)), make)
+            }
+            (Component::U32, true) => {
+                gather(bytes, stride, |b: [u8; 4]| f64::from(u32::from_le_bytes(b)) / 4_294_967_295.0, make)
+            }
+            (Component::U16, true) => {
+                gather(bytes, stride, |b: [u8; 2]| f64::from(u16::from_le_bytes(b)) / 65535.0, make)
+            }
+            (Component::I16, true) => gather(
+                bytes,
+                stride,
+                |b: [u8; 2]| (f64::from(i16::from_le_bytes(b)) / 32767.0).max(-1.0),
+                make,
+            ),
+            (Component::U8, true) => gather(bytes, stride, |[b]: [u8; 1]| f64::from(b) / 255.0, make),
+            (Component::I8, true) => {
+                gather(bytes, stride, |b: [u8; 1]| (f64::from(i8::from_le_bytes(b)) / 127.0).max(-1.0), make)
+            }
+        }
+    }
+
+    fn whole_numbers(&self) -> Result<Indices, Error> {
+        let restart = self.component.restart()?;
+        let Some(bytes) = self.bytes else {
+            return Ok(Indices { values: vec![0; self.count], restart });
+        };
+        let size = self.component.size();
+        let values = match self.component {
+            Component::U32 if self.stride == size => {
+                bytes.as_chunks().0.iter().map(|b| u32::from_le_bytes(*b)).collect()
+            }
+            Component::U16 if self.stride == size => {
+                bytes.as_chunks().0.iter().map(|b| u32::from(u16::from_le_bytes(*b))).collect()
+            }
+            Component::U32 => bytes
+                .chunks(self.stride)
+                .filter_map(|b| b.first_chunk())
+                .map(|b| u32::from_le_bytes(*b))
+                .collect(),
+            Component::U16 => bytes
+                .chunks(self.stride)
+                .filter_map(|b| b.first_chunk())
+                .map(|b| u32::from(u16::from_le_bytes(*b)))
+                .collect(),
+            _ => bytes.iter().step_by(self.stride.max(1)).map(|b| u32::from(*b)).collect(),
+        };
+        Ok(Indices { values, restart })
+    }
+}
+
+/// Elements of `N` components of `S` bytes each; `bytes` ends with the last element.
+fn gather<const N: usize, const S: usize, R>(
+    bytes: &[u8],
+    stride: usize,
+    decode: impl Fn([u8; S]) -> f64,
+    make: impl Fn([f64; N]) -> R,
+) -> Vec<R> {
+    let element = |chunk: &[u8]| {
+        let chunk = chunk.get(..N * S).unwrap_or_default();
+        let (lanes, _) = chunk.as_chunks::<S>();
+        make(std::array::from_fn(|lane| lanes.get(lane).map_or(0.0, |b| decode(*b))))
+    };
+    if stride == N * S {
+        // The usual case, in which the length of a chunk is known to the compiler.
+        bytes.chunks_exact(N * S).map(element).collect()
+    } else {
+        bytes.chunks(stride.max(1)).map(element).collect()
+    }
+}
+
+fn lanes(shape: &str) -> Result<usize, Error> {
+    Ok(match shape {
+        "SCALAR" => 1,
+        "VEC2" => 2,
+        "VEC3" => 3,
+        "VEC4" | "MAT2" => 4,
+        "MAT3" => 9,
+        "MAT4" => 16,
+        _ => {
+            return Err(Error::new(format!(
+                "type `{}` is not defined in glTF",
+                crate::load::gltf::uri::shown(shape)
+            )));
+        }
+    })
+}

@@ -1,0 +1,384 @@
+//! The statements of an OBJ file as flat arrays, in one pass over its bytes.
+//!
+//! 1. [`plain_statements`] recognises statements of plain numbers, the bulk of large files.
+//! 2. [`parallel_parse`] reads long runs of them on several threads, ahead of the parser.
+//! 3. The parser takes each such run as a whole and reads all other statements itself: [`face_statements`]
+//!    for `f` and `l`, [`lenient_numbers`] for numbers in unusual notation.
+
+mod face_statements;
+mod lenient_numbers;
+mod parallel_parse;
+mod plain_statements;
+
+use std::ops::Range;
+
+use glam::DVec3;
+use parallel_parse::{Ahead, Read, Run};
+pub(crate) use plain_statements::NONE;
+use plain_statements::{Corner, NO_CORNER, plain_position};
+
+use crate::error::Error;
+use crate::load::polygons::added_diagonals::Diagonals;
+use crate::load::shown;
+use crate::load::text_cursor::Cursor;
+use crate::mesh::EdgeMark;
+use crate::scene::extent::coordinate_limits::is_drawable;
+use crate::scene::warnings::{Spots, Warnings};
+
+/// Triangles and wires that follow one another in the same part with the same material.
+#[derive(Debug, Clone)]
+pub(crate) struct FaceGroup {
+    /// Index into `objects`.
+    pub object: usize,
+    /// Index into `materials`, if `usemtl` came before.
+    pub material: Option<usize>,
+    /// Its triangles.
+    pub triangles: Range<usize>,
+    /// Its wires.
+    pub wires: Range<usize>,
+}
+
+/// An `o`, a `g`, or what came before both.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Object<'a> {
+    Unnamed,
+    Named(&'a [u8]),
+}
+
+/// All that an OBJ file says, with polygons cut into triangles.
+#[derive(Default)]
+pub(crate) struct Statements<'a> {
+    pub positions: Vec<DVec3>,
+    /// Colours of the first vertices, or of none.
+    pub colours: Vec<[f32; 3]>,
+    pub uvs: Vec<[f32; 2]>,
+    pub normals: Vec<[f32; 3]>,
+    pub triangles: Vec<[u32; 3]>,
+    /// As long as `triangles` or shorter: the rest has none.
+    pub corner_uvs: Vec<[u32; 3]>,
+    pub corner_normals: Vec<[u32; 3]>,
+    /// As long as `triangles` or shorter: the rest is unmarked.
+    pub edge_marks: Vec<[EdgeMark; 3]>,
+    pub wires: Vec<[u32; 2]>,
+    pub runs: Vec<FaceGroup>,
+    pub objects: Vec<Object<'a>>,
+    /// Names of `usemtl`, each once, in order of first use.
+    pub materials: Vec<&'a [u8]>,
+    pub libraries: Vec<&'a [u8]>,
+    /// Whether there are positions that cannot be drawn.
+    pub has_bad_positions: bool,
+    /// Vertices of which only x and y are written.
+    flat_vertices: usize,
+    pub warnings: Warnings,
+}
+
+/// What stopped the parser.
+enum Stop {
+    Error(Error),
+    /// A face before its vertices.
+    FaceFirst,
+}
+
+impl From<Error> for Stop {
+    fn from(error: Error) -> Self {
+        Self::Error(error)
+    }
+}
+
+impl<'a> Statements<'a> {
+    /// Parses the file.
+    pub fn parse(bytes: &'a [u8]) -> Result<Self, Error> {
+        let statements = Self::parse_as(bytes, false)?;
+        // A drawing in the plane: no vertex has a z.
+        if statements.flat_vertices > 0 && statements.flat_vertices == statements.positions.len() {
+            return Self::parse_as(bytes, true);
+        }
+        Ok(statements)
+    }
+
+    /// Parses the file; `is_flat` if a vertex of two coordinates lies in the plane z = 0.
+    fn parse_as(bytes: &'a [u8], is_flat: bool) -> Result<Self, Error> {
+        let parser = |positions| Parser { is_flat, ..Parser::new(bytes, positions) };
+        match parser(Vec::new()).run() {
+            Ok(statements) => Ok(statements),
+            Err(Stop::Error(error)) => Err(error),
+            Err(Stop::FaceFirst) => {
+                // Some writers put the faces first; cutting polygons needs all positions by then.
+                let mut first = parser(Vec::new());
+                first.only_vertices = true;
+                let vertices = first.run().map_err(Stop::into_error)?;
+                parser(vertices.positions).run().map_err(Stop::into_error)
+            }
+        }
+    }
+}
+
+impl Stop {
+    fn into_error(self) -> Error {
+        match self {
+            Self::Error(error) => error,
+            Self::FaceFirst => Error::new("a face uses a vertex that is not in the file"),
+        }
+    }
+}
+
+struct Parser<'a> {
+    cursor: Cursor<'a>,
+    ahead: Ahead,
+    out: Statements<'a>,
+    /// Positions read so far; fewer than `out.positions` in a second pass.
+    position_count: usize,
+    second_pass: bool,
+    only_vertices: bool,
+    /// Whether vertices of two coordinates lie in the plane z = 0.
+    is_flat: bool,
+    corners: Vec<Corner>,
+    points: Vec<DVec3>,
+    cut: Vec<[u32; 3]>,
+    diagonals: Diagonals,
+    has_objects: bool,
+    object: usize,
+    material: Option<usize>,
+    groups: rustc_hash::FxHashMap<&'a [u8], usize>,
+    material_ids: rustc_hash::FxHashMap<&'a [u8], usize>,
+    /// Faces and lines left out because of a corner without a place.
+    unusable: [u64; 2],
+    too_short: u64,
+    points_passed: u64,
+    not_understood: u64,
+    odd_numbers: Spots,
+    /// Vertices with a coordinate that cannot be read or drawn.
+    unplaced: Spots,
+    /// Whether the vertex at hand is one.
+    is_unplaced: bool,
+}
+
+impl<'a> Parser<'a> {
+    fn new(bytes: &'a [u8], positions: Vec<DVec3>) -> Self {
+        let second_pass = !positions.is_empty();
+        let objects = vec![Object::Unnamed];
+        Self {
+            cursor: Cursor::new(bytes),
+            ahead: Ahead::of(bytes),
+            out: Statements { positions, objects, ..Statements::default() },
+            position_count: 0,
+            second_pass,
+            only_vertices: false,
+            is_flat: false,
+            corners: Vec::new(),
+            points: Vec::new(),
+            cut: Vec::new(),
+            diagonals: Diagonals::default(),
+            has_objects: false,
+            object: 0,
+            material: None,
+            groups: Default::default(),
+            material_ids: Default::default(),
+            unusable: [0; 2],
+            too_short: 0,
+            points_passed: 0,
+            not_understood: 0,
+            odd_numbers: Spots::default(),
+            unplaced: Spots::default(),
+            is_unplaced: false,
+        }
+    }
+
+    fn run(mut self) -> Result<Statements<'a>, Stop> {
+        self.out.has_bad_positions = self.out.positions.iter().any(|&p| !is_drawable(p));
+        while !self.cursor.at_end() {
+            if let Some(run) = self.ahead.take(self.cursor.bytes, self.cursor.at) {
+                self.add_run(run);
+            }
+            let c = &mut self.cursor;
+            match (c.peek(), c.peek_on(1)) {
+                (b'v', b' ' | b'\t') => {
+                    c.at += 2;
+                    self.position();
+                }
+                (b'f', b' ' | b'\t') if !self.only_vertices => {
+                    c.at += 2;
+                    self.face()?;
+                }
+                (b' ' | b'\t' | b'\n' | b'\r' | b'\\', _) => c.at += 1,
+                _ => self.other()?,
+            }
+        }
+        self.close_run();
+        let Self { mut out, unusable, too_short, points_passed, not_understood, odd_numbers, .. } = self;
+        let (is_flat, unplaced) = (self.is_flat, self.unplaced);
+        if let Some(vertices) = unplaced.sentence() {
+            out.warnings.note(format!("{vertices}; {}", lenient_numbers::left_out(unusable)));
+        }
+        if is_flat {
+            out.warnings.note("no vertex has a z coordinate; all are drawn at z = 0");
+        }
+        out.warnings.count("faces or lines left out, with too few corners", too_short);
+        out.warnings.count("points left out", points_passed);
+        out.warnings.count("lines left out that are not OBJ statements", not_understood);
+        odd_numbers.warn(&mut out.warnings);
+        Ok(out)
+    }
+
+    /// Adds what was read ahead, and goes on behind it; stays where it does not hold with what was before.
+    fn add_run(&mut self, Run { end, read, .. }: Run) {
+        match read {
+            Read::Positions(points) => {
+                self.position_count += points.len();
+                if !self.second_pass {
+                    self.out.positions.extend(points);
+                }
+            }
+            Read::Uvs(uvs) => self.out.uvs.extend(uvs),
+            Read::Normals(normals) => self.out.normals.extend(normals),
+            Read::Triangles(..) | Read::Faces(..) if self.only_vertices => {}
+            Read::Triangles(_, largest) | Read::Faces(_, largest)
+                if self.out.has_bad_positions || largest as usize >= self.position_count =>
+            {
+                return;
+            }
+            Read::Triangles(triangles, _) => self.out.triangles.extend(triangles),
+            Read::Faces(faces, _) => {
+                for face in faces {
+                    self.corners.clear();
+                    self.corners.extend(face.into_iter().filter(|corner| *corner != NO_CORNER));
+                    self.cut_corners();
+                }
+            }
+        }
+        self.cursor.at = end;
+    }
+
+    /// The less frequent statements.
+    fn other(&mut self) -> Result<(), Stop> {
+        let start = self.cursor.at;
+        let keyword = self.cursor.word();
+        match keyword {
+            b"vt" => {
+                let u = self.number();
+                self.cursor.skip_blanks();
+                let v = if self.cursor.at_line_end() { 0.0 } else { self.number() };
+                self.out.uvs.push([u as f32, v as f32]);
+                self.pass_line();
+            }
+            b"vn" => {
+                let normal = [self.number(), self.number(), self.number()].map(|n| n as f32);
+                self.out.normals.push(normal);
+                self.pass_line();
+            }
+            b"v" => self.position(),
+            b"f" if !self.only_vertices => self.face()?,
+            b"l" if !self.only_vertices => self.line()?,
+            b"p" => {
+                self.points_passed += 1;
+                self.pass_line();
+            }
+            b"o" => {
+                let name = self.cursor.rest_of_line();
+                if !self.has_objects {
+                    // Groups inside objects are finer than parts.
+                    self.groups.clear();
+                    self.has_objects = true;
+                }
+                self.begin_object(name);
+            }
+            b"g" => {
+                let name = self.cursor.rest_of_line();
+                if self.has_objects {
+                    return Ok(());
+                }
+                self.close_run();
+                match self.groups.get(name) {
+                    Some(&object) => self.object = object,
+                    None => {
+                        self.begin_object(name);
+                        self.groups.insert(name, self.object);
+                    }
+                }
+            }
+            b"usemtl" => {
+                let name = self.cursor.rest_of_line();
+                self.close_run();
+                let next = self.out.materials.len();
+                let id = *self.material_ids.entry(name).or_insert(next);
+                if id == next {
+                    self.out.materials.push(name);
+                }
+                self.material = Some(id);
+            }
+            b"mtllib" => {
+                let name = self.cursor.rest_of_line();
+                self.out.libraries.push(name);
+            }
+            _ => {
+                let known = keyword.first().is_some_and(|c| c.is_ascii_alphabetic() || *c == b'#')
+                    && keyword.iter().all(|c| (b' '..=b'~').contains(c));
+                if !known && self.cursor.at > start {
+                    self.not_understood += 1;
+                }
+                if keyword.starts_with(b"#") {
+                    _ = self.cursor.rest_of_line()
+                } else {
+                    self.pass_line()
+                }
+                // A byte that is neither a word nor a blank.
+                if self.cursor.at == start {
+                    self.cursor.at += 1;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn begin_object(&mut self, name: &'a [u8]) {
+        self.close_run();
+        self.object = self.out.objects.len();
+        self.out.objects.push(Object::Named(name));
+    }
+
+    /// Ends the run of triangles and wires before a change of part or material.
+    fn close_run(&mut self) {
+        let (triangles, wires) =
+            self.out.runs.last().map_or((0, 0), |run| (run.triangles.end, run.wires.end));
+        let (triangles, wires) = (triangles..self.out.triangles.len(), wires..self.out.wires.len());
+        if !triangles.is_empty() || !wires.is_empty() {
+            self.out.runs.push(FaceGroup { object: self.object, material: self.material, triangles, wires });
+        }
+    }
+
+    /// Passes the rest of a statement, with the lines that continue it.
+    fn pass_line(&mut self) {
+        while self.cursor.rest_of_line().ends_with(b"\\") && !self.cursor.at_end() {
+            self.cursor.at +=
+                if (self.cursor.peek(), self.cursor.peek_on(1)) == (b'\r', b'\n') { 2 } else { 1 };
+        }
+    }
+
+    /// `v x y z`, with a weight or a colour after it.
+    #[inline]
+    fn position(&mut self) {
+        match plain_position(self.cursor.bytes, self.cursor.at) {
+            Some((point, at)) => {
+                self.cursor.at = at;
+                self.add_position(point);
+            }
+            None => self.any_position(),
+        }
+    }
+
+    #[inline]
+    fn add_position(&mut self, point: DVec3) {
+        self.position_count += 1;
+        if !self.second_pass {
+            self.out.has_bad_positions |= !is_drawable(point);
+            self.out.positions.push(point);
+        }
+    }
+
+    #[cold]
+    fn not_an_index(&self) -> Error {
+        let word = shown(self.cursor.clone().word());
+        Error::new(format!("`{word}` is not the index of a vertex"))
+            .at(format!("line {}", self.cursor.line()))
+    }
+}

@@ -1,0 +1,334 @@
+//! [`Ahead`]: long runs of plain statements, read by several threads before it is their turn.
+//!
+//! Vertices and faces of nothing but numbers are most of any large file, and one says nothing about how to read
+//! another. So the text is cut into blocks at ends of lines, in which such statements are read side by side. The parser
+//! comes by statement for statement; where it stands at the beginning of a run it takes it as it is, and all else it reads itself.
+
+use std::collections::VecDeque;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::plain_statements::{Corner, NO_CORNER, plain_face, plain_position, plain_triangle};
+use crate::load::text_cursor::plain_number;
+use crate::scene::extent::coordinate_limits::is_drawable;
+
+/// Shorter texts are read before other threads have begun.
+const LEAST_TEXT: usize = 1 << 17;
+/// Bytes that one thread reads at a time.
+const BLOCK: usize = 1 << 16;
+/// Blocks that are read at a time, so that little is there twice.
+const BLOCKS: usize = 32;
+/// A block is left to the parser from where it has more than so many other statements, and one for so many plain ones.
+const MOST_OTHERS: usize = 64;
+const PLAIN_OF_OTHERS: usize = 16;
+
+/// Statements of one kind that follow one another.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Run {
+    /// Index of the byte at which the first begins.
+    start: usize,
+    /// Index of the byte at which the line of the last ends.
+    pub end: usize,
+    pub read: Read,
+}
+
+/// What a run says.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Read {
+    /// `v`: places that can be drawn.
+    Positions(Vec<DVec3>),
+    /// `vt`.
+    Uvs(Vec<[f32; 2]>),
+    /// `vn`.
+    Normals(Vec<[f32; 3]>),
+    /// `f` with three bare indices, counted from 0, and the largest of them.
+    Triangles(Vec<[u32; 3]>, u32),
+    /// `f` with three or four corners of which some have more than a place, and the largest index of these. The last of three is
+    /// [`NO_CORNER`].
+    Faces(Vec<[Corner; 4]>, u32),
+}
+
+/// What was read before its turn.
+#[derive(Debug, Default)]
+pub(crate) struct Ahead {
+    /// Runs in the order of the text.
+    runs: VecDeque<Run>,
+    /// Where the next block begins.
+    next: usize,
+    /// Bytes of a block; 0 if nothing is read ahead.
+    block: usize,
+}
+
+impl Ahead {
+    /// For a text that is worth it.
+    pub fn of(bytes: &[u8]) -> Self {
+        let alone = bytes.len() < LEAST_TEXT || rayon_core::current_num_threads() == 1;
+        Self::with_blocks(if alone { 0 } else { BLOCK })
+    }
+
+    /// In blocks of about so many bytes.
+    pub fn with_blocks(block: usize) -> Self {
+        Self { block, ..Self::default() }
+    }
+
+    /// The run that begins at `at`, where a statement begins.
+    #[inline]
+    pub fn take(&mut self, bytes: &[u8], at: usize) -> Option<Run> {
+        if self.block == 0 || (at < self.next && self.runs.front().is_none_or(|run| at < run.start)) {
+            return None;
+        }
+        self.take_there(bytes, at)
+    }
+
+    #[inline(never)]
+    fn take_there(&mut self, bytes: &[u8], at: usize) -> Option<Run> {
+        // What a statement reached into was another statement than it seemed.
+        while self.runs.front().is_some_and(|run| run.start < at) {
+            self.runs.pop_front();
+        }
+        if self.runs.is_empty() && at >= self.next {
+            self.read(bytes, at);
+        }
+        self.runs.pop_front_if(|run| run.start == at)
+    }
+
+    /// Reads the blocks that begin at `at`.
+    fn read(&mut self, bytes: &[u8], at: usize) {
+        let mut starts = vec![at];
+        while let Some(last) = starts.last().copied().filter(|last| *last < bytes.len()) {
+            if starts.len() > BLOCKS {
+                break;
+            }
+            let from = (last + self.block).min(bytes.len());
+            let line = memchr::memchr(b'\n', bytes.get(from..).unwrap_or_default());
+            starts.push(line.map_or(bytes.len(), |length| from + length + 1));
+        }
+        self.next = starts.last().copied().unwrap_or(bytes.len());
+        let blocks: Vec<[usize; 2]> = starts.array_windows().copied().collect();
+        let runs: Vec<Vec<Run>> =
+            blocks.into_par_iter().with_max_len(1).map(|[start, end]| runs(bytes, start, end)).collect();
+        self.runs = runs.into_iter().flatten().collect();
+    }
+}
+
+/// The runs of the lines from one index of a byte up to another.
+fn runs(bytes: &[u8], start: usize, end: usize) -> Vec<Run> {
+    let mut runs: Vec<Run> = Vec::new();
+    let (mut at, mut plain, mut others, mut joins) = (start, 0, 0, false);
+    while at < end {
+        let Some(first) = bytes.get(at) else { break };
+        if matches!(first, b'\n' | b'\r') {
+            at += 1;
+            continue;
+        }
+        let read = match (first, bytes.get(at + 1), bytes.get(at + 2)) {
+            (b'v', Some(b' '), _) => position(bytes, at + 2),
+            (b'f', Some(b' '), _) => face(bytes, at + 2),
+            (b'v', Some(b'n'), Some(b' ')) => normal(bytes, at + 3),
+            (b'v', Some(b't'), Some(b' ')) => uv(bytes, at + 3),
+            _ => None,
+        };
+        let read = read.map(|(one, end)| {
+            let run = runs.last_mut().filter(|_| joins);
+            if !run.is_some_and(|run| run.takes(&one, end)) {
+                runs.push(Run { start: at, end, read: one.into() });
+            }
+            end
+        });
+        joins = read.is_some();
+        at = match read {
+            Some(at) => {
+                plain += 1;
+                at
+            }
+            None => {
+                others += 1;
+                if others > MOST_OTHERS + plain / PLAIN_OF_OTHERS {
+                    break;
+                }
+                let rest = bytes.get(at..).unwrap_or_default();
+                at + memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len())
+            }
+        };
+    }
+    runs
+}
+
+/// What one plain statement says.
+enum One {
+    Position(DVec3),
+    Uv([f32; 2]),
+    Normal([f32; 3]),
+    Triangle([u32; 3]),
+    Face([Corner; 4]),
+}
+
+impl Run {
+    /// Adds a statement that ends at `end`, if it is of the kind of the run.
+    #[inline]
+    fn takes(&mut self, one: &One, end: usize) -> bool {
+        match (&mut self.read, one) {
+            (Read::Positions(all), One::Position(point)) => all.push(*point),
+            (Read::Uvs(all), One::Uv(uv)) => all.push(*uv),
+            (Read::Normals(all), One::Normal(normal)) => all.push(*normal),
+            (Read::Triangles(all, largest), One::Triangle(corners)) => {
+                *largest = corners.iter().fold(*largest, |largest, corner| largest.max(*corner));
+                all.push(*corners);
+            }
+            (Read::Faces(all, largest), One::Face(corners)) => {
+                *largest = largest_of(corners).max(*largest);
+                all.push(*corners);
+            }
+            _ => return false,
+        }
+        self.end = end;
+        true
+    }
+}
+
+impl From<One> for Read {
+    fn from(one: One) -> Self {
+        match one {
+            One::Position(point) => Self::Positions(vec![point]),
+            One::Uv(uv) => Self::Uvs(vec![uv]),
+            One::Normal(normal) => Self::Normals(vec![normal]),
+            One::Triangle(corners @ [a, b, c]) => Self::Triangles(vec![corners], a.max(b).max(c)),
+            One::Face(corners) => Self::Faces(vec![corners], largest_of(&corners)),
+        }
+    }
+}
+
+/// The largest index of a position.
+fn largest_of(corners: &[Corner; 4]) -> u32 {
+    corners.iter().filter(|corner| **corner != NO_CORNER).fold(0, |largest, corner| largest.max(corner[0]))
+}
+
+#[inline]
+fn position(bytes: &[u8], at: usize) -> Option<(One, usize)> {
+    let (point, end) = plain_position(bytes, at).filter(|(point, _)| is_drawable(*point))?;
+    Some((One::Position(point), end))
+}
+
+#[inline]
+fn normal(bytes: &[u8], at: usize) -> Option<(One, usize)> {
+    let (normal, end) = plain_position(bytes, at)?;
+    Some((One::Normal(normal.to_array().map(|n| n as f32)), end))
+}
+
+#[inline]
+fn uv(bytes: &[u8], at: usize) -> Option<(One, usize)> {
+    let (u, at) = plain_number(bytes, at)?;
+    let (v, at) = plain_number(bytes, at + 1).filter(|_| bytes.get(at) == Some(&b' '))?;
+    matches!(bytes.get(at)?, b'\n' | b'\r').then_some((One::Uv([u as f32, v as f32]), at))
+}
+
+#[inline]
+fn face(bytes: &[u8], at: usize) -> Option<(One, usize)> {
+    let Some((corners, end)) = plain_triangle(bytes, at) else {
+        let (corners, end) = plain_face(bytes, at)?;
+        return Some((One::Face(corners), end));
+    };
+    let [a, b, c] = corners.map(|index| index.wrapping_sub(1));
+    u32::try_from(a.max(b).max(c)).ok()?;
+    Some((One::Triangle([a as u32, b as u32, c as u32]), end))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Parser, Statements, Stop};
+    use super::*;
+    use std::fmt::Write;
+
+    fn parsed(text: &[u8], block: usize) -> Result<Statements<'_>, String> {
+        let mut parser = Parser::new(text, Vec::new());
+        parser.ahead = Ahead::with_blocks(block);
+        parser.run().map_err(|stop| match stop {
+            Stop::Error(error) => error.to_string(),
+            Stop::FaceFirst => "a face first".to_owned(),
+        })
+    }
+
+    /// Everything that a text says, or why not.
+    fn said(text: &[u8], block: usize) -> String {
+        parsed(text, block).map_or_else(
+            |error| error,
+            |s| {
+                let places = (s.positions, s.colours, s.uvs, s.normals, s.triangles);
+                let faces = (s.corner_uvs, s.corner_normals, s.edge_marks, s.wires, s.runs, s.objects);
+                format!("{places:?} {faces:?} {:?} {}", s.materials, s.warnings.lines().join("\n"))
+            },
+        )
+    }
+
+    fn lines(odd: &[&str]) -> String {
+        let mut text = String::new();
+        for k in 0..600_i32 {
+            let _ = writeln!(text, "v {} {}.5 -{}", k % 13, k % 7, k);
+            if k % 11 == 2 {
+                let _ = writeln!(text, "f {} {} {}", k - 1, k, k + 1);
+            }
+            if let Some(line) = odd.get(usize::try_from(k / 7).unwrap()).filter(|_| k % 7 == 3) {
+                text += line;
+            }
+        }
+        text
+    }
+
+    #[test]
+    fn what_is_read_ahead_is_what_is_read_in_turn() {
+        let odd = [
+            "# v 1 2 3\n",
+            "o one\n",
+            "v 1 2 3 0.5 0.5 0.5\n",
+            "f 1 2 3 4\n",
+            "\n\n",
+            "f -1 -2 -3\n",
+            "g x \\\nf 1 2 3\n",
+            "usemtl red\r\n",
+            "  v 1 2 3\n",
+            "v 1 2\\\n 3\n",
+            "v 1e3 2 3\n",
+            "l 1 2 3\n",
+            "vn 0 0 1\n",
+            "f 1//1 2//1 3//1\n",
+            "v nan 1 2\n",
+            "f 1 2 3\n",
+            "junk\\\nv 4 5 6\nv 7 8 9\n",
+            "v 1 2 3\rf 1 2 3\r",
+            "mtllib a.mtl\n",
+        ];
+        let plain = lines(&[]);
+        let mut faces = plain.clone();
+        for k in 1..300 {
+            let _ = writeln!(faces, "vn 0 {k} 1\nvn 1 0 {k}\nvt 0.{k} 1\nvt {k} 1 0\nvt 1  2");
+        }
+        for k in 1..300 {
+            let _ = writeln!(faces, "f {k}/{k} {}/1 3/2\nf {k}//{k} {}//2 3//1 7//9999", k + 1, k + 2);
+            let _ = writeln!(faces, "f {k}/{k}/1 {}/1/2 9/2/ 8/0/2 \nf 1/1/1 2// 3/-1/1\nf 1 2 3 4", k + 1);
+            let _ = writeln!(faces, "f 9 8\nf 1 2 3 4 5\nf {k} 2 3\r\nf  4  {k}  6 ");
+        }
+        let mixed = lines(&odd);
+        let odd_ends = ["f 1/1 2/2 /3", "f 1 2 0 4", "f 1/1 2/2 9999/1", "f 1 2 9999", "f 1 2 x", "f 1 2 3"];
+        let ended = odd_ends.map(|line| format!("{faces}{line}"));
+        let going_on = odd_ends.map(|line| format!("{plain}{line}\n{plain}"));
+        for text in [&plain, &mixed, &faces].into_iter().chain(&ended).chain(&going_on) {
+            let wanted = said(text.as_bytes(), 0);
+            for block in [1, 40, 300, 5000, 1 << 20] {
+                assert_eq!(said(text.as_bytes(), block), wanted, "blocks of {block}");
+            }
+        }
+    }
+
+    #[test]
+    fn runs_are_whole_and_others_are_left() {
+        let text = b"v 1 2 3\nv 4 5 6\n\nf 1 2 3\n# f 1 2 3\nf 3 2 1\nf 0 1 2\nf 1 2 3\n";
+        let found = runs(text, 0, text.len());
+        let ends: Vec<[usize; 2]> = found.iter().map(|run| [run.start, run.end]).collect();
+        assert_eq!(ends, [[0, 15], [17, 24], [35, 42], [51, 58]]);
+        assert_eq!(found[1].read, Read::Triangles(vec![[0, 1, 2]], 2));
+        // A file of other statements is left alone soon.
+        let others = "s 1\n".repeat(1000) + "v 1 2 3\n";
+        assert!(runs(others.as_bytes(), 0, others.len()).is_empty());
+    }
+}

@@ -1,0 +1,72 @@
+//! Statements of nothing but usual numbers, as most of a large file are; others are none.
+
+use glam::DVec3;
+
+use crate::load::text_cursor::{plain_digits, plain_index, plain_number};
+
+/// No index.
+pub(crate) const NONE: u32 = u32::MAX;
+
+/// Position, texture coordinate and normal of a corner.
+pub(crate) type Corner = [u32; 3];
+
+/// Where a face has but three corners.
+pub(crate) const NO_CORNER: Corner = [NONE; 3];
+
+/// Three usual numbers and the end of the line.
+#[inline(always)]
+pub(crate) fn plain_position(bytes: &[u8], mut at: usize) -> Option<(DVec3, usize)> {
+    let mut axes = [0.0; 3];
+    for axis in &mut axes {
+        while *bytes.get(at)? == b' ' {
+            at += 1;
+        }
+        (*axis, at) = plain_number(bytes, at)?;
+        if !matches!(bytes.get(at)?, b' ' | b'\n' | b'\r') {
+            return None;
+        }
+    }
+    matches!(bytes.get(at)?, b'\n' | b'\r').then_some((DVec3::from_array(axes), at))
+}
+
+/// Three bare indices and the end of the line.
+#[inline(always)]
+pub(crate) fn plain_triangle(bytes: &[u8], at: usize) -> Option<([u64; 3], usize)> {
+    let (a, at) = plain_index(bytes, at)?;
+    let (b, at) = plain_index(bytes, at)?;
+    let (c, at) = plain_index(bytes, at)?;
+    matches!(bytes.get(at)?, b'\n' | b'\r').then_some(([a, b, c], at))
+}
+
+/// Three or four corners of indices of few digits, and the end of the line: as the parser reads them.
+pub(crate) fn plain_face(bytes: &[u8], mut at: usize) -> Option<([Corner; 4], usize)> {
+    let mut corners = [NO_CORNER; 4];
+    let mut count = 0;
+    loop {
+        while *bytes.get(at)? == b' ' {
+            at += 1;
+        }
+        if matches!(bytes.get(at)?, b'\n' | b'\r') {
+            return (count > 2).then_some((corners, at));
+        }
+        let corner = corners.get_mut(count)?;
+        for (k, index) in corner.iter_mut().enumerate() {
+            let (value, end) = plain_digits(bytes, at);
+            // Another index may be missing, or none.
+            let digits = end - at;
+            if digits > 9 || (k == 0 && value == 0) {
+                return None;
+            }
+            *index = (value as u32).wrapping_sub(1);
+            at = end;
+            if k == 2 || bytes.get(at) != Some(&b'/') {
+                break;
+            }
+            at += 1;
+        }
+        if !matches!(bytes.get(at)?, b' ' | b'\n' | b'\r') {
+            return None;
+        }
+        count += 1;
+    }
+}

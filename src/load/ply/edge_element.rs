@@ -1,0 +1,60 @@
+//! The edges of a PLY file, which become wires.
+
+use glam::DVec3;
+
+use super::element_rows::{Body, Row, place};
+use super::face_elements::{index_of, no_vertex, skip};
+use super::header::{Element, Encoding};
+use crate::error::Error;
+use crate::scene::Warnings;
+use crate::scene::extent::coordinate_limits::is_drawable;
+
+/// Names of the two ends: those of Turk's paper, and those that VCGlib and CGAL write.
+const ENDS: [[&str; 2]; 3] = [["vertex1", "vertex2"], ["v1", "v2"], ["v0", "v1"]];
+
+/// The content of the element `edge` holds.
+#[derive(Default)]
+pub(crate) struct Edges {
+    /// Ends of each edge.
+    pub wires: Vec<[u32; 2]>,
+    /// Edges left out for their coordinates.
+    pub unusable: u64,
+    pub warnings: Warnings,
+}
+
+/// Reads the element `edge`.
+pub(crate) fn read(body: &mut Body, element: &Element, positions: &[DVec3]) -> Result<Edges, Error> {
+    let count = body.check_count(element)?;
+    let mut edges = Edges::default();
+    let ends = ENDS.iter().find_map(|[from, to]| Some([element.find(&[*from])?, element.find(&[*to])?]));
+    let Some(ends) = ends else {
+        edges.warnings.note("edges without vertex1 and vertex2 left out");
+        skip(body, element)?;
+        return Ok(edges);
+    };
+    if element.find(&["red", "r", "diffuse_red"]).is_some() {
+        edges.warnings.note("colours of edges left out: lines have the colours of their pens");
+    }
+    edges.wires.reserve(count);
+    let mut row = Row::default();
+    for number in 0..count {
+        let mut start = body.cursor.clone();
+        body.row(element, number, &mut row)?;
+        let mut wire = [0; 2];
+        for (end, property) in wire.iter_mut().zip(ends) {
+            let index = row.value(property);
+            *end = index_of(index, positions).ok_or_else(|| {
+                start.skip_space();
+                let line = (body.encoding == Encoding::Text).then(|| format!("line {}", start.line()));
+                no_vertex(index, positions).at(line.unwrap_or_else(|| place(element, number)))
+            })?;
+        }
+        let is_usable = |end: &u32| positions.get(*end as usize).is_some_and(|p| is_drawable(*p));
+        if wire.iter().all(is_usable) {
+            edges.wires.push(wire);
+        } else {
+            edges.unusable += 1;
+        }
+    }
+    Ok(edges)
+}

@@ -1,0 +1,149 @@
+//! The rows of a PLY body, in text or binary.
+
+use super::header::{Element, Encoding};
+use crate::error::Error;
+use crate::load::shown;
+use crate::load::text_cursor::Cursor;
+
+/// The values of one row, property after property.
+#[derive(Default)]
+pub(crate) struct Row {
+    values: Vec<f64>,
+    /// Where each property ends in `values`.
+    ends: Vec<usize>,
+}
+
+impl Row {
+    /// The values of a property.
+    pub fn list(&self, property: usize) -> &[f64] {
+        let start = property.checked_sub(1).and_then(|p| self.ends.get(p)).copied().unwrap_or(0);
+        let end = self.ends.get(property).copied().unwrap_or(start);
+        self.values.get(start..end).unwrap_or_default()
+    }
+
+    /// The value of a property that is no list.
+    pub fn value(&self, property: usize) -> f64 {
+        self.list(property).first().copied().unwrap_or(0.0)
+    }
+}
+
+/// Where the reading of a body stands.
+pub(crate) struct Body<'a> {
+    pub cursor: Cursor<'a>,
+    pub encoding: Encoding,
+}
+
+impl<'a> Body<'a> {
+    /// The bytes not yet read.
+    pub fn rest(&self) -> &'a [u8] {
+        self.cursor.bytes.get(self.cursor.at..).unwrap_or_default()
+    }
+
+    /// Refuses more rows than the rest of the file can hold, so that memory may be asked for.
+    pub fn check_count(&self, element: &Element) -> Result<usize, Error> {
+        let least = element.least_size(self.encoding) as u64;
+        let rest = self.rest().len() as u64 + u64::from(self.encoding == Encoding::Text);
+        if element.count.checked_mul(least).is_none_or(|needed| needed > rest) {
+            let Element { count, name, .. } = element;
+            let message =
+                format!("{count} rows of {name} do not fit into the {} bytes left", self.rest().len());
+            return Err(Error::new(message).at(format!("element {name}")).remedy("the file is truncated"));
+        }
+        // Rows without properties take no room.
+        Ok(if least == 0 { 0 } else { element.count as usize })
+    }
+
+    /// Reads the next row; `number` counts from 0 and is for errors.
+    pub fn row(&mut self, element: &Element, number: usize, row: &mut Row) -> Result<(), Error> {
+        row.values.clear();
+        row.ends.clear();
+        if self.encoding == Encoding::Text {
+            self.text_row(element, number, row)
+        } else {
+            self.binary_row(element, number, row)
+        }
+    }
+
+    fn binary_row(&mut self, element: &Element, number: usize, row: &mut Row) -> Result<(), Error> {
+        for property in &element.properties {
+            let mut length = 1;
+            if let Some(kind) = property.list {
+                let bytes = self.take(kind.size()).ok_or_else(|| cut_off(element, number))?;
+                let stated = kind.read(bytes, self.encoding);
+                // A list that is longer than the file is not asked memory for.
+                length = stated as usize;
+                if stated < 0.0 || stated.fract() != 0.0 || length > self.rest().len() {
+                    let message = format!("a list of {stated} does not fit into the file");
+                    return Err(Error::new(message).at(place(element, number)));
+                }
+            }
+            let size = property.kind.size();
+            let bytes = length
+                .checked_mul(size)
+                .and_then(|n| self.take(n))
+                .ok_or_else(|| cut_off(element, number))?;
+            row.values.extend(bytes.chunks_exact(size).map(|b| property.kind.read(b, self.encoding)));
+            row.ends.push(row.values.len());
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, count: usize) -> Option<&'a [u8]> {
+        let bytes = self.rest().get(..count)?;
+        self.cursor.at += count;
+        Some(bytes)
+    }
+
+    /// A row of text is a line; what stands after its values is passed over.
+    fn text_row(&mut self, element: &Element, number: usize, row: &mut Row) -> Result<(), Error> {
+        self.cursor.skip_space();
+        if self.cursor.at_end() {
+            return Err(cut_off(element, number));
+        }
+        for property in &element.properties {
+            let mut length = 1;
+            if property.list.is_some() {
+                let stated = self.number()?;
+                length = stated as usize;
+                if stated < 0.0 || stated.fract() != 0.0 || length > self.rest().len() {
+                    return Err(self.at_line(format!("a list of {stated} does not fit into the file")));
+                }
+            }
+            for _ in 0..length {
+                let value = self.number()?;
+                row.values.push(value);
+            }
+            row.ends.push(row.values.len());
+        }
+        self.cursor.rest_of_line();
+        Ok(())
+    }
+
+    fn number(&mut self) -> Result<f64, Error> {
+        self.cursor.skip_blanks();
+        let number = self.cursor.number().filter(|_| self.cursor.at_end() || self.cursor.at_word_end());
+        number.ok_or_else(|| {
+            let word = self.cursor.clone().word();
+            self.at_line(if word.is_empty() {
+                "the line has too few values".into()
+            } else {
+                format!("`{}` is not a number", shown(word))
+            })
+        })
+    }
+
+    fn at_line(&self, message: String) -> Error {
+        Error::new(message).at(format!("line {}", self.cursor.line()))
+    }
+}
+
+/// How a row is called in errors.
+pub(crate) fn place(element: &Element, number: usize) -> String {
+    format!("{} {number}", element.name)
+}
+
+/// The error for a file that ends in a row.
+pub(crate) fn cut_off(element: &Element, number: usize) -> Error {
+    let message = format!("the file ends in row {number} of {}", element.count);
+    Error::new(message).at(format!("element {}", element.name)).remedy("it is cut off")
+}

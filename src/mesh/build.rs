@@ -1,0 +1,283 @@
+//! From [`Soup`] to [`Mesh`]: origin, order, welding, cleaning, topology, face normals.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::order::canonical_order;
+use super::seams::open_edges;
+use super::weld::nearby_vertices;
+use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, part_extents};
+use crate::mesh::components::bodies::bodies;
+use crate::mesh::components::orientation::{Surfaces, Triangles, TurnedFaces, turn_faces};
+use crate::mesh::normals::face_normals::normals_and_narrow;
+use crate::mesh::normals::normal_carriers::{Faces, take_over};
+use crate::mesh::normals::triangle_area::{has_own_area, may_have_flat_faces};
+use crate::mesh::overlaps::overlay_order::overlays;
+use crate::mesh::seams::face_split::cut_faces;
+use crate::mesh::weld::duplicate_faces::{one_of_doubles, retain_faces};
+use crate::parallel::task_size::GRAIN;
+
+impl Mesh {
+    /// Builds the mesh of a flattened scene.
+    ///
+    /// Vertices at the same place are joined (see [`nearby_vertices`]), faces with repeated corners and
+    /// faces that stand twice in one part are dropped, open edges that lie along each other are sewn (see
+    /// `seams`), everything is counted in [`Mesh::cleaning`]. Faces that are wound inward or against their neighbours
+    /// are turned (see `orientation`) and counted in [`Mesh::turned`]. However the soup numbers its vertices, whatever the order of its faces
+    /// and whichever corner they begin with, the mesh is the same; only parts and materials keep
+    /// their order.
+    #[must_use]
+    pub fn build(mut soup: Soup) -> Self {
+        let mut cleaning = Cleaning::default();
+        let Some((low, high)) = bounds(&soup, |_| true) else {
+            cleaning.short_wires = soup.wires.len() as u64;
+            return Self { cleaning, ..Self::default() };
+        };
+        // Faces without area do not count in the place and the size of the model.
+        let has_flat_faces = may_have_flat_faces(&soup.positions, &soup.triangles, (low, high));
+        let counted = if has_flat_faces { bounds(&soup, has_own_area) } else { None };
+        // The sum makes zeros positive.
+        soup.positions.par_iter_mut().for_each(|p| *p += DVec3::ZERO);
+        cleaning.welded = canonical_order::by_place(&mut soup, low.abs().max(high.abs()).max_element());
+        let (counted_low, counted_high) = counted.unwrap_or((low, high));
+        let origin = part_extents::origin(counted_low, counted_high);
+        if origin != DVec3::ZERO {
+            soup.positions.par_iter_mut().for_each(|p| *p -= origin);
+        }
+        drop_collapsed(&mut soup, &mut cleaning);
+        let mut edges = Edges::build(soup.positions.len(), &soup.triangles);
+        let mut turned = Vec::new();
+        // Closed surfaces come first, so that all that follows is as if the file had wound them right.
+        let mut surfaces = surfaces(&soup, &edges);
+        let mut is_final = !surfaces.has_open();
+        let turned_of_open = surfaces.turn_closed_only();
+        let mut is_as_found = true;
+        if turn(&mut soup, &surfaces, &mut turned) {
+            canonical_order::faces_by_place(&mut soup);
+            edges = Edges::build(soup.positions.len(), &soup.triangles);
+            is_as_found = false;
+        }
+
+        let of_bodies = |soup: &Soup, bodies: &[_]| {
+            Extents::new(soup, origin, has_flat_faces).united(bodies, origin, soup.single_precision)
+        };
+        let mut joined_parts = bodies(&soup, &edges);
+        let mut extents = of_bodies(&soup, &joined_parts);
+        let (borders, reaches) = border_vertices(&soup, &edges, &extents);
+        if let Some(joined) = nearby_vertices::near(&soup.positions, &borders, &reaches) {
+            replace_vertices(&mut soup, &joined, &mut cleaning);
+            drop_collapsed(&mut soup, &mut cleaning);
+            edges = Edges::build(soup.positions.len(), &soup.triangles);
+            (is_final, is_as_found) = (false, false);
+        }
+        if let Some(keep) = one_of_doubles(&soup, &edges) {
+            cleaning.doubled += keep.iter().filter(|k| !**k).count() as u64;
+            retain_faces(&mut soup, &keep);
+            let mut left = 0..;
+            let of = |keep: &bool| if *keep { left.next() } else { None }.unwrap_or(u32::MAX);
+            let renamed: Vec<u32> = keep.iter().map(of).collect();
+            edges = edges.without(&renamed, &soup.triangles);
+            (is_final, is_as_found) = (false, false);
+        }
+        let mut seams = open_edges::find(&soup, &edges, &extents, true);
+        if !seams.joined.is_empty() {
+            let changed = faces_of(&soup, |v| seams.joined[v as usize] != v);
+            replace_vertices(&mut soup, &seams.joined, &mut cleaning);
+            edges = edges.with_changed(soup.positions.len(), &soup.triangles, &changed);
+            seams = open_edges::find(&soup, &edges, &extents, false);
+            is_as_found = false;
+        }
+        if !seams.cuts.is_empty() {
+            let before = soup.triangles.len() as u32;
+            cut_faces(&mut soup, &seams.cuts);
+            let mut changed: Vec<u32> = seams.cuts.iter().map(|(face, _)| *face).collect();
+            changed.sort_unstable();
+            changed.extend(before..soup.triangles.len() as u32);
+            edges = edges.with_changed(soup.positions.len(), &soup.triangles, &changed);
+            is_as_found = false;
+        }
+        if !is_final {
+            if is_as_found {
+                surfaces.turned = turned_of_open;
+            } else {
+                surfaces = self::surfaces(&soup, &edges);
+            }
+            if turn(&mut soup, &surfaces, &mut turned) {
+                edges.turn(&surfaces.turned);
+            }
+        }
+
+        soup.triangle_part.resize(soup.triangles.len(), super::PartId::default());
+        let found = bodies(&soup, &edges);
+        if found != joined_parts {
+            extents = of_bodies(&soup, &found);
+            joined_parts = found;
+        }
+        let measure = |face: usize| {
+            let part = extents.of(soup.triangle_part[face]);
+            (part.scale, part.rounding)
+        };
+        let (mut face_normals, narrow) = normals_and_narrow(&soup.positions, &soup.triangles, measure);
+        let Soup { positions, triangles, triangle_part: parts, .. } = &soup;
+        let carriers =
+            Faces { positions, triangles, parts, edges: &edges, extents: &extents }.carriers(&narrow);
+        take_over(&carriers, &mut face_normals);
+        cleaning.degenerate = face_normals.iter().filter(|n| **n == [0.0; 3]).count() as u64;
+        cleaning.borders = edges.border_count() as u64;
+        cleaning.non_manifold = edges.non_manifold_count() as u64;
+        soup.triangle_material.resize(soup.triangles.len(), super::MaterialId::default());
+        let mut mesh = Self {
+            origin,
+            extents,
+            positions: soup.positions,
+            triangles: soup.triangles,
+            face_normals,
+            carriers,
+            first_piece: None,
+            face_part: soup.triangle_part,
+            bodies: joined_parts,
+            face_material: soup.triangle_material,
+            face_paint: soup.triangle_paint,
+            normals: soup.normals,
+            corner_normals: soup.corner_normals,
+            uvs: soup.uvs,
+            corner_uvs: soup.corner_uvs,
+            corner_colours: soup.corner_colours,
+            edge_marks: soup.edge_marks,
+            overlays: Vec::new(),
+            edges,
+            wires: soup.wires,
+            cleaning,
+            turned,
+        };
+        mesh.overlays = overlays(&mesh);
+        mesh
+    }
+}
+
+/// The connected surfaces of a soup.
+fn surfaces(soup: &Soup, edges: &Edges) -> Surfaces {
+    let Soup { positions, triangles, triangle_part: parts, .. } = soup;
+    Surfaces::new(&Triangles { positions, triangles, parts, edges })
+}
+
+/// Turns and counts the faces that must be turned; false if there are none.
+fn turn(soup: &mut Soup, surfaces: &Surfaces, counts: &mut Vec<TurnedFaces>) -> bool {
+    let any = !surfaces.turned.is_empty();
+    if any {
+        turn_faces(soup, &surfaces.turned);
+        surfaces.count(&soup.triangle_part, counts);
+    }
+    any
+}
+
+/// The box around all vertices of faces for which `counts` holds and of wires that have a length.
+fn bounds(soup: &Soup, counts: impl Fn([DVec3; 3]) -> bool + Sync) -> Option<(DVec3, DVec3)> {
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let grow = |(low, high): (DVec3, DVec3), v: u32| {
+        let p = soup.positions[v as usize];
+        (low.min(p), high.max(p))
+    };
+    let join = |a: (DVec3, DVec3), b: (DVec3, DVec3)| (a.0.min(b.0), a.1.max(b.1));
+    let faces = soup
+        .triangles
+        .par_chunks(1 << 14)
+        .map(|chunk| {
+            let counted = chunk.iter().filter(|t| counts(t.map(|v| soup.positions[v as usize])));
+            counted.flatten().fold(nothing, |b, v| grow(b, *v))
+        })
+        .reduce(|| nothing, join);
+    let wires = soup.wires.iter().map(|wire| wire.vertices);
+    let long = wires.filter(|[a, b]| soup.positions[*a as usize] != soup.positions[*b as usize]);
+    let all = long.flatten().fold(faces, grow);
+    (all.0.x <= all.1.x).then_some(all)
+}
+
+/// The faces with a corner of which `moves` holds, ascending.
+fn faces_of(soup: &Soup, moves: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
+    let faces = (0..soup.triangles.len() as u32).into_par_iter().with_min_len(GRAIN);
+    faces.filter(|face| soup.triangles[*face as usize].iter().any(|v| moves(*v))).collect()
+}
+
+fn replace_vertices(soup: &mut Soup, joined: &[u32], cleaning: &mut Cleaning) {
+    cleaning.welded += joined.iter().enumerate().filter(|(id, to)| *id as u32 != **to).count() as u64;
+    soup.triangles.par_iter_mut().for_each(|t| *t = t.map(|v| joined[v as usize]));
+    for wire in &mut soup.wires {
+        wire.vertices = wire.vertices.map(|v| joined[v as usize]);
+    }
+}
+
+fn drop_collapsed(soup: &mut Soup, cleaning: &mut Cleaning) {
+    let sound = |t: &[u32; 3]| t[0] != t[1] && t[1] != t[2] && t[2] != t[0];
+    if !soup.triangles.par_iter().all(sound) {
+        let keep: Vec<bool> = soup.triangles.iter().map(sound).collect();
+        cleaning.collapsed += keep.iter().filter(|k| !**k).count() as u64;
+        retain_faces(soup, &keep);
+    }
+    let wires = soup.wires.len();
+    soup.wires.retain(|w| w.vertices[0] != w.vertices[1]);
+    cleaning.short_wires += (wires - soup.wires.len()) as u64;
+}
+
+/// The vertices on open edges, and how near to each others are the same vertex: by the largest of its parts.
+fn border_vertices(soup: &Soup, edges: &Edges, extents: &Extents) -> (Vec<u32>, Vec<f64>) {
+    let part = |face: u32| soup.triangle_part.get(face as usize).copied().unwrap_or_default();
+    let open = |e: usize| match edges.faces(e) {
+        EdgeFaces::One(face) => Some((edges.vertices[e], extents.of(part(face)).weld)),
+        _ => None,
+    };
+    let ends = (0..edges.len()).into_par_iter().with_min_len(GRAIN).filter_map(open);
+    let mut vertices: Vec<(u32, f64)> =
+        ends.flat_map_iter(|(ends, reach)| ends.map(|v| (v, reach))).collect();
+    vertices.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(b.1.total_cmp(&a.1)));
+    vertices.dedup_by_key(|(vertex, _)| *vertex);
+    vertices.into_iter().unzip()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn soup(points: &[[f64; 3]], triangles: &[[u32; 3]]) -> Soup {
+        Soup {
+            positions: points.iter().map(|p| DVec3::from_array(*p)).collect(),
+            triangles: triangles.to_vec(),
+            ..Soup::default()
+        }
+    }
+
+    #[test]
+    fn separate_corners_are_welded_and_nearly_equal_ones_too() {
+        let d = 1e-9;
+        let mesh = Mesh::build(soup(
+            &[
+                [0.0; 3],
+                [1.0, 0.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [1.0, 0.0, 0.0],
+                [0.0, 1.0 + d, 0.0],
+                [1.0, 1.0, 0.0],
+            ],
+            &[[0, 1, 2], [3, 5, 4]],
+        ));
+        assert_eq!((mesh.cleaning.welded, mesh.cleaning.borders), (2, 4));
+        assert_eq!(mesh.origin, DVec3::ZERO);
+    }
+
+    #[test]
+    fn doubled_collapsed_and_flat_faces_are_counted() {
+        let mesh = Mesh::build(soup(
+            &[[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 0.0, 0.0]],
+            &[[0, 1, 2], [2, 1, 0], [1, 1, 2], [0, 1, 3]],
+        ));
+        let c = mesh.cleaning;
+        assert_eq!((c.doubled, c.collapsed, c.degenerate), (1, 1, 1));
+        // The flat face goes on in the one that runs the other way along its side.
+        assert_eq!(mesh.triangles, [[0, 1, 3], [0, 2, 1]]);
+    }
+
+    #[test]
+    fn an_empty_soup_is_an_empty_mesh() {
+        assert!(Mesh::build(Soup::default()).triangles.is_empty());
+    }
+}

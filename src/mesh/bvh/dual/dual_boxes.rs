@@ -1,0 +1,294 @@
+//! [`DualBoxes`]: a 16-fold tree of boxes in four dimensions that lists which of them a hyperplane
+//! through a camera may cut.
+//!
+//! Source: Claes, Di Fiore, Vansichem and Van Reeth, "Fast 3D cartoon rendering with improved
+//! quality by exploiting graphics hardware", IVCNZ 2001, section 4: each item lies in the smallest
+//! cube that holds it, and each cube keeps two boxes, one around its own items and one around those
+//! of its children. Here a cube with many items of its own keeps them in blocks with a box each,
+//! so that items on a border between large cubes, of which there are many, are not all asked.
+
+use crate::parallel::prelude::*;
+use glam::DVec4;
+
+/// Halvings of each axis.
+const LEVELS: u32 = 16;
+/// Items of a block, and of a cube that is not divided any more.
+const BLOCK: usize = 8;
+
+/// An item to be found: its box in the cube from −1 to 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Item {
+    /// The corner with the smallest coordinates.
+    pub low: DVec4,
+    /// The corner with the largest coordinates.
+    pub high: DVec4,
+    /// Its number.
+    pub id: u32,
+}
+
+/// A box that is never smaller than what it was made for.
+#[derive(Debug, Clone, Copy)]
+struct Box4 {
+    low: [f32; 4],
+    high: [f32; 4],
+}
+
+impl Box4 {
+    const EMPTY: Self = Self { low: [f32::INFINITY; 4], high: [f32::NEG_INFINITY; 4] };
+
+    /// Single precision is enough for boxes if they are rounded outward.
+    fn of(item: &Item) -> Self {
+        Self {
+            low: item.low.to_array().map(|x| (x as f32).next_down()),
+            high: item.high.to_array().map(|x| (x as f32).next_up()),
+        }
+    }
+
+    fn union(self, other: Self) -> Self {
+        let mut sum = self;
+        for k in 0..4 {
+            sum.low[k] = sum.low[k].min(other.low[k]);
+            sum.high[k] = sum.high[k].max(other.high[k]);
+        }
+        sum
+    }
+
+    /// Whether the dot product with `plane` may be as large as `low` somewhere in the box, and as
+    /// small as `high`.
+    #[inline]
+    fn may_hold(&self, plane: &[f64; 4], low: f64, high: f64) -> bool {
+        let (mut least, mut most) = (0.0, 0.0);
+        for ((l, h), v) in self.low.iter().zip(&self.high).zip(plane) {
+            let (a, b) = (f64::from(*l) * v, f64::from(*h) * v);
+            least += a.min(b);
+            most += a.max(b);
+        }
+        least <= high && most >= low
+    }
+}
+
+/// A cube that holds items of its own, or whose children part them.
+#[derive(Debug, Clone)]
+struct Cube {
+    /// Around the items of the children; empty if there are none.
+    children: Box4,
+    /// Around the cube's own items; empty if there are none.
+    own: Box4,
+    /// The first block of its own items; they end where those of the next cube begin.
+    first_block: u32,
+    /// The next cube that is no child of this one.
+    after: u32,
+}
+
+/// What a search found.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct DualFound {
+    /// Numbers of the items that may be cut, ascending.
+    pub items: Vec<u32>,
+    /// How many boxes were looked at.
+    pub boxes: usize,
+}
+
+/// Boxes in four dimensions, in a 16-fold tree.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct DualBoxes {
+    /// Each cube before its children.
+    cubes: Vec<Cube>,
+    /// The box of each block, and its first item; one more at the end.
+    blocks: Vec<(Box4, u32)>,
+    /// Numbers of the items, block by block.
+    ids: Vec<u32>,
+}
+
+/// Where an item stands in the tree: the Morton number of its cube, with zeros below its level, then
+/// the level, then the Morton number of its middle, as far as there is room.
+///
+/// A cube comes before its children and they come one after another.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Place(u128);
+
+impl Place {
+    fn of(item: &Item) -> Self {
+        let (low, high) = (morton(item.low), morton(item.high));
+        let level = (low ^ high).leading_zeros() / 4;
+        let cube = if level == 0 { 0 } else { low & u64::MAX << (64 - 4 * level) };
+        let middle = morton((item.low + item.high) / 2.0);
+        Self(u128::from(cube) << 64 | u128::from(level) << 59 | u128::from(middle >> 5))
+    }
+
+    /// How often the whole was halved.
+    fn level(self) -> u32 {
+        (self.0 >> 59) as u32 & 31
+    }
+
+    /// Which of the sixteen children of its ancestor at a level it lies in.
+    fn child(self, level: u32) -> u32 {
+        (self.0 >> (64 + 4 * (LEVELS - 1 - level))) as u32 & 15
+    }
+}
+
+/// Items in the order of the tree.
+struct Sorted<'a> {
+    items: &'a [Item],
+    places: &'a [(Place, u32)],
+}
+
+impl DualBoxes {
+    /// The tree of some items; the result does not depend on their order.
+    pub fn new(mut items: Vec<Item>) -> Self {
+        items.par_sort_unstable_by_key(|item| item.id);
+        let mut places: Vec<(Place, u32)> = items
+            .par_iter()
+            .with_min_len(1 << 10)
+            .enumerate()
+            .map(|(i, item)| (Place::of(item), i as u32))
+            .collect();
+        places.par_sort_unstable();
+        let mut tree = Self::default();
+        tree.ids.reserve_exact(items.len());
+        if !items.is_empty() {
+            tree.add(&Sorted { items: &items, places: &places }, 0);
+        }
+        tree.blocks.push((Box4::EMPTY, tree.ids.len() as u32));
+        tree
+    }
+
+    /// Adds a cube of this level and all in it, and returns the box around it.
+    fn add(&mut self, Sorted { items, places }: &Sorted, level: u32) -> Box4 {
+        let own = if places.len() <= BLOCK || level == LEVELS {
+            places.len()
+        } else {
+            places.iter().take_while(|(place, _)| place.level() == level).count()
+        };
+        let child = |(place, _): &(Place, u32)| place.child(level);
+        if own == 0 && child(&places[0]) == child(&places[places.len() - 1]) {
+            // A cube with nothing of its own and one child is that child.
+            return self.add(&Sorted { items, places }, level + 1);
+        }
+        let cube = self.cubes.len();
+        let first_block = self.blocks.len() as u32;
+        self.cubes.push(Cube { children: Box4::EMPTY, own: Box4::EMPTY, first_block, after: 0 });
+        let mut around = Box4::EMPTY;
+        for block in places[..own].chunks(BLOCK) {
+            let mut sum = Box4::EMPTY;
+            let first = self.ids.len() as u32;
+            for (_, index) in block {
+                let item = &items[*index as usize];
+                sum = sum.union(Box4::of(item));
+                self.ids.push(item.id);
+            }
+            self.blocks.push((sum, first));
+            around = around.union(sum);
+        }
+        self.cubes[cube].own = around;
+        let mut children = Box4::EMPTY;
+        if own < places.len() {
+            for places in places[own..].chunk_by(|a, b| child(a) == child(b)) {
+                children = children.union(self.add(&Sorted { items, places }, level + 1));
+            }
+        }
+        self.cubes[cube].children = children;
+        self.cubes[cube].after = self.cubes.len() as u32;
+        around.union(children)
+    }
+
+    /// Number of cubes.
+    pub fn cubes(&self) -> usize {
+        self.cubes.len()
+    }
+
+    /// The items in whose box the dot product with `plane` may lie between `low` and `high`.
+    pub fn find(&self, plane: DVec4, low: f64, high: f64) -> DualFound {
+        let plane = plane.to_array();
+        let mut found = DualFound::default();
+        let mut at = 0;
+        while let Some(cube) = self.cubes.get(at) {
+            found.boxes += 2;
+            if cube.own.may_hold(&plane, low, high) {
+                let end = self.cubes.get(at + 1).map_or(self.blocks.len() - 1, |c| c.first_block as usize);
+                let blocks = &self.blocks[cube.first_block as usize..=end];
+                for pair in blocks.windows(2) {
+                    // The box of an only block is that of the cube.
+                    found.boxes += usize::from(blocks.len() > 2);
+                    if blocks.len() == 2 || pair[0].0.may_hold(&plane, low, high) {
+                        found.items.extend(&self.ids[pair[0].1 as usize..pair[1].1 as usize]);
+                    }
+                }
+            }
+            let inside = cube.children.may_hold(&plane, low, high);
+            at = if inside { at + 1 } else { cube.after as usize };
+        }
+        found.items.sort_unstable();
+        found
+    }
+}
+
+/// Position along the Morton curve of a point in the cube from −1 to 1: four bits a level.
+fn morton(p: DVec4) -> u64 {
+    let cells = f64::from((1_u32 << LEVELS) - 1);
+    let axis = |x: f64| spread(((x + 1.0) / 2.0 * cells).clamp(0.0, cells) as u64);
+    axis(p.x) << 3 | axis(p.y) << 2 | axis(p.z) << 1 | axis(p.w)
+}
+
+/// Sixteen bits, each followed by three zeros.
+fn spread(sixteen: u64) -> u64 {
+    let mut bits = sixteen;
+    bits = (bits | bits << 24) & 0x0000_00ff_0000_00ff;
+    bits = (bits | bits << 12) & 0x000f_000f_000f_000f;
+    bits = (bits | bits << 6) & 0x0303_0303_0303_0303;
+    (bits | bits << 3) & 0x1111_1111_1111_1111
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn morton_numbers_take_bits_in_turn() {
+        assert_eq!(spread(0xffff), 0x1111_1111_1111_1111);
+        for bit in 0..16 {
+            assert_eq!(spread(1 << bit), 1 << (4 * bit));
+        }
+        assert_eq!(morton(DVec4::NEG_ONE), 0);
+        assert_eq!(morton(DVec4::ONE), u64::MAX);
+        assert_eq!(morton(DVec4::new(1.0, -1.0, -1.0, -1.0)) >> 60, 8);
+    }
+
+    #[test]
+    fn finds_what_asking_every_box_finds_and_little_more() {
+        // A lattice of points, some stretched to boxes across the borders of cubes.
+        let mut items = Vec::new();
+        for id in 0..4000_u32 {
+            let axis = |n: u32| f64::from(id.wrapping_mul(2_654_435_761 + 97 * n) >> 12 & 1023) / 512.0 - 1.0;
+            let low = DVec4::new(axis(1), axis(2), axis(3), axis(4));
+            let reach = if id % 10 == 0 { 0.3 } else { 0.001 };
+            items.push(Item { low, high: (low + DVec4::splat(reach)).min(DVec4::ONE), id });
+        }
+        let tree = DualBoxes::new(items.clone());
+        for k in 0..30 {
+            let v = f64::from(k);
+            let plane = DVec4::new(v - 15.0, 7.0 - v, (v * 5.0) % 11.0 - 5.0, f64::from(k % 2));
+            let found = tree.find(plane, -0.5, 0.5);
+            let wanted: Vec<u32> = items
+                .iter()
+                .filter(|i| {
+                    let (a, b) = (i.low * plane, i.high * plane);
+                    a.min(b).element_sum() <= 0.5 && a.max(b).element_sum() >= -0.5
+                })
+                .map(|i| i.id)
+                .collect();
+            assert!(found.items.is_sorted());
+            assert!(wanted.iter().all(|id| found.items.binary_search(id).is_ok()));
+            assert!(found.items.len() < items.len(), "plane {k} found all");
+        }
+        items.reverse();
+        let again = DualBoxes::new(items);
+        assert_eq!(tree.ids, again.ids);
+    }
+
+    #[test]
+    fn no_items_no_cubes() {
+        let tree = DualBoxes::new(Vec::new());
+        assert_eq!((tree.cubes(), tree.find(DVec4::ONE, -1.0, 1.0)), (0, DualFound::default()));
+    }
+}

@@ -1,0 +1,175 @@
+//! [`DualTree`]: which edges of a mesh may be contours for an eye, without asking all of them.
+//!
+//! Source: Claes, Di Fiore, Vansichem and Van Reeth, "Fast 3D cartoon rendering with improved
+//! quality by exploiting graphics hardware", IVCNZ 2001, section 4. The plane of a face is a point
+//! in four dimensions, its unit normal and its offset; an edge is the pair of points of its two
+//! faces; an eye, in homogeneous coordinates, is a hyperplane through zero; and the contours are
+//! the pairs that it parts. The tree proposes: whoever draws asks the faces themselves.
+
+use crate::parallel::prelude::*;
+use glam::{DVec3, DVec4};
+
+use super::dual_boxes::{DualBoxes, DualFound, Item};
+use crate::geometry::numbers::tolerance;
+use crate::mesh::{EdgeFaces, FaceId, Mesh};
+
+/// Squares of areas beyond this, or below its inverse, have lost digits or will: such faces are
+/// always asked.
+const HUGE: f64 = 1e180;
+
+/// Edges of a mesh, by the planes of the two faces that meet in them.
+#[derive(Debug, Clone, Default)]
+pub struct DualTree {
+    boxes: DualBoxes,
+    /// Edges that are always proposed, ascending.
+    always: Vec<u32>,
+    /// Offsets are measured in this length.
+    radius: f64,
+    len: usize,
+}
+
+impl DualTree {
+    /// The tree of those edges of a mesh for which `active` holds.
+    ///
+    /// Only edges where two faces with area meet are told apart; all others are always proposed.
+    #[must_use]
+    pub fn new(mesh: &Mesh, active: impl Fn(usize) -> bool + Sync) -> Self {
+        let radius = mesh.extents.ball().1;
+        // The same operations as where faces are asked, so that rounding is the same as well.
+        let plane = |face: u32| {
+            let [a, b, c] = mesh.corners(FaceId(face));
+            let normal = (b - a).cross(c - a);
+            let square = normal.length_squared();
+            let sound = |x: f64| x < HUGE && x > 1.0 / HUGE;
+            if mesh.is_degenerate(FaceId(face)) || !sound(square) || !sound(square * radius * radius) {
+                return None;
+            }
+            let unit = normal / square.sqrt();
+            Some(unit.extend(-unit.dot(a) / radius))
+        };
+        let planes: Vec<Option<DVec4>> =
+            (0..mesh.triangles.len() as u32).into_par_iter().with_min_len(1 << 10).map(plane).collect();
+        let plane = |face: u32| planes[face as usize];
+        let placed: Vec<Result<Item, u32>> = (0..mesh.edges.len())
+            .into_par_iter()
+            .with_min_len(1 << 10)
+            .filter(|edge| active(*edge))
+            .map(|edge| {
+                let id = edge as u32;
+                let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge) else { return Err(id) };
+                let (Some(p), Some(q)) = (plane(faces[0]), plane(faces[1])) else { return Err(id) };
+                let q = if same_way { -q } else { q };
+                Ok(Item { low: p.min(q), high: p.max(q), id })
+            })
+            .collect();
+        let always: Vec<u32> = placed.iter().filter_map(|p| p.err()).collect();
+        let len = placed.len();
+        let items: Vec<Item> = placed.into_iter().flatten().collect();
+        Self { boxes: DualBoxes::new(items), always, radius, len }
+    }
+
+    /// Number of edges.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// Number of cubes of the tree.
+    #[must_use]
+    pub fn cubes(&self) -> usize {
+        self.boxes.cubes()
+    }
+
+    /// All edges that may be contours, and some that are none.
+    ///
+    /// The eye is in homogeneous coordinates, local space: a point with w = 1, or with w = 0 the
+    /// direction towards an eye that is infinitely far away. An edge that is left out has two faces
+    /// that turn the same side to the eye (different sides if they run along it the same way), and
+    /// neither is seen edge-on.
+    #[must_use]
+    pub fn candidates(&self, eye: DVec4) -> DualFound {
+        // The normal of the eye's hyperplane, where offsets are fractions of the radius.
+        let plane = if eye.w == 0.0 { eye } else { (eye.truncate() / self.radius).extend(1.0) };
+        let reach = plane.truncate().length() + plane.w;
+        let margin = tolerance::DUAL_OF_REACH * reach;
+        // Beyond these numbers, products of what is computed for a face may leave the range.
+        let mut found = if reach < 1e40 && reach > 1e-6 {
+            self.boxes.find(plane, -margin, margin)
+        } else {
+            self.boxes.find(DVec4::ZERO, 0.0, 0.0)
+        };
+        if !self.always.is_empty() {
+            found.items.extend(&self.always);
+            found.items.sort_unstable();
+        }
+        found
+    }
+}
+
+/// Triangles of a rounded surface, by the normals at their corners: which of them may hold the
+/// border of a tone.
+///
+/// Section 4 of the same paper: the light of a tone border is a plane in the space of normals, and
+/// the triangles whose corners it parts hold a piece of the border.
+#[derive(Debug, Clone, Default)]
+pub struct ToneTree {
+    boxes: DualBoxes,
+    len: usize,
+}
+
+impl ToneTree {
+    /// The tree of triangles with these unit normals at their corners.
+    ///
+    /// Whether normals are interpolated between corners as they are or made unit vectors again
+    /// does not matter: the boxes hold both.
+    #[must_use]
+    pub fn new(corner_normals: &[[DVec3; 3]]) -> Self {
+        let items: Vec<Item> = corner_normals
+            .par_iter()
+            .copied()
+            .enumerate()
+            .map(|(id, normals)| {
+                let [a, b, c] = normals;
+                let (mut low, mut high) = (a.min(b).min(c), a.max(b).max(c));
+                let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+                // |m|² = Σ wᵢ|nᵢ|² − Σ wᵢwⱼ|nᵢ − nⱼ|² for m = Σ wᵢnᵢ, and the last sum of weights is
+                // at most a third. Making m a unit vector moves it by what its length lacks.
+                let shortest = (1.0 - longest / 3.0).max(0.0).sqrt();
+                let widen = 1.0 - shortest + tolerance::DUAL_OF_REACH;
+                let are_units = normals.iter().all(|n| (n.length_squared() - 1.0).abs() <= 1e-6);
+                if shortest <= 0.1 || !are_units {
+                    // Normals that point to all sides, or nowhere.
+                    (low, high) = (DVec3::NEG_ONE, DVec3::ONE);
+                }
+                let (low, high) = ((low - widen).max(DVec3::NEG_ONE), (high + widen).min(DVec3::ONE));
+                Item { low: low.extend(0.0), high: high.extend(0.0), id: id as u32 }
+            })
+            .collect();
+        Self { len: items.len(), boxes: DualBoxes::new(items) }
+    }
+
+    /// Number of triangles.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// The triangles in which L·n may take the value `level`, for the unit vector `towards_light`.
+    #[must_use]
+    pub fn candidates(&self, towards_light: DVec3, level: f64) -> DualFound {
+        let margin = tolerance::DUAL_OF_REACH * 2.0;
+        self.boxes.find(towards_light.extend(0.0), level - margin, level + margin)
+    }
+}

@@ -1,0 +1,175 @@
+//! [`EightBoxes`]: boxes on a coarse grid, kept by eights, of which a few subtractions tell which overlap another.
+//!
+//! Source: L. Lamport, Multiple byte processing with full-word instructions, CACM 18(8), 1975.
+
+/// Bits of a cell along one axis; the next bit is the spare one.
+pub(crate) const CELL_BITS: u32 = 15;
+/// The lowest bit of each of the fields in a word.
+const ONES: u64 = 0x0001_0001_0001_0001;
+/// The spare bit of each field.
+const SPARE: u64 = ONES << CELL_BITS;
+/// The outermost cell stays free, so that the empty box overlaps nothing.
+pub(crate) const OUTSIDE: u16 = (1 << CELL_BITS) - 1;
+/// Children of a node, and triangles of a leaf.
+pub(crate) const WIDTH: usize = 8;
+
+/// A box on the grid: its lowest and its highest cell along each axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct GridBox {
+    pub(crate) low: [u16; 3],
+    pub(crate) high: [u16; 3],
+}
+
+impl GridBox {
+    /// Overlaps nothing, and adds nothing to a union.
+    pub(crate) const EMPTY: Self = Self { low: [OUTSIDE; 3], high: [0; 3] };
+
+    #[inline]
+    fn union(mut self, other: Self) -> Self {
+        for axis in 0..3 {
+            self.low[axis] = self.low[axis].min(other.low[axis]);
+            self.high[axis] = self.high[axis].max(other.high[axis]);
+        }
+        self
+    }
+}
+
+/// A box that is compared with many: its cells in every field of a word.
+#[derive(Clone, Copy)]
+pub(crate) struct Probe {
+    pub(crate) low: [u64; 3],
+    /// With all spare bits set.
+    pub(crate) high: [u64; 3],
+}
+
+impl From<GridBox> for Probe {
+    #[inline]
+    fn from(one: GridBox) -> Self {
+        let mut made = Self { low: [0; 3], high: [0; 3] };
+        for axis in 0..3 {
+            made.low[axis] = u64::from(one.low[axis]) * ONES;
+            made.high[axis] = (u64::from(one.high[axis]) * ONES) | SPARE;
+        }
+        made
+    }
+}
+
+/// Eight boxes: the even ones in the first of two words, the odd ones in the second.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct EightBoxes {
+    low: [[u64; 2]; 3],
+    /// With all spare bits set.
+    high: [[u64; 2]; 3],
+}
+
+impl EightBoxes {
+    pub(crate) fn new(boxes: &[GridBox]) -> Self {
+        let mut eight = Self { low: [[0; 2]; 3], high: [[SPARE; 2]; 3] };
+        for place in 0..WIDTH {
+            let one = boxes.get(place).copied().unwrap_or(GridBox::EMPTY);
+            let (word, shift) = (place & 1, 16 * (place >> 1));
+            for axis in 0..3 {
+                eight.low[axis][word] |= u64::from(one.low[axis]) << shift;
+                eight.high[axis][word] |= u64::from(one.high[axis]) << shift;
+            }
+        }
+        eight
+    }
+
+    #[inline]
+    pub(crate) fn get(&self, place: usize) -> GridBox {
+        let (word, shift) = (place & 1, 16 * (place >> 1));
+        let mut one = GridBox::EMPTY;
+        for axis in 0..3 {
+            one.low[axis] = (self.low[axis][word] >> shift) as u16 & OUTSIDE;
+            one.high[axis] = (self.high[axis][word] >> shift) as u16 & OUTSIDE;
+        }
+        one
+    }
+
+    pub(crate) fn union(&self) -> GridBox {
+        (0..WIDTH).fold(GridBox::EMPTY, |sum, place| sum.union(self.get(place)))
+    }
+
+    /// Which of the boxes overlap another.
+    #[inline]
+    pub(crate) fn overlapping(&self, other: &Probe) -> Places {
+        let mut both = [SPARE; 2];
+        for axis in 0..3 {
+            for (word, both) in both.iter_mut().enumerate() {
+                // A spare bit stays where its cell of `high` is at least that of `low`.
+                *both &=
+                    (other.high[axis] - self.low[axis][word]) & (self.high[axis][word] - other.low[axis]);
+            }
+        }
+        Places(both[0] >> CELL_BITS | both[1] >> (CELL_BITS - 1))
+    }
+}
+
+/// Some of eight places, ascending: two bits at the bottom of each field.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Places(pub(crate) u64);
+
+impl Places {
+    /// Those from a place on.
+    #[inline]
+    pub(crate) fn from(self, place: usize) -> Self {
+        if place >= WIDTH { Self(0) } else { Self(self.0 & (u64::MAX << Self::bit(place))) }
+    }
+
+    #[inline]
+    fn bit(place: usize) -> usize {
+        16 * (place >> 1) + (place & 1)
+    }
+}
+
+impl Iterator for Places {
+    type Item = usize;
+
+    #[inline]
+    fn next(&mut self) -> Option<usize> {
+        if self.0 == 0 {
+            return None;
+        }
+        let bit = self.0.trailing_zeros() as usize;
+        self.0 &= self.0 - 1;
+        Some(2 * (bit / 16) + bit % 16)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn eight_boxes_overlap_as_their_axes_do() {
+        let cells = [0, 1, 2, OUTSIDE - 2, OUTSIDE - 1];
+        let spans: Vec<[u16; 2]> = cells
+            .iter()
+            .flat_map(|&a| cells.iter().filter(move |&&b| a <= b).map(move |&b| [a, b]))
+            .collect();
+        for axis in 0..3 {
+            let of_span = |&[low, high]: &[u16; 2]| {
+                let mut one = GridBox { low: [5; 3], high: [5; 3] };
+                (one.low[axis], one.high[axis]) = (low, high);
+                one
+            };
+            let boxes: Vec<GridBox> = spans.iter().map(of_span).collect();
+            for (some, own) in boxes.chunks(5).zip(spans.chunks(5)) {
+                let eight = EightBoxes::new(some);
+                assert_eq!((0..some.len()).map(|place| eight.get(place)).collect::<Vec<_>>(), some);
+                assert_eq!(eight.get(7), GridBox::EMPTY);
+                for (other, &[low, high]) in boxes.iter().zip(&spans) {
+                    let met: Vec<usize> = eight.overlapping(&Probe::from(*other)).collect();
+                    let expected = own.iter().enumerate().filter(|(_, s)| s[0] <= high && low <= s[1]);
+                    assert_eq!(met, expected.map(|(place, _)| place).collect::<Vec<_>>());
+                    let from = eight.overlapping(&Probe::from(*other)).from(2);
+                    assert_eq!(
+                        from.collect::<Vec<_>>(),
+                        met.iter().copied().filter(|p| *p >= 2).collect::<Vec<_>>()
+                    );
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,122 @@
+//! [`FineBox`]: the box of a triangle on a fine grid, packed so that a few subtractions compare two of them.
+
+use super::packed_boxes::{CELL_BITS, GridBox, OUTSIDE};
+use crate::mesh::order::morton_curve::spread;
+
+/// Bits of a fine cell along one axis; the next bit is a spare one.
+const FINE_BITS: u32 = 20;
+/// Distance between the three fields of a word of fine cells.
+pub(crate) const FINE_FIELD: u32 = FINE_BITS + 1;
+/// The spare bit of each field of fine cells.
+const FINE_SPARE: u64 = (1 | 1 << FINE_FIELD | 1 << (2 * FINE_FIELD)) << FINE_BITS;
+/// The last of the fine cells.
+pub(crate) const LAST_FINE: u32 = (1 << FINE_BITS) - 2;
+
+/// The box of a triangle on the fine grid: its lowest and its highest cell along each axis, packed, the latter with all
+/// spare bits set.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FineBox {
+    low: u64,
+    high: u64,
+}
+
+impl FineBox {
+    #[inline]
+    pub(crate) fn of_cells([a, b, c]: [u64; 3]) -> Self {
+        Self { low: lesser(lesser(a, b), c), high: greater(greater(a, b), c) | FINE_SPARE }
+    }
+
+    /// The box around both.
+    #[inline]
+    pub(crate) fn union(self, other: Self) -> Self {
+        let high = greater(self.high & !FINE_SPARE, other.high & !FINE_SPARE);
+        Self { low: lesser(self.low, other.low), high: high | FINE_SPARE }
+    }
+
+    #[inline]
+    pub(crate) fn overlaps(self, other: Self) -> bool {
+        // A spare bit stays where its cell of `high` is at least that of `low`.
+        (self.high - other.low) & (other.high - self.low) & FINE_SPARE == FINE_SPARE
+    }
+
+    /// The box on the grid around it.
+    #[inline]
+    pub(crate) fn coarse(self) -> GridBox {
+        let mut made = GridBox::EMPTY;
+        for axis in 0..3 {
+            let cell = |cells: u64| {
+                let fine = (cells >> (axis as u32 * FINE_FIELD)) as u32 & ((1 << FINE_BITS) - 1);
+                ((fine >> (FINE_BITS - CELL_BITS)) as u16).min(OUTSIDE - 1)
+            };
+            made.low[axis] = cell(self.low);
+            made.high[axis] = cell(self.high);
+        }
+        made
+    }
+
+    /// Position of the centre along the Morton curve, 30 bits.
+    #[inline]
+    pub(crate) fn curve_key(self) -> u32 {
+        // The sum of two cells fills the spare bit, never the next field.
+        let twice_centre = self.low + (self.high & !FINE_SPARE);
+        let axis = |n: u32| {
+            let top = (twice_centre >> (n * FINE_FIELD + FINE_FIELD - 10)) as u32 & 0x3ff;
+            (spread(u64::from(top)) as u32) << n
+        };
+        axis(0) | axis(1) | axis(2)
+    }
+}
+
+/// Value bits set where the fine cell of `a` is at least that of `b`.
+#[inline]
+fn not_less_mask(a: u64, b: u64) -> u64 {
+    let spare = ((a | FINE_SPARE) - b) & FINE_SPARE;
+    spare - (spare >> FINE_BITS)
+}
+
+#[inline]
+fn greater(a: u64, b: u64) -> u64 {
+    let mask = not_less_mask(a, b);
+    (a & mask) | (b & !mask)
+}
+
+#[inline]
+fn lesser(a: u64, b: u64) -> u64 {
+    let mask = not_less_mask(a, b);
+    (b & mask) | (a & !mask)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pack([x, y, z]: [u64; 3]) -> u64 {
+        x | y << FINE_FIELD | z << (2 * FINE_FIELD)
+    }
+
+    #[test]
+    fn packed_boxes_overlap_as_their_axes_do() {
+        let cells = [0, 1, 2, u64::from(LAST_FINE) - 1, u64::from(LAST_FINE)];
+        let spans: Vec<[u64; 2]> = cells
+            .iter()
+            .flat_map(|&a| cells.iter().filter(move |&&b| a <= b).map(move |&b| [a, b]))
+            .collect();
+        for &[a0, a1] in &spans {
+            for &[b0, b1] in &spans {
+                for axis in 0..3 {
+                    let place = |cell| {
+                        let mut triple = [5; 3];
+                        triple[axis] = cell;
+                        pack(triple)
+                    };
+                    let a = FineBox::of_cells([place(a0), place(a1), place(a0)]);
+                    let b = FineBox::of_cells([place(b1), place(b0), place(b0)]);
+                    assert_eq!(a.overlaps(b), a0 <= b1 && b0 <= a1);
+                    assert_eq!((a.low, a.high), (place(a0), place(a1) | FINE_SPARE));
+                    let cell = |cell: u64| ((cell >> 5) as u16).min(OUTSIDE - 1);
+                    assert_eq!((a.coarse().low[axis], a.coarse().high[axis]), (cell(a0), cell(a1)));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,118 @@
+//! [`FaceGroup`]: a few faces seen along parallel rays, all compared with a ray at once.
+//!
+//! Loops over the faces are written out, without closures over arrays: only so do compilers take several faces in one step.
+
+use super::ray_grid::{Around, GridRay};
+
+/// Faces of a group: plain loops over so many numbers are what processors do at once.
+pub(crate) const WIDTH: usize = 8;
+
+/// How much wider than the rounding of a coordinate that of what is made of some of them may be.
+const SUMS: f32 = 4.0;
+
+/// One number of each face.
+type Lanes = [f32; WIDTH];
+
+/// Some faces in the space of their rays, the third axis along them.
+pub(crate) struct FaceGroup {
+    /// Coordinates of the three corners.
+    corners: [[Lanes; 3]; 3],
+    /// Normals, twice as long as the face is large.
+    normals: [Lanes; 3],
+    /// By how much the three sides of each face may be off.
+    side_rooms: [Lanes; 3],
+    /// By how much its plane may be off, and by how much more for each unit along the rays.
+    plane_rooms: [Lanes; 2],
+    /// A bit for each face.
+    all: u32,
+    pub around: Around,
+}
+
+impl FaceGroup {
+    /// Faces by their corners, whose coordinates are off by `slack` at most.
+    #[inline]
+    pub fn new(faces: &[u32], corners: impl Fn(u32) -> [[f32; 3]; 3], slack: f32) -> Self {
+        let mut of = [[[0.0; WIDTH]; 3]; 3];
+        for k in 0..WIDTH {
+            // The last one stands in for those that are missing.
+            let corners = corners(faces[k.min(faces.len() - 1)]);
+            for corner in 0..3 {
+                for axis in 0..3 {
+                    of[corner][axis][k] = corners[corner][axis];
+                }
+            }
+        }
+        let around = around(&of, slack);
+        let (width, wide) = (around.high[0] - around.low[0] + around.high[1] - around.low[1], SUMS * slack);
+        let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] = &of;
+        let (mut normals, mut side_rooms, mut plane_rooms) =
+            ([[0.0; WIDTH]; 3], [[0.0; WIDTH]; 3], [[0.0; WIDTH]; 2]);
+        for k in 0..WIDTH {
+            let (ux, uy, uz) = (bx[k] - ax[k], by[k] - ay[k], bz[k] - az[k]);
+            let (vx, vy, vz) = (cx[k] - ax[k], cy[k] - ay[k], cz[k] - az[k]);
+            let (wx, wy) = (cx[k] - bx[k], cy[k] - by[k]);
+            let (nx, ny, nz) = (uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx);
+            normals[0][k] = nx;
+            normals[1][k] = ny;
+            normals[2][k] = nz;
+            side_rooms[0][k] = (ux.abs() + uy.abs()) * wide;
+            side_rooms[1][k] = (wx.abs() + wy.abs()) * wide;
+            side_rooms[2][k] = (vx.abs() + vy.abs()) * wide;
+            // Corners are off, and so is the normal, by the length of the sides.
+            let sides = ux.abs() + uy.abs() + uz.abs() + vx.abs() + vy.abs() + vz.abs();
+            plane_rooms[0][k] = (nx.abs() + ny.abs() + nz.abs() + sides * width) * wide;
+            plane_rooms[1][k] = sides * wide;
+        }
+        let all = (1 << faces.len()) - 1;
+        Self { corners: of, normals, side_rooms, plane_rooms, all, around }
+    }
+
+    /// Which faces a ray may meet, one bit each: those that it begins before, and that hold it, seen from either side.
+    #[inline]
+    pub fn may_meet(&self, ray: &GridRay) -> u32 {
+        let ([x, y], z) = (ray.at, ray.from);
+        let [[ax, ay, az], [bx, by, _], [cx, cy, _]] = &self.corners;
+        let ([nx, ny, nz], [r, s, t]) = (&self.normals, &self.side_rooms);
+        let [room, of_way] = &self.plane_rooms;
+        let mut found = [0_u32; WIDTH];
+        for k in 0..WIDTH {
+            let e = (bx[k] - ax[k]) * (y - ay[k]) - (by[k] - ay[k]) * (x - ax[k]);
+            let f = (cx[k] - bx[k]) * (y - by[k]) - (cy[k] - by[k]) * (x - bx[k]);
+            let g = (ax[k] - cx[k]) * (y - cy[k]) - (ay[k] - cy[k]) * (x - cx[k]);
+            let above = nx[k] * (x - ax[k]) + ny[k] * (y - ay[k]) + nz[k] * (z - az[k]);
+            let room = room[k] + of_way[k] * (z - az[k]).abs();
+            // Along the normal a ray meets what is above it, against the normal what is below.
+            let along = (e >= -r[k]) & (f >= -s[k]) & (g >= -t[k]) & (above <= room);
+            let against = (e <= r[k]) & (f <= s[k]) & (g <= t[k]) & (above >= -room);
+            found[k] = u32::from(along | against);
+        }
+        let mut bits = 0;
+        for (k, found) in found.iter().enumerate() {
+            bits |= found << k;
+        }
+        bits & self.all
+    }
+}
+
+/// The box around all faces.
+#[inline]
+fn around(corners: &[[Lanes; 3]; 3], slack: f32) -> Around {
+    let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
+    let [a, b, c] = corners;
+    for axis in 0..3 {
+        let (mut least, mut most) = ([0.0_f32; WIDTH], [0.0_f32; WIDTH]);
+        for k in 0..WIDTH {
+            let (p, q, r) = (a[axis][k], b[axis][k], c[axis][k]);
+            let (below, above) = if p < q { (p, q) } else { (q, p) };
+            least[k] = if below < r { below } else { r };
+            most[k] = if above > r { above } else { r };
+        }
+        for k in 0..WIDTH {
+            low[axis] = if least[k] < low[axis] { least[k] } else { low[axis] };
+            high[axis] = if most[k] > high[axis] { most[k] } else { high[axis] };
+        }
+        low[axis] -= slack;
+        high[axis] += slack;
+    }
+    Around { low, high }
+}

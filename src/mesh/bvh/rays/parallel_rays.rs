@@ -1,0 +1,193 @@
+//! [`ParallelRays`]: which of many rays in one direction a mesh blocks, all of them at once.
+//!
+//! Seen along their direction rays are points and faces triangles of a plane. The points are sorted into the cells of a
+//! grid, and faces ask those of the cells that they cover, eight faces at a time, where every ray would have to go down a
+//! tree for itself. What the grid proposes the exact test decides, that of [`RayTree`]. Where a grid would not do, as faces
+//! cover too many of the points, the rays that are left go through the tree.
+
+use glam::{DVec3, Vec3};
+
+use super::face_group::{FaceGroup, WIDTH};
+use super::ray_grid::{Around, RayGrid};
+use super::ray_tree::{RayTree, meets};
+use crate::geometry::numbers::tolerance;
+use crate::mesh::{FaceId, Mesh};
+
+/// Rays are compared with groups of faces at most so often, for each ray and face there is; then the tree goes on.
+const PATIENCE: usize = 64;
+
+/// A ray: where it begins, and how far it goes, in lengths of its direction.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Start {
+    pub point: DVec3,
+    pub reach: f64,
+}
+
+/// A mesh, ready to be met by rays that are parallel.
+pub(crate) struct ParallelRays<'a> {
+    mesh: &'a Mesh,
+    /// The faces that have an area.
+    faces: Vec<u32>,
+    /// The middle of each group's box, and half its sides.
+    boxes: Vec<[Vec3; 2]>,
+    /// Wider than rounding of what is projected can be.
+    slack: f32,
+}
+
+impl<'a> ParallelRays<'a> {
+    /// All faces of a mesh that have an area.
+    pub(crate) fn new(mesh: &'a Mesh) -> Self {
+        let (middle, half) = mesh.extents.ball();
+        let slack = (tolerance::RAY_BOX_OF_MESH * (half + middle.length())) as f32;
+        let has_area = |face: &u32| !mesh.is_degenerate(FaceId(*face));
+        let faces: Vec<u32> = (0..mesh.triangles.len() as u32).filter(has_area).collect();
+        let boxes = faces.chunks(WIDTH).map(|group| {
+            let corners = group.iter().flat_map(|face| mesh.corners(FaceId(*face)));
+            let (low, high) = corners
+                .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+            [((low + high) / 2.0).as_vec3(), ((high - low) / 2.0).as_vec3()]
+        });
+        let boxes = boxes.collect();
+        Self { mesh, faces, boxes, slack }
+    }
+
+    /// For each of some rays in a direction (of length 1) whether a face is nearer than its reach. A face that holds its start may
+    /// be met or not. Without a tree of the mesh there is no answer where it would take too long: whoever asks for many directions
+    /// side by side makes the tree before, as no task may wait for another that makes it.
+    pub(crate) fn blocked(
+        &self,
+        rays: &[Start],
+        direction: DVec3,
+        tree: Option<&RayTree>,
+    ) -> Option<Vec<bool>> {
+        let mut blocked = vec![false; rays.len()];
+        if self.sweep(rays, direction, &mut blocked).is_none() {
+            let tree = tree?;
+            for (blocked, ray) in blocked.iter_mut().zip(rays) {
+                *blocked = *blocked || tree.is_blocked(ray.point, direction, ray.reach);
+            }
+        }
+        Some(blocked)
+    }
+
+    /// Lets each group of faces ask the rays that it covers; none if it takes too long.
+    fn sweep(&self, rays: &[Start], direction: DVec3, blocked: &mut [bool]) -> Option<()> {
+        let (across, up) = direction.any_orthonormal_pair();
+        let project = |p: DVec3| [p.dot(across) as f32, p.dot(up) as f32, p.dot(direction) as f32];
+        let (grid, mut sorted) = RayGrid::sort(rays.iter().map(|ray| (project(ray.point), ray.reach as f32)));
+        let corners: Vec<[f32; 3]> = self.mesh.positions.iter().map(|p| project(*p)).collect();
+        let axes = [across.as_vec3(), up.as_vec3(), direction.as_vec3()];
+        let mut patience = PATIENCE * (rays.len() + self.faces.len());
+        for (faces, [middle, half]) in self.faces.chunks(WIDTH).zip(&self.boxes) {
+            let around = box_along(&axes, *middle, *half, self.slack);
+            patience = patience.checked_sub(grid.cells(&around) / WIDTH)?;
+            if !grid.may_meet(&around) {
+                continue;
+            }
+            let of = |face: u32| {
+                let [a, b, c] = self.mesh.triangles[face as usize];
+                [corners[a as usize], corners[b as usize], corners[c as usize]]
+            };
+            let group = FaceGroup::new(faces, of, self.slack);
+            for range in grid.rows(&group.around) {
+                patience = patience.checked_sub(range.len())?;
+                for ray in &mut sorted[range] {
+                    let mut may_meet = if group.around.is_beside(ray) { 0 } else { group.may_meet(ray) };
+                    while may_meet != 0 {
+                        let face = FaceId(faces[may_meet.trailing_zeros() as usize]);
+                        may_meet &= may_meet - 1;
+                        let Start { point, reach } = rays[ray.id as usize];
+                        if meets(&self.mesh.corners(face), point, direction, reach).is_some() {
+                            blocked[ray.id as usize] = true;
+                            ray.from = f32::INFINITY;
+                            break;
+                        }
+                    }
+                }
+            }
+        }
+        Some(())
+    }
+}
+
+/// The box along some axes around one that is given by its middle and half its sides.
+#[inline]
+fn box_along(axes: &[Vec3; 3], middle: Vec3, half: Vec3, slack: f32) -> Around {
+    let (mut low, mut high) = ([0.0; 3], [0.0; 3]);
+    for axis in 0..3 {
+        let (at, reach) = (axes[axis].dot(middle), axes[axis].abs().dot(half) + slack);
+        low[axis] = at - reach;
+        high[axis] = at + reach;
+    }
+    Around { low, high }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::numbers::noise::hash;
+    use crate::mesh::Soup;
+
+    /// A point of the cube from -1 to 1.
+    fn point(n: u32) -> DVec3 {
+        let part = |axis: u64| hash(axis, &[u64::from(n)]) as f64 / u64::MAX as f64 * 2.0 - 1.0;
+        DVec3::new(part(0), part(1), part(2))
+    }
+
+    /// Triangles of a size in a cube, and one over all of it.
+    fn mesh(count: u32, size: f64) -> Mesh {
+        let corner = |k: u32| point(k / 3 + 1000) + size * point(k + 5000);
+        let mut positions: Vec<DVec3> = (0..3 * count).map(corner).collect();
+        positions.extend([
+            DVec3::new(-9.0, -9.0, 0.9),
+            DVec3::new(9.0, -9.0, 0.8),
+            DVec3::new(0.0, 9.0, 0.95),
+        ]);
+        let triangles = (0..=count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        Mesh::build(Soup { positions, triangles, ..Soup::default() })
+    }
+
+    #[test]
+    fn rays_are_blocked_as_when_every_triangle_is_asked() {
+        // Many small ones; few; needles; and so many large ones that the tree has to take over.
+        for (count, size, rays) in
+            [(600, 0.1, 800), (7, 0.5, 90), (300, 0.02, 800), (2500, 3.0, 1500), (3, 0.1, 1), (3, 0.1, 0)]
+        {
+            let mesh = mesh(count, size);
+            let (parallel, tree) = (ParallelRays::new(&mesh), RayTree::new(&mesh));
+            let starts: Vec<Start> = (0..rays)
+                .map(|n| Start { point: point(n + 20_000), reach: [0.3, 9.0, f64::INFINITY][n as usize % 3] })
+                .collect();
+            let mut met = 0;
+            for n in 0..12 {
+                let direction = if n == 0 { DVec3::Z } else { point(n + 30_000).normalize() };
+                let found = parallel.blocked(&starts, direction, Some(&tree)).expect("an answer");
+                for (ray, found) in starts.iter().zip(found) {
+                    let wanted = (0..mesh.triangles.len() as u32).any(|face| {
+                        meets(&mesh.corners(FaceId(face)), ray.point, direction, ray.reach).is_some()
+                    });
+                    assert_eq!(found, wanted, "{count} {size} {ray:?} {direction}");
+                    met += u32::from(found);
+                }
+            }
+            assert!(rays < 90 || met > 10, "{met}");
+            let without = parallel.blocked(&starts, DVec3::Z, None).is_some();
+            assert_eq!(without, size < 2.0, "{count} {size}");
+        }
+    }
+
+    #[test]
+    fn rays_in_a_line_and_at_one_place_are_asked() {
+        let mesh = mesh(200, 0.3);
+        let parallel = ParallelRays::new(&mesh);
+        for step in [DVec3::ZERO, DVec3::X * 0.01, DVec3::Z * 0.01] {
+            let starts: Vec<Start> =
+                (0..50).map(|n| Start { point: step * f64::from(n), reach: 5.0 }).collect();
+            let tree = RayTree::new(&mesh);
+            let found = parallel.blocked(&starts, DVec3::Z, Some(&tree)).expect("an answer");
+            let wanted: Vec<bool> =
+                starts.iter().map(|ray| tree.is_blocked(ray.point, DVec3::Z, ray.reach)).collect();
+            assert_eq!(found, wanted);
+        }
+    }
+}

@@ -1,0 +1,275 @@
+//! [`RayTree`]: an implicit tree of bounding boxes that tells whether a ray meets the mesh.
+//!
+//! Triangles are sorted along a Morton curve by centre; eight neighbours on it make a node, eight
+//! nodes one of the next level, and so on, as in [`crate::mesh::bvh::box_tree`]. The eight boxes of a node lie
+//! coordinate by coordinate, so that all are tested at once.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use crate::geometry::numbers::tolerance;
+use crate::mesh::order::morton_curve::spread;
+use crate::mesh::{FaceId, Mesh};
+
+/// Children of a node.
+const WIDTH: usize = 8;
+/// Nodes of one level are numbered below this.
+const LEVELS: usize = 12;
+
+/// The boxes of eight children: least and greatest x, y and z.
+#[derive(Debug, Clone, Copy)]
+struct Node {
+    low: [[f32; WIDTH]; 3],
+    high: [[f32; WIDTH]; 3],
+}
+
+impl Node {
+    const EMPTY: Self = Self { low: [[f32::INFINITY; WIDTH]; 3], high: [[f32::NEG_INFINITY; WIDTH]; 3] };
+
+    fn put(&mut self, child: usize, low: [f32; 3], high: [f32; 3]) {
+        for axis in 0..3 {
+            self.low[axis][child] = low[axis];
+            self.high[axis][child] = high[axis];
+        }
+    }
+
+    /// The box around all children.
+    fn around(&self) -> ([f32; 3], [f32; 3]) {
+        let least = |row: [f32; WIDTH]| row.into_iter().fold(f32::INFINITY, f32::min);
+        let most = |row: [f32; WIDTH]| row.into_iter().fold(f32::NEG_INFINITY, f32::max);
+        (self.low.map(least), self.high.map(most))
+    }
+
+    /// Which children a ray meets, one bit each.
+    #[inline]
+    fn meets(&self, ray: &Ray) -> u32 {
+        let (mut near, mut far) = ([0.0_f32; WIDTH], [ray.reach; WIDTH]);
+        for axis in 0..3 {
+            let (start, inverse) = (ray.start[axis], ray.inverse[axis]);
+            let (first, last) = if inverse < 0.0 {
+                (&self.high[axis], &self.low[axis])
+            } else {
+                (&self.low[axis], &self.high[axis])
+            };
+            // Nothing here is NaN, and plain comparisons are what processors do eight at a time.
+            for k in 0..WIDTH {
+                let (enter, leave) = ((first[k] - start) * inverse, (last[k] - start) * inverse);
+                near[k] = if enter > near[k] { enter } else { near[k] };
+                far[k] = if leave < far[k] { leave } else { far[k] };
+            }
+        }
+        let mut bits = 0;
+        for k in 0..WIDTH {
+            bits |= u32::from(near[k] <= far[k]) << k;
+        }
+        bits
+    }
+}
+
+/// A ray in single precision; boxes are wide enough for its rounding.
+struct Ray {
+    start: [f32; 3],
+    inverse: [f32; 3],
+    reach: f32,
+}
+
+/// The triangles of a mesh, ready to be met by rays.
+#[derive(Debug, Clone)]
+pub struct RayTree {
+    /// Corners of each triangle along the curve.
+    triangles: Vec<[DVec3; 3]>,
+    /// The face each of them is.
+    faces: Vec<u32>,
+    /// Level 0 holds the boxes of the triangles, each level above those of the nodes below.
+    levels: Vec<Vec<Node>>,
+}
+
+impl RayTree {
+    /// The tree of all faces that have an area.
+    #[must_use]
+    pub fn new(mesh: &Mesh) -> Self {
+        let (middle, half) = mesh.extents.ball();
+        let mut order: Vec<(u64, u32)> = (0..mesh.triangles.len() as u32)
+            .into_par_iter()
+            .with_min_len(1 << 10)
+            .filter(|face| !mesh.is_degenerate(FaceId(*face)))
+            .map(|face| {
+                let [a, b, c] = mesh.corners(FaceId(face));
+                (morton(((a + b + c) / 3.0 - middle) / half), face)
+            })
+            .collect();
+        order.par_sort_unstable();
+        let faces: Vec<u32> = order.iter().map(|(_, face)| *face).collect();
+        let triangles: Vec<[DVec3; 3]> = faces.iter().map(|face| mesh.corners(FaceId(*face))).collect();
+
+        // Wider than rounding of the rays can be.
+        let slack = tolerance::RAY_BOX_OF_MESH * (half + middle.length());
+        let mut levels: Vec<Vec<Node>> = vec![
+            triangles
+                .chunks(WIDTH)
+                .map(|group| {
+                    let mut node = Node::EMPTY;
+                    for (child, [a, b, c]) in group.iter().enumerate() {
+                        let (low, high) = (a.min(*b).min(*c) - slack, a.max(*b).max(*c) + slack);
+                        node.put(child, low.as_vec3().to_array(), high.as_vec3().to_array());
+                    }
+                    node
+                })
+                .collect(),
+        ];
+        while levels.last().is_some_and(|level| level.len() > 1) && levels.len() < LEVELS {
+            let below = &levels[levels.len() - 1];
+            let above = below.chunks(WIDTH).map(|group| {
+                let mut node = Node::EMPTY;
+                for (child, of) in group.iter().enumerate() {
+                    let (low, high) = of.around();
+                    node.put(child, low, high);
+                }
+                node
+            });
+            let above = above.collect();
+            levels.push(above);
+        }
+        Self { triangles, faces, levels }
+    }
+
+    /// Whether a ray from a point meets a face nearer than `reach` times the length of `direction`.
+    /// A face that holds the point itself may be met or not.
+    #[must_use]
+    pub fn is_blocked(&self, point: DVec3, direction: DVec3, reach: f64) -> bool {
+        let mut blocked = false;
+        self.each_near(point, direction, reach, |rank| {
+            blocked = meets(&self.triangles[rank as usize], point, direction, reach).is_some();
+            !blocked
+        });
+        blocked
+    }
+
+    /// The nearest face among those that count which a ray from a point meets, and how far away that is in lengths of
+    /// `direction`, if it is less than `reach`. A face that holds the point itself may be met or not.
+    pub(crate) fn first_met(
+        &self,
+        point: DVec3,
+        direction: DVec3,
+        reach: f64,
+        counts: impl Fn(u32) -> bool,
+    ) -> Option<(u32, f64)> {
+        let mut first: Option<(u32, f64)> = None;
+        self.each_near(point, direction, reach, |rank| {
+            let face = self.faces[rank as usize];
+            let at = meets(&self.triangles[rank as usize], point, direction, reach).filter(|_| counts(face));
+            let is_nearer = |at: f64| first.is_none_or(|(other, best)| (at, face) < (best, other));
+            if let Some(at) = at.filter(|at| is_nearer(*at)) {
+                first = Some((face, at));
+            }
+            true
+        });
+        first
+    }
+
+    /// Calls for each triangle whose box a ray meets, until it is told to stop.
+    fn each_near(&self, point: DVec3, direction: DVec3, reach: f64, mut go_on: impl FnMut(u32) -> bool) {
+        let inverse = |x: f64| if x.abs() < 1e-30 { 1e30 } else { (1.0 / x) as f32 };
+        let ray = Ray {
+            start: point.as_vec3().to_array(),
+            inverse: direction.to_array().map(inverse),
+            reach: (reach as f32).next_up(),
+        };
+        // No more than the children of one node a level wait.
+        let mut stack = [(0_u8, 0_u32); WIDTH * LEVELS];
+        let mut count = 0;
+        for node in 0..self.levels.last().map_or(0, Vec::len).min(WIDTH) {
+            stack[count] = (self.levels.len() as u8 - 1, node as u32);
+            count += 1;
+        }
+        while count > 0 {
+            count -= 1;
+            let (level, node) = stack[count];
+            let mut bits = self.levels[level as usize][node as usize].meets(&ray);
+            while bits != 0 {
+                let child = node * WIDTH as u32 + bits.trailing_zeros();
+                bits &= bits - 1;
+                if level > 0 {
+                    stack[count] = (level - 1, child);
+                    count += 1;
+                } else if !go_on(child) {
+                    return;
+                }
+            }
+        }
+    }
+}
+
+/// Where a ray meets a triangle, if between its start and `reach`.
+///
+/// Source: Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
+#[inline]
+pub(crate) fn meets([a, b, c]: &[DVec3; 3], start: DVec3, direction: DVec3, reach: f64) -> Option<f64> {
+    let (u, v) = (*b - *a, *c - *a);
+    let across = direction.cross(v);
+    let volume = u.dot(across);
+    if volume == 0.0 {
+        return None;
+    }
+    let from = start - *a;
+    let s = from.dot(across) / volume;
+    let turned = from.cross(u);
+    let t = direction.dot(turned) / volume;
+    let at = v.dot(turned) / volume;
+    (s >= 0.0 && t >= 0.0 && s + t <= 1.0 && at > 0.0 && at < reach).then_some(at)
+}
+
+/// Position along the Morton curve of a point in the cube from −1 to 1, 63 bits.
+fn morton(p: DVec3) -> u64 {
+    let axis = |x: f64| spread((((x + 1.0) / 2.0).clamp(0.0, 1.0) * f64::from((1 << 21) - 1)) as u64);
+    axis(p.x) << 2 | axis(p.y) << 1 | axis(p.z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Soup;
+
+    /// A number from -1 to 1 that looks random.
+    fn chance(n: u32) -> f64 {
+        let mut x = n.wrapping_mul(0x9e37_79b9) ^ 0x85eb_ca6b;
+        x = (x ^ x >> 15).wrapping_mul(0x2c1b_3c6d);
+        x = (x ^ x >> 12).wrapping_mul(0x297a_2d39);
+        f64::from(x ^ x >> 15) / f64::from(u32::MAX) * 2.0 - 1.0
+    }
+
+    fn point(n: u32) -> DVec3 {
+        DVec3::new(chance(3 * n), chance(3 * n + 1), chance(3 * n + 2))
+    }
+
+    #[test]
+    fn rays_meet_what_they_meet_when_every_triangle_is_asked() {
+        for count in [0, 1, 7, 9, 64, 65, 700] {
+            let positions: Vec<DVec3> =
+                (0..3 * count).map(|k| point(k / 3 + 1000) + 0.2 * point(k + 5000)).collect();
+            let triangles = (0..count).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+            let mesh = Mesh::build(Soup { positions, triangles, ..Soup::default() });
+            let tree = RayTree::new(&mesh);
+            let mut blocked = 0;
+            for n in 0..600 {
+                let (start, direction) = (point(n + 20_000), point(n + 30_000));
+                let direction = if n % 50 == 0 { DVec3::X } else { direction };
+                for reach in [0.3, 9.0, f64::INFINITY] {
+                    let all = (0..mesh.triangles.len() as u32)
+                        .any(|face| meets(&mesh.corners(FaceId(face)), start, direction, reach).is_some());
+                    assert_eq!(tree.is_blocked(start, direction, reach), all, "{count} {n} {reach}");
+                    blocked += u32::from(all);
+                    let odd = |face: u32| face % 2 == 1;
+                    let nearest = (0..mesh.triangles.len() as u32)
+                        .filter(|face| odd(*face))
+                        .filter_map(|face| {
+                            meets(&mesh.corners(FaceId(face)), start, direction, reach).map(|at| (face, at))
+                        })
+                        .min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+                    assert_eq!(tree.first_met(start, direction, reach, odd), nearest, "{count} {n} {reach}");
+                }
+            }
+            assert!(count < 64 || blocked > 50, "{count}: {blocked}");
+        }
+    }
+}

@@ -1,0 +1,193 @@
+//! Bodies: parts whose surfaces continue in each other.
+//!
+//! Files may put each face of one surface in a group of its own. What its shape is for must not depend on that, so shapes and
+//! tolerances are decided for bodies. Two parts are of one body if an edge has exactly two faces, one of each: then neither part
+//! has another face there in which its surface goes on. Parts that merely touch have faces of their own on both sides of an
+//! edge, and stay apart. Where other bodies touch the edge as well, of the parts with one face there those are of one body whose faces
+//! enclose material.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use crate::geometry::numbers::portable_math::atan2;
+use crate::mesh::{EdgeFaces, Edges, Groups, Mesh, PartId, Soup};
+use crate::parallel::task_size::GRAIN;
+
+/// Faces at an edge at an angle of no more than this (radians) lie in one plane: what moving a model leaves of flat faces.
+const IN_PLANE: f64 = 1e-6;
+
+/// For each part the first part of its body; empty if each part is a body of its own.
+pub(crate) fn bodies(soup: &Soup, edges: &Edges) -> Vec<PartId> {
+    let parts = &soup.triangle_part;
+    let count = parts.par_iter().with_min_len(GRAIN).map(|part| part.index() + 1).max().unwrap_or(0);
+    let part = |face: u32| parts.get(face as usize).copied().unwrap_or_default();
+    let joints = |edge: usize| {
+        let pairs = match edges.faces(edge) {
+            EdgeFaces::One(_) => Vec::new(),
+            EdgeFaces::Two { faces, .. } if part(faces[0]) == part(faces[1]) => Vec::new(),
+            EdgeFaces::Two { faces, .. } => vec![faces],
+            EdgeFaces::Many(faces) => {
+                let is_alone =
+                    |face: &u32| faces.iter().filter(|other| part(**other) == part(*face)).count() == 1;
+                let alone: Vec<u32> = faces.iter().copied().filter(is_alone).collect();
+                if alone.len() > 1 { wedges(soup, edges.vertices[edge], &alone) } else { Vec::new() }
+            }
+        };
+        pairs.into_iter().map(|pair| pair.map(part))
+    };
+    if count < 2 {
+        return Vec::new();
+    }
+    let joints: Vec<[PartId; 2]> =
+        (0..edges.len()).into_par_iter().with_min_len(GRAIN).flat_map_iter(joints).collect();
+    if joints.is_empty() {
+        return Vec::new();
+    }
+    let groups = Groups::new(count, |join| joints.iter().for_each(|[a, b]| join(a.0, b.0)));
+    (0..count as u32).map(|part| PartId(groups.of(part))).collect()
+}
+
+/// The pairs of faces round an edge that have material between them: a face that has it on the side to which angles grow, and the
+/// next one that has it on the other side.
+fn wedges(soup: &Soup, [from, to]: [u32; 2], faces: &[u32]) -> Vec<[u32; 2]> {
+    let at = |v: u32| soup.positions[v as usize];
+    let Some(axis) = (at(to) - at(from)).try_normalize() else { return Vec::new() };
+    // Away from the edge, and whether the face runs from its first end to its second; nothing of faces without area.
+    let spoke = |face: u32| {
+        let corners = soup.triangles[face as usize];
+        let k = corners.iter().position(|v| *v != from && *v != to)?;
+        let over = at(corners[k]) - at(from);
+        let out = (over - axis * over.dot(axis)).try_normalize()?;
+        Some((out, corners[(k + 1) % 3] == from))
+    };
+    let spokes: Vec<(u32, DVec3, bool)> =
+        faces.iter().filter_map(|face| spoke(*face).map(|(out, up)| (*face, out, up))).collect();
+    let Some(zero) = spokes.first().map(|spoke| spoke.1) else { return Vec::new() };
+    let quarter = axis.cross(zero);
+    let half = std::f64::consts::PI;
+    let mut round: Vec<(f64, bool, u32)> = Vec::with_capacity(spokes.len());
+    for (face, out, up) in &spokes {
+        let angle = atan2(out.dot(quarter), out.dot(zero));
+        round.push((if angle > half - IN_PLANE { angle - 2.0 * half } else { angle }, *up, *face));
+    }
+    round.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // In one plane, what is closed comes before what begins. Of faces that lie on each other, that of the first part is the nearest to
+    // what it encloses, at every edge.
+    let part = |face: u32| soup.triangle_part.get(face as usize).map_or(0, |part| part.0);
+    for own in round.chunk_by_mut(|a, b| b.0 - a.0 <= IN_PLANE) {
+        own.sort_by_key(|(_, up, face)| {
+            (!*up, if *up { part(*face) } else { u32::MAX - part(*face) }, *face)
+        });
+    }
+    let mut begun: Vec<u32> = Vec::new();
+    let mut pairs = Vec::new();
+    let mut left: Vec<u32> = Vec::new();
+    for (_, up, face) in round {
+        match (up, begun.last()) {
+            (false, _) => begun.push(face),
+            (true, None) => left.push(face),
+            (true, Some(_)) => pairs.extend(begun.pop().map(|first| [first, face])),
+        }
+    }
+    // Once round.
+    for face in left {
+        pairs.extend(begun.pop().map(|first| [first, face]));
+    }
+    pairs
+}
+
+/// The body of a part, by what [`bodies`] found.
+#[inline]
+#[must_use]
+pub fn body_of(bodies: &[PartId], part: PartId) -> PartId {
+    bodies.get(part.index()).copied().unwrap_or(part)
+}
+
+impl Mesh {
+    /// The body that a face belongs to, by its first part.
+    #[inline]
+    #[must_use]
+    pub fn body(&self, face: u32) -> PartId {
+        body_of(&self.bodies, self.face_part[face as usize])
+    }
+
+    /// The body of each face; empty if all are of one.
+    #[must_use]
+    pub fn face_bodies(&self) -> Vec<PartId> {
+        let body = |part: &PartId| body_of(&self.bodies, *part);
+        let first = self.face_part.first().map(body);
+        let parts = self.face_part.par_iter().with_min_len(GRAIN);
+        if parts.clone().all(|part| Some(body(part)) == first) {
+            Vec::new()
+        } else {
+            parts.map(body).collect()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::mesh::Soup;
+
+    /// Six sides of a box of two triangles, with corners numbered by their coordinates.
+    const SIDES: [[u32; 4]; 6] =
+        [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+
+    /// Adds a box whose sides are of parts that `part` gives by their number.
+    fn add_box(soup: &mut Soup, low: DVec3, part: impl Fn(u32) -> u32) {
+        let first = soup.positions.len() as u32;
+        let corner = |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2));
+        soup.positions.extend((0..8).map(|k| low + corner(k)));
+        for (k, side) in (0..).zip(SIDES) {
+            let [a, b, c, d] = side.map(|v| first + v);
+            soup.triangles.extend([[a, b, c], [a, c, d]]);
+            soup.triangle_part.extend([PartId(part(k)); 2]);
+        }
+    }
+
+    #[test]
+    fn sides_of_one_box_are_one_body_and_boxes_that_touch_are_two() {
+        let mut soup = Soup::default();
+        add_box(&mut soup, DVec3::ZERO, |side| side);
+        // It lies on the first one, and shares no edge with it.
+        add_box(&mut soup, DVec3::new(1.0, 0.25, 0.0), |side| 6 + side);
+        // These two share nothing but an edge.
+        add_box(&mut soup, DVec3::new(5.0, 0.0, 0.0), |_| 12);
+        add_box(&mut soup, DVec3::new(6.0, 1.0, 0.0), |_| 13);
+        let mesh = Mesh::build(soup);
+        let found: Vec<u32> = mesh.bodies.iter().map(|body| body.0).collect();
+        assert_eq!(found, [0, 0, 0, 0, 0, 0, 6, 6, 6, 6, 6, 6, 12, 13]);
+        let scale = |part: u32| mesh.extents.of(PartId(part)).scale;
+        assert!((0..14).all(|part| (scale(part) - 3.0_f64.sqrt()).abs() < 1e-12));
+    }
+
+    #[test]
+    fn parts_that_share_no_edge_are_bodies_of_their_own() {
+        let mut soup = Soup::default();
+        add_box(&mut soup, DVec3::ZERO, |_| 0);
+        add_box(&mut soup, DVec3::splat(3.0), |_| 1);
+        assert!(Mesh::build(soup).bodies.is_empty());
+    }
+
+    #[test]
+    fn of_sides_and_a_sheet_on_one_of_them_the_sides_are_one_body() {
+        // Corners of every side in another order, so that at each edge the sides come in another one, and the sheet before and after them.
+        for sheet in [0, 1, 7] {
+            for corner in 0..4 {
+                let mut soup = Soup::default();
+                add_box(&mut soup, DVec3::ZERO, |side| 1 + side + u32::from(side + 1 >= sheet && sheet > 0));
+                let [a, b, c, d] = [0, 1, 2, 3].map(|k| SIDES[2][(k + corner) % 4]);
+                soup.triangles.extend([[a, b, c], [a, c, d]]);
+                soup.triangle_part.extend([PartId(sheet); 2]);
+                let mesh = Mesh::build(soup);
+                let count =
+                    |body: PartId| (0..8).filter(|part| mesh.bodies.get(*part) == Some(&body)).count();
+                let largest = mesh.bodies.iter().map(|body| count(*body)).max();
+                assert_eq!(largest, Some(6), "{sheet} {corner} {:?}", mesh.bodies);
+            }
+        }
+    }
+}

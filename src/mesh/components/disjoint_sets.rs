@@ -1,0 +1,169 @@
+//! [`Groups`]: which faces hang together, by whatever joins them.
+//!
+//! Pairs may be told from several threads at once: faces stand in trees, of which the least face is the root, and two trees
+//! are joined by hanging the root that is greater below the other. Whoever comes first, the least face of a group is its
+//! root in the end. Source: Jayanti and Tarjan, "Concurrent disjoint set union", 2021, with the order of faces in the place of
+//! a random one.
+
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::Ordering::Relaxed;
+
+use crate::geometry::lists::rank_bitset::Ranks;
+use crate::parallel::prelude::*;
+use crate::parallel::task_size::GRAIN;
+
+/// Faces in groups, each known by the least face in it.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Groups {
+    first: Vec<u32>,
+}
+
+impl Groups {
+    /// The groups of `count` faces of which `joins` tells pairs, on any threads and in any order.
+    #[must_use]
+    pub fn new(count: usize, joins: impl FnOnce(&(dyn Fn(u32, u32) + Sync))) -> Self {
+        let parents: Vec<AtomicU32> =
+            (0..count as u32).into_par_iter().with_min_len(GRAIN).map(AtomicU32::new).collect();
+        joins(&|a, b| join(&parents, a, b));
+        // Into a list of its own: a thread that halves a way may write what it read before another found the root.
+        let root = |face| root(&parents, face);
+        Self { first: (0..count as u32).into_par_iter().with_min_len(GRAIN).map(root).collect() }
+    }
+
+    /// The least face of the group that a face is in.
+    #[inline]
+    #[must_use]
+    pub fn of(&self, face: u32) -> u32 {
+        self.first[face as usize]
+    }
+
+    /// The groups numbered in the order of their first faces, but for those of which `instead` tells by the first face what stands
+    /// in the place of a number.
+    #[must_use]
+    pub fn numbered(self, instead: impl Fn(u32) -> Option<u32> + Sync) -> Numbered {
+        let Self { first: mut of_face } = self;
+        let counted = |(chunk, of): (usize, &[u32])| -> Vec<u32> {
+            let faces = (chunk * GRAIN) as u32..;
+            let is_first = |(face, first): &(u32, &u32)| face == *first && instead(*face).is_none();
+            faces.zip(of).filter(is_first).map(|(face, _)| face).collect()
+        };
+        let first = of_face.par_chunks(GRAIN).enumerate().map(counted).collect::<Vec<_>>().concat();
+        let ranks = Ranks::new(of_face.len(), first.iter().map(|face| *face as usize));
+        of_face.par_iter_mut().with_min_len(GRAIN).for_each(|first| {
+            *first = instead(*first).unwrap_or_else(|| ranks.of(*first as usize));
+        });
+        Numbered { of_face, first }
+    }
+}
+
+/// Groups with numbers in place of faces.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Numbered {
+    /// The number of the group of each face.
+    pub of_face: Vec<u32>,
+    /// The least face of each group.
+    pub first: Vec<u32>,
+}
+
+/// Makes one tree of those of two faces.
+fn join(parents: &[AtomicU32], mut a: u32, mut b: u32) {
+    loop {
+        (a, b) = (root(parents, a), root(parents, b));
+        let (least, most) = (a.min(b), a.max(b));
+        // Another thread may have hung it somewhere meanwhile.
+        if a == b || parents[most as usize].compare_exchange(most, least, Relaxed, Relaxed).is_ok() {
+            return;
+        }
+    }
+}
+
+/// The least face known of a group; the way there is halved for those who come after. Whatever other threads do meanwhile, above
+/// a face stand faces of its group alone, each less than the one below.
+fn root(parents: &[AtomicU32], mut face: u32) -> u32 {
+    let above = |face: u32| parents[face as usize].load(Relaxed);
+    loop {
+        let next = above(face);
+        if next == face {
+            return face;
+        }
+        let after = above(next);
+        if after == next {
+            return next;
+        }
+        parents[face as usize].store(after, Relaxed);
+        face = after;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_are_known_by_their_least_face_in_whatever_order_they_are_joined() {
+        let pairs = [[5, 6], [1, 3], [6, 3], [2, 4]];
+        for turn in 0..pairs.len() {
+            let groups = Groups::new(8, |join| {
+                for k in 0..pairs.len() {
+                    let [a, b] = pairs[(k + turn) % pairs.len()];
+                    join(b, a);
+                }
+            });
+            assert_eq!(groups.first, [0, 1, 2, 1, 2, 1, 1, 7]);
+            let numbered = groups.numbered(|face| (face == 0).then_some(u32::MAX));
+            assert_eq!(numbered.first, [1, 2, 7]);
+            assert_eq!(numbered.of_face, [u32::MAX, 0, 1, 0, 1, 0, 0, 2]);
+        }
+    }
+
+    #[test]
+    fn threads_may_join_at_once() {
+        // Steps that meet all over; multiples of seven stay alone.
+        let count = 100_000_u32;
+        let pairs: Vec<[u32; 2]> = (0..count)
+            .map(|k| if k % 2 == 0 { k } else { count - k })
+            .map(|k| [k, (u64::from(k) * 48_271 % u64::from(count)) as u32])
+            .filter(|pair| pair.iter().all(|k| k % 7 != 0))
+            .collect();
+        let pool = rayon_core::ThreadPoolBuilder::new().num_threads(4).build().expect("a pool");
+        let groups = pool
+            .install(|| Groups::new(count as usize, |join| pairs.par_iter().for_each(|[a, b]| join(*a, *b))));
+        // As slow and plain as can be: the least number is handed on until nothing changes.
+        let mut plain: Vec<u32> = (0..count).collect();
+        let mut before = Vec::new();
+        while before != plain {
+            before.clone_from(&plain);
+            for pair in &pairs {
+                let least = pair.map(|k| plain[k as usize]).into_iter().min().unwrap_or_default();
+                pair.iter().for_each(|k| plain[*k as usize] = least);
+            }
+        }
+        assert_eq!(groups.first, plain);
+        // Their numbers are how many first faces come before theirs, but for multiples of 14.
+        let counts = |first: u32| !first.is_multiple_of(14);
+        let numbered = groups.numbered(|first| (!counts(first)).then_some(9));
+        let firsts: Vec<u32> = (0..count).filter(|k| plain[*k as usize] == *k && counts(*k)).collect();
+        assert!(numbered.first == firsts && firsts.len() > 5000);
+        let number = |first: &u32| firsts.binary_search(first).map_or(9, |at| at as u32);
+        assert_eq!(numbered.of_face, plain.iter().map(number).collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn a_root_that_several_threads_hang_at_once_is_hung_below_all() {
+        // Whoever comes next has a lesser face for the group of the last one than all before.
+        let (threads, each) = (4, 50_000_u32);
+        let last = threads * each;
+        let pool =
+            rayon_core::ThreadPoolBuilder::new().num_threads(threads as usize).build().expect("a pool");
+        // Often enough that two of them surely meet.
+        for _ in 0..40 {
+            let groups = pool.install(|| {
+                Groups::new(last as usize + 1, |join| {
+                    let joins = |own: u32| (0..each).rev().for_each(|k| join(threads * k + own, last));
+                    (0..threads).into_par_iter().with_max_len(1).for_each(joins);
+                })
+            });
+            assert!(groups.first.iter().all(|first| *first == 0));
+        }
+    }
+}

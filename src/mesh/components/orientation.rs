@@ -1,0 +1,387 @@
+//! [`Surfaces`]: the connected surfaces of a mesh, and which faces must be turned so that each shows its outside.
+//!
+//! 1. Faces are connected where exactly two faces meet at an edge, of all parts or of one part.
+//! 2. Within a surface, windings are made to agree by union-find with parity. Surfaces with one side (Möbius strips) stay unchanged.
+//! 3. A closed surface encloses a positive volume. Each counts on its own, also inside another one.
+//! 4. An open surface is closed by a cone over its border. Where the volume has the same sign for every apex in the ball around the
+//!    surface, that sign counts, as for a box without lid. Otherwise, as in sheets, the winding of the larger area stays.
+//!
+//! All sums are taken in a fixed order, so that the number of threads changes nothing.
+
+use std::sync::atomic::AtomicBool;
+use std::sync::atomic::Ordering::Relaxed;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use crate::mesh::{EdgeFaces, Edges, Groups, Numbered, PartId, Soup};
+use crate::parallel::task_size::GRAIN;
+
+/// Faces that were wound inward, or against their neighbours, in one part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct TurnedFaces {
+    /// The part.
+    pub part: PartId,
+    /// Number of faces that were turned.
+    pub faces: u64,
+    /// Number of connected surfaces that these faces belong to.
+    pub surfaces: u64,
+}
+
+/// Triangles with the edges that connect them.
+pub(crate) struct Triangles<'a> {
+    pub positions: &'a [DVec3],
+    pub triangles: &'a [[u32; 3]],
+    /// Part of each triangle, or empty.
+    pub parts: &'a [PartId],
+    pub edges: &'a Edges,
+}
+
+/// The connected surfaces of a mesh.
+#[derive(Debug, Default)]
+pub(crate) struct Surfaces {
+    /// The surface of each face.
+    pub of_face: Numbered,
+    /// Whether each surface is closed and has two sides.
+    pub is_closed: Vec<bool>,
+    /// Whether each face must be turned; empty if none must.
+    pub turned: Vec<bool>,
+}
+
+impl Surfaces {
+    /// Finds the surfaces of a mesh.
+    pub fn new(mesh: &Triangles) -> Self {
+        let of_face = mesh.connected();
+        let count = of_face.first.len();
+        let Joints { open, mixed } = mesh.joints(&of_face);
+        let mut turned = Vec::new();
+        let mut twisted = vec![false; count];
+        if mixed.contains(&true) {
+            turned = mesh.agreeing(&of_face, &mixed, &mut twisted);
+        }
+        let is_turned = |face: usize| turned.get(face).copied().unwrap_or_default();
+        let mut sums = mesh.sums(&of_face, is_turned);
+        let is_closed: Vec<bool> =
+            open.iter().zip(&twisted).map(|(open, twisted)| !open && !twisted).collect();
+        mesh.add_radii(&of_face, &is_closed, &mut sums);
+        let turns = |surface: usize| !twisted[surface] && sums[surface].turns();
+        let turns: Vec<bool> = (0..count).map(turns).collect();
+        if turns.contains(&true) {
+            turned.resize(mesh.triangles.len(), false);
+            let of_face = of_face.of_face.par_iter().with_min_len(GRAIN);
+            turned
+                .par_iter_mut()
+                .zip(of_face)
+                .for_each(|(turned, surface)| *turned ^= turns[*surface as usize]);
+        }
+        if !turned.contains(&true) {
+            turned.clear();
+        }
+        Self { of_face, is_closed, turned }
+    }
+
+    /// Whether any surface is open.
+    pub fn has_open(&self) -> bool {
+        self.is_closed.contains(&false)
+    }
+
+    /// Leaves open surfaces unchanged, and gives which of their faces would be turned; empty if none would.
+    pub fn turn_closed_only(&mut self) -> Vec<bool> {
+        let is_open = |surface: &u32| !self.is_closed[*surface as usize];
+        let of_face = &self.of_face.of_face;
+        let mut of_open: Vec<bool> =
+            self.turned.iter().zip(of_face).map(|(turned, of)| *turned && is_open(of)).collect();
+        self.turned.iter_mut().zip(&of_open).for_each(|(turned, open)| *turned &= !*open);
+        for list in [&mut self.turned, &mut of_open] {
+            if !list.contains(&true) {
+                list.clear();
+            }
+        }
+        of_open
+    }
+
+    /// Adds the faces that must be turned to the counts of their parts, which are in the order of parts.
+    pub fn count(&self, parts: &[PartId], counts: &mut Vec<TurnedFaces>) {
+        let part = |face: usize| parts.get(face).copied().unwrap_or_default();
+        let faces = (0..self.turned.len()).filter(|face| self.turned[*face]);
+        let mut found: Vec<(PartId, u32)> =
+            faces.map(|face| (part(face), self.of_face.of_face[face])).collect();
+        found.sort_unstable();
+        for own in found.chunk_by(|a, b| a.0 == b.0) {
+            let (part, faces) = (own[0].0, own.len() as u64);
+            let surfaces = own.chunk_by(|a, b| a.1 == b.1).count() as u64;
+            match counts.binary_search_by_key(&part, |known| known.part) {
+                Ok(at) => {
+                    counts[at].faces += faces;
+                    counts[at].surfaces += surfaces;
+                }
+                Err(at) => counts.insert(at, TurnedFaces { part, faces, surfaces }),
+            }
+        }
+    }
+}
+
+/// Turns faces of a soup, with all that is stored for their corners and sides.
+pub(crate) fn turn_faces(soup: &mut Soup, turned: &[bool]) {
+    fn turn<T: Send>(list: &mut [[T; 3]], turned: &[bool], [one, other]: [usize; 2]) {
+        let all = list.par_iter_mut().zip(turned).with_min_len(GRAIN);
+        all.filter(|(_, turned)| **turned).for_each(|(own, _)| own.swap(one, other));
+    }
+    turn(&mut soup.triangles, turned, [1, 2]);
+    turn(&mut soup.corner_normals, turned, [1, 2]);
+    turn(&mut soup.corner_uvs, turned, [1, 2]);
+    turn(&mut soup.corner_colours, turned, [1, 2]);
+    // The sides 0-1, 1-2, 2-0 become 0-2, 2-1, 1-0.
+    turn(&mut soup.edge_marks, turned, [0, 2]);
+}
+
+/// Per surface, what its edges say.
+struct Joints {
+    /// Whether it ends somewhere.
+    open: Vec<bool>,
+    /// Whether neighbours are wound against each other.
+    mixed: Vec<bool>,
+}
+
+/// The sums over the faces of a surface, as seen from one of its corners.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    faces: u32,
+    area: f64,
+    /// Area of the faces that agreement with their neighbours turns.
+    turned_area: f64,
+    /// Sum of the normals, each as long as its face is large.
+    normal: DVec3,
+    /// Volume of the cone from the corner over the surface.
+    volume: f64,
+    /// Largest distance from the corner.
+    reach: f64,
+    /// Sum of the middles of the faces, each times its area.
+    moment: DVec3,
+    /// Largest distance from the centroid; 0 for closed surfaces.
+    radius: f64,
+}
+
+impl Sums {
+    fn add(&mut self, other: &Self) {
+        self.faces += other.faces;
+        self.area += other.area;
+        self.turned_area += other.turned_area;
+        self.normal += other.normal;
+        self.volume += other.volume;
+        self.reach = self.reach.max(other.reach);
+        self.moment += other.moment;
+        self.radius = self.radius.max(other.radius);
+    }
+
+    /// The centroid of the surface, from the corner.
+    fn centroid(&self) -> DVec3 {
+        if self.area > 0.0 { self.moment / self.area } else { DVec3::ZERO }
+    }
+
+    /// Whether a surface must be turned as a whole.
+    fn turns(&self) -> bool {
+        // The error of a sum of n numbers is at most n units in the last place of the sum of their sizes.
+        // Source: Higham, "Accuracy and stability of numerical algorithms", 2002, section 4.2.
+        let rounding = f64::from(self.faces.saturating_add(8)) * f64::EPSILON * self.area * self.reach;
+        // The volume of the cone from another apex differs by how far that lies along the sum of normals.
+        let volume = self.volume - self.centroid().dot(self.normal) / 3.0;
+        let most = self.normal.length() * self.radius / 3.0 + rounding;
+        if volume.abs() > most { volume < 0.0 } else { self.turned_area > self.area - self.turned_area }
+    }
+}
+
+/// Edges that one task looks at.
+const CHUNK: usize = 1 << 12;
+
+impl Triangles<'_> {
+    fn part(&self, face: u32) -> PartId {
+        self.parts.get(face as usize).copied().unwrap_or_default()
+    }
+
+    /// Whether a face runs along an edge from the smaller vertex to the larger one.
+    fn runs_up(&self, edge: usize, face: u32) -> bool {
+        let [lo, hi] = self.edges.vertices[edge];
+        let [a, b, c] = self.triangles[face as usize];
+        [(a, b), (b, c), (c, a)].contains(&(lo, hi))
+    }
+
+    /// Calls with the pairs of faces that an edge connects, and whether both run along it the same way.
+    #[inline]
+    fn each_pair(&self, edge: usize, mut call: impl FnMut(u32, u32, bool)) {
+        match self.edges.faces(edge) {
+            EdgeFaces::One(_) => {}
+            EdgeFaces::Two { faces: [a, b], same_way } => call(a, b, same_way),
+            EdgeFaces::Many(faces) => {
+                // Parts that touch have pairs of their own.
+                let mut own: Vec<(PartId, u32)> =
+                    faces.iter().map(|face| (self.part(*face), *face)).collect();
+                own.sort_unstable();
+                for own in own.chunk_by(|a, b| a.0 == b.0) {
+                    if let [(_, a), (_, b)] = *own {
+                        call(a, b, self.runs_up(edge, a) == self.runs_up(edge, b));
+                    }
+                }
+            }
+        }
+    }
+
+    fn connected(&self) -> Numbered {
+        let groups = Groups::new(self.triangles.len(), |join| {
+            let edges = (0..self.edges.len()).into_par_iter().with_min_len(CHUNK);
+            edges.for_each(|edge| self.each_pair(edge, |a, b, _| join(a, b)));
+        });
+        groups.numbered(|_| None)
+    }
+
+    fn joints(&self, surfaces: &Numbered) -> Joints {
+        let flags = || -> Vec<AtomicBool> { surfaces.first.iter().map(|_| AtomicBool::new(false)).collect() };
+        let (open, mixed) = (flags(), flags());
+        let of = |face: u32| surfaces.of_face[face as usize] as usize;
+        (0..self.edges.len()).into_par_iter().with_min_len(CHUNK).for_each(|edge| {
+            match self.edges.faces(edge) {
+                EdgeFaces::One(face) => open[of(face)].store(true, Relaxed),
+                EdgeFaces::Two { same_way: false, .. } => {}
+                EdgeFaces::Two { faces, .. } => mixed[of(faces[0])].store(true, Relaxed),
+                EdgeFaces::Many(faces) => {
+                    let mut own: Vec<usize> = faces.iter().map(|face| of(*face)).collect();
+                    own.sort_unstable();
+                    let odd = own.chunk_by(|a, b| a == b).filter(|own| own.len() % 2 == 1);
+                    odd.for_each(|own| open[own[0]].store(true, Relaxed));
+                    self.each_pair(edge, |a, _, same_way| {
+                        if same_way {
+                            mixed[of(a)].store(true, Relaxed);
+                        }
+                    });
+                }
+            }
+        });
+        let values = |flags: Vec<AtomicBool>| flags.into_iter().map(AtomicBool::into_inner).collect();
+        Joints { open: values(open), mixed: values(mixed) }
+    }
+
+    /// Which faces to turn so that neighbours agree; surfaces where this is impossible are `twisted` and stay unchanged.
+    fn agreeing(&self, surfaces: &Numbered, mixed: &[bool], twisted: &mut [bool]) -> Vec<bool> {
+        let of = |face: u32| surfaces.of_face[face as usize] as usize;
+        let mut parities = Parities::new(self.triangles.len());
+        for edge in 0..self.edges.len() {
+            self.each_pair(edge, |a, b, same_way| {
+                if mixed[of(a)] && !parities.join(a, b, same_way) {
+                    twisted[of(a)] = true;
+                }
+            });
+        }
+        let faces = 0..self.triangles.len() as u32;
+        faces.map(|face| mixed[of(face)] && !twisted[of(face)] && parities.root(face).1).collect()
+    }
+
+    /// The sums over the faces of each surface.
+    fn sums(&self, surfaces: &Numbered, is_turned: impl Fn(usize) -> bool + Sync) -> Vec<Sums> {
+        let mut sums = vec![Sums::default(); surfaces.first.len()];
+        let of_face = |surface: u32, face: usize| {
+            let [a, b, c] = self.corners_relative_to_first(surfaces, surface, face);
+            let turned = is_turned(face);
+            let across = (b - a).cross(c - a) / 2.0;
+            let (area, normal) = (across.length(), if turned { -across } else { across });
+            Sums {
+                faces: 1,
+                area,
+                turned_area: if turned { area } else { 0.0 },
+                normal,
+                volume: a.dot(normal) / 3.0,
+                reach: a.length_squared().max(b.length_squared()).max(c.length_squared()).sqrt(),
+                moment: (a + b + c) / 3.0 * area,
+                radius: 0.0,
+            }
+        };
+        self.each_run(surfaces, of_face, |surface, own| sums[surface].add(&own));
+        sums
+    }
+
+    /// Adds how far open surfaces reach from their centroids.
+    fn add_radii(&self, surfaces: &Numbered, is_closed: &[bool], sums: &mut [Sums]) {
+        if !is_closed.contains(&false) {
+            return;
+        }
+        let centroids: Vec<DVec3> = sums.iter().map(Sums::centroid).collect();
+        let of_face = |surface: u32, face: usize| {
+            let centroid = centroids[surface as usize];
+            let corners =
+                self.corners_relative_to_first(surfaces, surface, face).map(|p| p.distance(centroid));
+            let radius = corners.into_iter().fold(0.0, f64::max);
+            Sums { radius: if is_closed[surface as usize] { 0.0 } else { radius }, ..Sums::default() }
+        };
+        self.each_run(surfaces, of_face, |surface, own| sums[surface].add(&own));
+    }
+
+    /// The corners of a face, as seen from the first corner of its surface.
+    #[inline]
+    fn corners_relative_to_first(&self, surfaces: &Numbered, surface: u32, face: usize) -> [DVec3; 3] {
+        let first = self.triangles[surfaces.first[surface as usize] as usize][0];
+        let from = self.positions[first as usize];
+        self.triangles[face].map(|v| self.positions[v as usize] - from)
+    }
+
+    /// Sums what each face has over runs of faces of one surface, in parallel, and calls with the sums in the order of faces.
+    fn each_run(
+        &self,
+        surfaces: &Numbered,
+        of_face: impl Fn(u32, usize) -> Sums + Sync,
+        mut call: impl FnMut(usize, Sums),
+    ) {
+        let of_chunk = |(chunk, own): (usize, &[u32])| {
+            let mut runs: Vec<(u32, Sums)> = Vec::new();
+            for (surface, face) in own.iter().zip(chunk * CHUNK..) {
+                let more = of_face(*surface, face);
+                match runs.last_mut() {
+                    Some((last, sums)) if last == surface => sums.add(&more),
+                    _ => runs.push((*surface, more)),
+                }
+            }
+            runs
+        };
+        let chunks: Vec<Vec<(u32, Sums)>> =
+            surfaces.of_face.par_chunks(CHUNK).enumerate().map(of_chunk).collect();
+        chunks.into_iter().flatten().for_each(|(surface, sums)| call(surface as usize, sums));
+    }
+}
+
+/// Union-find over faces that also knows whether a face must be turned to agree with the root of its set.
+struct Parities {
+    /// The face above each, and whether the two disagree.
+    above: Vec<(u32, bool)>,
+}
+
+impl Parities {
+    fn new(count: usize) -> Self {
+        Self { above: (0..count as u32).map(|face| (face, false)).collect() }
+    }
+
+    /// The root of a face, and whether the two disagree.
+    fn root(&mut self, face: u32) -> (u32, bool) {
+        let (mut at, mut disagree) = (face, false);
+        while self.above[at as usize].0 != at {
+            let (next, odd) = self.above[at as usize];
+            let (after, more) = self.above[next as usize];
+            // Halves the way for those who come after.
+            self.above[at as usize] = (after, odd ^ more);
+            disagree ^= odd ^ more;
+            at = after;
+        }
+        (at, disagree)
+    }
+
+    /// Joins two faces that agree or not; false if they are known to be the other way.
+    fn join(&mut self, a: u32, b: u32, disagree: bool) -> bool {
+        let ((a, odd_a), (b, odd_b)) = (self.root(a), self.root(b));
+        let odd = odd_a ^ odd_b ^ disagree;
+        if a != b {
+            self.above[a.max(b) as usize] = (a.min(b), odd);
+            return true;
+        }
+        !odd
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,87 @@
+//! [`EdgeSet`]: some edges of a mesh, one bit each.
+
+use crate::parallel::prelude::*;
+use crate::parallel::task_size::GRAIN;
+
+/// A set of edges of one mesh.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct EdgeSet {
+    /// Empty if the set is.
+    words: Vec<u64>,
+}
+
+impl EdgeSet {
+    /// The edges below `count` with `holds`.
+    #[must_use]
+    pub fn collect(count: usize, holds: impl Fn(usize) -> bool + Sync) -> Self {
+        let word = |k: usize| {
+            let edges = 64 * k..(64 * (k + 1)).min(count);
+            edges.fold(0u64, |word, edge| word | u64::from(holds(edge)) << (edge % 64))
+        };
+        let words: Vec<u64> =
+            (0..count.div_ceil(64)).into_par_iter().with_min_len(GRAIN / 64).map(word).collect();
+        if words.iter().all(|word| *word == 0) { Self::default() } else { Self { words } }
+    }
+
+    /// Whether an edge is in it.
+    #[inline]
+    #[must_use]
+    pub fn contains(&self, edge: usize) -> bool {
+        self.words.get(edge / 64).is_some_and(|word| word >> (edge % 64) & 1 == 1)
+    }
+
+    /// Whether it holds no edge.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.words.is_empty()
+    }
+
+    /// The bits of its edges, 64 a word; none if it is empty.
+    #[must_use]
+    pub fn into_words(self) -> Vec<u64> {
+        self.words
+    }
+
+    /// Does something with each of its edges, on all threads.
+    pub fn par_for_each(&self, does: impl Fn(usize) + Sync) {
+        self.words.par_iter().enumerate().with_min_len(GRAIN / 64).for_each(|(k, word)| {
+            let mut word = *word;
+            while word != 0 {
+                does(64 * k + word.trailing_zeros() as usize);
+                word &= word - 1;
+            }
+        });
+    }
+
+    /// Its edges, ascending.
+    pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
+        self.words.iter().enumerate().filter(|(_, word)| **word != 0).flat_map(|(k, word)| {
+            (0..64).filter(move |bit| word >> bit & 1 == 1).map(move |bit| 64 * k + bit)
+        })
+    }
+
+    /// These edges of `count` and those of the set.
+    #[must_use]
+    pub fn with(&self, more: &[usize], count: usize) -> Self {
+        if more.is_empty() {
+            return self.clone();
+        }
+        let mut words = self.words.clone();
+        words.resize(count.div_ceil(64), 0);
+        more.iter().for_each(|edge| words[edge / 64] |= 1 << (edge % 64));
+        Self { words }
+    }
+
+    /// The edges of a mesh with `count` edges that these became, each the one that `ids` tells; `u32::MAX` is none.
+    #[must_use]
+    pub fn carried(&self, ids: &[u32], count: usize) -> Self {
+        let mut words = Vec::new();
+        for edge in self.iter().map(|edge| ids[edge]).filter(|edge| *edge != u32::MAX) {
+            if words.is_empty() {
+                words = vec![0u64; count.div_ceil(64)];
+            }
+            words[edge as usize / 64] |= 1 << (edge % 64);
+        }
+        Self { words }
+    }
+}

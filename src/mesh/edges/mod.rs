@@ -1,0 +1,18 @@
+//! Edges of a mesh and the faces that meet at each of them.
+//!
+//! 1. Vertices are divided into blocks, one task each, with the faces that touch each block.
+//! 2. A counting sort by smaller vertex lists the edges of a block; equal edges collect their faces.
+//! 3. After faces are removed, changed or cut, the edge table is updated instead of rebuilt.
+//!
+//! The result does not depend on the number of threads.
+//!
+//! Files, in reading order: [`edge_table`] (`Edges`, `EdgeFaces`), [`vertex_blocks`] (step 1),
+//! [`edge_splice`] and [`edge_update`] (step 3), [`vertex_edges`] (edge between two vertices), [`edge_set`]
+//! (bit set of edges).
+
+pub mod edge_set;
+mod edge_splice;
+pub mod edge_table;
+mod edge_update;
+pub(crate) mod vertex_blocks;
+pub(crate) mod vertex_edges;

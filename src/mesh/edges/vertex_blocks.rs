@@ -1,0 +1,144 @@
+//! [`shares`]: vertices shared out among workers, each with the faces that touch its own, so that none has to look at all.
+
+use std::ops::Range;
+
+use crate::parallel::prelude::*;
+
+use crate::parallel::task_size::GRAIN;
+
+/// Faces that are looked at as one piece of work.
+const CHUNK: usize = 1 << 12;
+
+/// The vertices of one worker.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Share {
+    /// Its vertices.
+    pub vertices: Range<usize>,
+    /// Runs of the faces with a corner among them, ascending.
+    pub faces: Vec<Range<usize>>,
+}
+
+/// How many shares there are of at most `size` vertices: equally many for each thread, so that none waits for the last of another.
+pub(crate) fn share_count(vertices: usize, size: usize) -> usize {
+    if vertices <= size.min(GRAIN) {
+        return vertices.min(1);
+    }
+    vertices.div_ceil(size).next_multiple_of(rayon_core::current_num_threads())
+}
+
+/// So many vertices in shares for so many workers. Vertices and faces mostly stand in one order, so that faces of a share
+/// make few runs.
+pub(crate) fn shares(vertex_count: usize, triangles: &[[u32; 3]], workers: usize) -> Vec<Share> {
+    let workers = workers.max(1);
+    let bound = |k: usize| vertex_count * k / workers;
+    // Bounds are rounded down, so that the next share may have begun already.
+    let whose = |v: usize| {
+        let worker = v * workers / vertex_count;
+        if bound(worker + 1) <= v { worker + 1 } else { worker }
+    };
+    if workers == 1 {
+        return vec![Share {
+            vertices: 0..vertex_count,
+            faces: std::iter::once(0..triangles.len()).collect(),
+        }];
+    }
+    let found: Vec<Vec<Vec<Range<usize>>>> = triangles
+        .par_chunks(CHUNK)
+        .enumerate()
+        .map(|(chunk, triangles)| runs(chunk * CHUNK, triangles, workers, (bound, whose)))
+        .collect();
+    let mut all: Vec<Share> = (0..workers)
+        .map(|worker| Share { vertices: bound(worker)..bound(worker + 1), faces: Vec::new() })
+        .collect();
+    for (share, runs) in found.into_iter().flat_map(|runs| (0..).zip(runs)) {
+        let faces: &mut Vec<Range<usize>> = &mut all[share].faces;
+        for run in runs {
+            match faces.last_mut() {
+                Some(last) if last.end == run.start => last.end = run.end,
+                _ => faces.push(run),
+            }
+        }
+    }
+    all
+}
+
+/// The runs of some faces, numbered from `first` on, for each worker: where their shares of vertices begin, and whose a vertex is.
+fn runs(
+    first: usize,
+    triangles: &[[u32; 3]],
+    workers: usize,
+    (bound, whose): (impl Fn(usize) -> usize, impl Fn(usize) -> usize),
+) -> Vec<Vec<Range<usize>>> {
+    let mut runs = vec![Vec::new(); workers];
+    // A run of faces that lie within the share of one worker.
+    let (mut own, mut worker, mut start) = (0..0, 0, first);
+    let mut add = |worker: usize, run: Range<usize>| {
+        if run.is_empty() {
+            return;
+        }
+        let runs: &mut Vec<Range<usize>> = &mut runs[worker];
+        match runs.last_mut() {
+            Some(last) if last.end == run.start => last.end = run.end,
+            _ => runs.push(run),
+        }
+    };
+    for (face, corners) in (first..).zip(triangles) {
+        let corners = corners.map(|v| v as usize);
+        if corners.iter().all(|v| own.contains(v)) {
+            continue;
+        }
+        add(worker, start..face);
+        start = face;
+        let [a, b, c] = corners.map(&whose);
+        if a == b && b == c {
+            (own, worker) = (bound(a)..bound(a + 1), a);
+            continue;
+        }
+        add(a, face..face + 1);
+        if b != a {
+            add(b, face..face + 1);
+        }
+        if c != a && c != b {
+            add(c, face..face + 1);
+        }
+        start = face + 1;
+    }
+    add(worker, start..first + triangles.len());
+    runs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_worker_has_the_faces_that_touch_its_vertices_and_no_others() {
+        let faces: Vec<[u32; 3]> = (0..40_000_u32)
+            .map(|k| {
+                let near = k / 2 % 9_990;
+                if k % 97 == 0 { [near, (k * 31) % 9_998, 9_999] } else { [near, near + 1, near + 9] }
+            })
+            .collect();
+        for workers in [1, 2, 3, 8, 317] {
+            let shares = shares(10_000, &faces, workers);
+            assert_eq!(shares.len(), workers);
+            for share in shares {
+                let listed: Vec<usize> = share.faces.iter().flat_map(Clone::clone).collect();
+                let touches = |face: &[u32; 3]| face.iter().any(|v| share.vertices.contains(&(*v as usize)));
+                let expected: Vec<usize> = (0..faces.len()).filter(|face| touches(&faces[*face])).collect();
+                assert_eq!(listed, expected);
+            }
+        }
+    }
+
+    #[test]
+    fn threads_have_equally_many_shares() {
+        for threads in [1, 2, 3, 16] {
+            let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            let count = |vertices: usize| pool.install(|| share_count(vertices, 100));
+            assert_eq!([0, 1, 100].map(count), [0, 1, 1]);
+            assert!([101, 299, 12_345].map(count).iter().all(|count| count.is_multiple_of(threads)));
+            assert!(count(12_345) >= 124);
+        }
+    }
+}

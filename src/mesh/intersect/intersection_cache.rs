@@ -1,0 +1,272 @@
+//! [`PairSearch`]: where triangles of a mesh pass through each other, kept for meshes of which some of them are cut.
+//!
+//! A view cuts faces near its contours and leaves the others as they are, so that of two that are left it is known whether they
+//! meet. Only the pieces are sought: in the tree of the mesh, with boxes around all the pieces of a face instead of the face.
+
+use crate::parallel::prelude::*;
+
+use super::intersection_curves::{
+    IntersectionCurves, IntersectionInput, Pair, bounds, intersections_of_parts, join, pairs_in, pairs_of,
+};
+use super::triangle_pair::PairTolerance;
+use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::mesh::bvh::box_tree::{BoxTree, Faces, share_a_vertex};
+use crate::mesh::bvh::quantized_box::FineBox;
+
+/// Faces that were cut, handled by one task.
+const FACES_PER_TASK: usize = 64;
+
+/// A mesh searched in full.
+#[derive(Debug, Clone)]
+pub struct PairSearch {
+    /// None without triangles.
+    tree: Option<BoxTree>,
+    /// Where the tree has each face.
+    ranks: Vec<u32>,
+    pairs: Vec<Pair>,
+}
+
+/// Which faces of a finer mesh are those of the mesh it was made of.
+#[derive(Debug, Clone, Copy)]
+pub struct Hosts<'a> {
+    /// The face of the given mesh that each face is, or is part of.
+    pub faces: &'a [u32],
+    /// The first so many are whole; their hosts ascend.
+    pub kept: usize,
+}
+
+impl PairSearch {
+    /// Searches a mesh of several parts; `tolerance` is that of the part of each face.
+    #[must_use]
+    pub fn new(input: &IntersectionInput, tolerance: impl Fn(u32) -> PairTolerance + Sync) -> Self {
+        let Some((low, high)) = bounds(input.positions, input.triangles) else {
+            return Self { tree: None, ranks: Vec::new(), pairs: Vec::new() };
+        };
+        let tree = BoxTree::new(input.positions, input.triangles, input.active, low, high);
+        let (pairs, ranks) = (pairs_in(&tree, input, tolerance), tree.ranks(input.triangles.len()));
+        Self { tree: Some(tree), ranks, pairs }
+    }
+
+    /// The curves of the mesh.
+    #[must_use]
+    pub fn curves(&self) -> IntersectionCurves {
+        join(&self.pairs)
+    }
+
+    /// The curves of a mesh that was made of this one by cutting faces, as a search of it in full would find them. `tolerance` is of
+    /// its faces.
+    #[must_use]
+    pub fn curves_of_finer(
+        &self,
+        finer: &IntersectionInput,
+        hosts: Hosts,
+        tolerance: impl Fn(u32) -> PairTolerance + Sync,
+    ) -> IntersectionCurves {
+        let Some(tree) = &self.tree else { return IntersectionCurves::default() };
+        let mut places = vec![u32::MAX; self.ranks.len()];
+        for (place, face) in hosts.faces[..hosts.kept].iter().enumerate() {
+            places[*face as usize] = place as u32;
+        }
+        let whole = |face: u32| places.get(face as usize).copied().filter(|place| *place != u32::MAX);
+        let left =
+            |pair: &Pair| Some(Pair { faces: [whole(pair.faces[0])?, whole(pair.faces[1])?], ..*pair });
+        let mut pairs: Vec<Pair> = self.pairs.iter().filter_map(left).collect();
+
+        // Pieces of faces without area may have some.
+        let is_active = |face: usize| finer.active.get(face).is_none_or(|active| *active);
+        let is_known =
+            |face: usize| self.ranks.get(hosts.faces[face] as usize).is_some_and(|r| *r != u32::MAX);
+        if (hosts.kept..finer.triangles.len()).any(|piece| is_active(piece) && !is_known(piece)) {
+            return intersections_of_parts(finer, tolerance);
+        }
+
+        let cut = Cut::new(tree, &self.ranks, finer, hosts);
+        let found = |faces: &[(u32, u32)]| {
+            let (mut found, mut search) = (Vec::new(), Search::default());
+            for (rank, face) in faces {
+                cut.search_face(*rank, *face, whole, &mut search, |piece, others| {
+                    pairs_of(finer, piece, others, &tolerance, &mut found);
+                });
+            }
+            found
+        };
+        pairs.par_extend(cut.faces.par_chunks(FACES_PER_TASK).with_max_len(8).flat_map_iter(found));
+        pairs.par_sort_unstable_by_key(|pair| pair.faces);
+        join(&pairs)
+    }
+}
+
+/// The faces that were cut, and a tree with boxes around their pieces.
+struct Cut<'a> {
+    finer: &'a IntersectionInput<'a>,
+    tree: BoxTree,
+    kept: usize,
+    /// The ranks and numbers of the faces, by rank.
+    faces: Vec<(u32, u32)>,
+    /// The pieces by the rank of their face.
+    pieces: Grouped<u32>,
+    /// By piece.
+    boxes: Vec<FineBox>,
+    ranks: &'a [u32],
+}
+
+/// What one task finds, kept so that it is allocated once.
+#[derive(Default)]
+struct Search {
+    stack: Vec<(usize, usize)>,
+    /// What is near a face that was cut, then its own pieces.
+    near: Vec<Near>,
+    /// What may pass through one of them.
+    others: Vec<u32>,
+}
+
+/// A face of the finer mesh near one that was cut, with its vertices and its box side by side.
+#[derive(Clone, Copy)]
+struct Near {
+    own_box: FineBox,
+    face: u32,
+    vertices: [u32; 3],
+}
+
+impl<'a> Cut<'a> {
+    fn new(tree: &BoxTree, ranks: &'a [u32], finer: &'a IntersectionInput<'a>, hosts: Hosts) -> Self {
+        let kept = hosts.kept;
+        let corners = |triangle: &[u32; 3]| triangle.map(|v| finer.positions[v as usize]);
+        let boxes: Vec<FineBox> = finer.triangles[kept..]
+            .par_iter()
+            .with_min_len(1 << 10)
+            .map(|triangle| tree.box_of(corners(triangle)))
+            .collect();
+        let is_sought = |piece: &usize| finer.active.get(*piece).is_none_or(|active| *active);
+        let by_rank = |piece: usize| (ranks[hosts.faces[piece] as usize] as usize, piece as u32);
+        let sought = (kept..finer.triangles.len()).filter(is_sought);
+        let pieces = grouped_pairs(ranks.len(), sought.map(by_rank));
+        let around = |rank: usize| {
+            let own = pieces.of(rank).iter().map(|piece| boxes[*piece as usize - kept]);
+            Some((rank as u32, own.reduce(FineBox::union)?))
+        };
+        let changed: Vec<(u32, FineBox)> = (0..pieces.count()).filter_map(around).collect();
+        let host = |rank: u32| hosts.faces[pieces.of(rank as usize)[0] as usize];
+        let faces = changed.iter().map(|(rank, _)| (*rank, host(*rank))).collect();
+        Self { finer, tree: tree.with_boxes(&changed), kept, faces, pieces, boxes, ranks }
+    }
+
+    /// Calls `visit` for the pieces of a face with what may pass through them: of two faces that were cut, one finds the other.
+    fn search_face(
+        &self,
+        rank: u32,
+        face: u32,
+        whole: impl Fn(u32) -> Option<u32>,
+        search: &mut Search,
+        mut visit: impl FnMut(u32, &[u32]),
+    ) {
+        let Search { stack, near, others } = search;
+        let piece = |face: u32| {
+            let own_box = self.boxes[face as usize - self.kept];
+            Near { own_box, face, vertices: self.finer.triangles[face as usize] }
+        };
+        let pieces = self.pieces.of(rank as usize);
+        let boxes = pieces.iter().map(|own| self.boxes[*own as usize - self.kept]);
+        let Some(around) = boxes.reduce(FineBox::union) else { return };
+        near.clear();
+        self.tree.near(around, stack, |other| {
+            if other == face {
+                return;
+            }
+            let other_rank = self.ranks[other as usize];
+            let of_other = self.pieces.of(other_rank as usize);
+            if !of_other.is_empty() {
+                if other_rank > rank {
+                    near.extend(of_other.iter().map(|face| piece(*face)));
+                }
+            } else if let Some(face) = whole(other) {
+                let vertices = self.finer.triangles[face as usize];
+                let corners = vertices.map(|v| self.finer.positions[v as usize]);
+                near.push(Near { own_box: self.tree.box_of(corners), face, vertices });
+            }
+        });
+        near.retain(|other| around.overlaps(other.own_box));
+        let all = Faces { triangles: self.finer.triangles, bodies: self.finer.bodies };
+        let first = near.len();
+        near.extend(pieces.iter().map(|face| piece(*face)));
+        for k in first..near.len() {
+            let own = near[k];
+            let are_neighbours = |other: &Near| {
+                share_a_vertex(own.vertices, other.vertices) && all.are_joined(own.face, other.face)
+            };
+            let meets = |other: &&Near| own.own_box.overlaps(other.own_box) && !are_neighbours(other);
+            others.clear();
+            others.extend(near[..first].iter().chain(&near[k + 1..]).filter(meets).map(|other| other.face));
+            if !others.is_empty() {
+                visit(own.face, others);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::geometry::numbers::noise::{hash, unit};
+
+    /// `count` triangles, no two with a common vertex, each within reach of its middle.
+    fn triangles(seed: u64, middles: &[DVec3]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
+        let number = |k: usize| unit(hash(seed, &[k as u64])) - 0.5;
+        let corner = |(k, middle): (usize, &DVec3)| {
+            [0, 3, 6].map(|c| {
+                *middle + DVec3::new(number(9 * k + c), number(9 * k + c + 1), number(9 * k + c + 2))
+            })
+        };
+        let positions: Vec<DVec3> = middles.iter().enumerate().flat_map(corner).collect();
+        let triangles = (0..middles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        (positions, triangles)
+    }
+
+    #[test]
+    fn pieces_meet_as_a_search_in_full_has_it() {
+        let (mut among_own, mut among_cut, mut with_whole) = (0, 0, 0);
+        for seed in 0..20 {
+            // A row of triangles, each of which meets the next few; two of three are cut into two to four pieces.
+            let middles: Vec<DVec3> = (0..40).map(|k| DVec3::X * 0.3 * f64::from(k)).collect();
+            let (positions, triangles_before) = triangles(seed, &middles);
+            let before = IntersectionInput {
+                positions: &positions,
+                triangles: &triangles_before,
+                active: &[],
+                bodies: &[],
+            };
+            let search = PairSearch::new(&before, |_| PairTolerance::of_exact(1.0));
+
+            let is_whole = |face: &u32| (*face as u64 + seed).is_multiple_of(3);
+            let mut hosts: Vec<u32> = (0..40).filter(is_whole).collect();
+            let kept = hosts.len();
+            let pieces = |face: u32| std::iter::repeat_n(face, 2 + face as usize % 3);
+            hosts.extend((0..40).filter(|face| !is_whole(face)).flat_map(pieces));
+            let middles: Vec<DVec3> = hosts[kept..].iter().map(|host| middles[*host as usize]).collect();
+            let (more, of_pieces) = triangles(seed + 100, &middles);
+            let first = positions.len() as u32;
+            let positions: Vec<DVec3> = positions.iter().copied().chain(more).collect();
+            let whole = hosts[..kept].iter().map(|host| triangles_before[*host as usize]);
+            let after: Vec<[u32; 3]> = whole.chain(of_pieces.iter().map(|t| t.map(|v| v + first))).collect();
+            let finer =
+                IntersectionInput { positions: &positions, triangles: &after, active: &[], bodies: &[] };
+
+            let curves = search
+                .curves_of_finer(&finer, Hosts { faces: &hosts, kept }, |_| PairTolerance::of_exact(1.0));
+            assert_eq!(curves, intersections_of_parts(&finer, |_| PairTolerance::of_exact(1.0)), "{seed}");
+            for segment in &curves.segments {
+                let [a, b] = segment.faces.map(|face| face as usize);
+                if a >= kept {
+                    let same = hosts[a] == hosts[b];
+                    among_own += usize::from(same);
+                    among_cut += usize::from(!same);
+                } else {
+                    with_whole += usize::from(b >= kept);
+                }
+            }
+        }
+        assert!(among_own > 20 && among_cut > 20 && with_whole > 20, "{among_own} {among_cut} {with_whole}");
+    }
+}

@@ -1,0 +1,364 @@
+//! [`IntersectionCurves`]: where triangles of a mesh pass through each other.
+//!
+//! A tree of boxes proposes pairs, exact signs decide. Segments of neighbouring triangles meet
+//! because the same edge pierces the same triangle, not because two positions are near: every end
+//! carries the *names* of what it is, and ends with a name in common are one point. An end has
+//! more than one name where, within one pair of triangles, the borders of both are met at the same
+//! place: it is then "edge of one through face of the other", the same the other way round, and
+//! "border of one on border of the other", so that all triangles around the place agree.
+
+use std::cmp::Ordering;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+use super::triangle_pair::{Along, Common, End, Feature, PairTolerance, Touch, Triangle, cross_beyond};
+use crate::mesh::PartId;
+use crate::mesh::bvh::box_tree::{BoxTree, Faces};
+
+/// The triangles to look at.
+#[derive(Debug, Clone, Copy)]
+pub struct IntersectionInput<'a> {
+    /// World positions, finite.
+    pub positions: &'a [DVec3],
+    /// Vertices of each triangle, all of them indices of `positions`.
+    pub triangles: &'a [[u32; 3]],
+    /// Whether each triangle may take part; empty: all do.
+    pub active: &'a [bool],
+    /// The body of each triangle, or empty if there is only one: those of one body that have a vertex in common are never compared.
+    pub bodies: &'a [PartId],
+}
+
+/// Curves along which triangles pass through each other.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct IntersectionCurves {
+    /// Ends of the segments in world space, each once.
+    pub points: Vec<DVec3>,
+    /// One segment per pair of triangles, sorted by faces.
+    pub segments: Vec<IntersectionSegment>,
+}
+
+/// The common segment of two triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct IntersectionSegment {
+    /// Two different points of the curves. They follow each other along the cross product of the
+    /// normals of the two faces, so that consecutive segments of a surface oriented throughout
+    /// point the same way as long as the lesser face stays on the same surface.
+    pub ends: [u32; 2],
+    /// The two triangles, the lesser first.
+    pub faces: [u32; 2],
+}
+
+/// Finds where triangles strictly pass through each other.
+///
+/// Triangles of one body with a common vertex are neighbours and never reported; nor are overlaps in one
+/// plane, triangles that touch from one side, and contacts shorter than
+/// [`OVERLAP_OF_PART`](crate::geometry::numbers::tolerance::OVERLAP_OF_PART) of the diagonal of the box
+/// around all triangles, which count as one part. A vertex in the other plane is no obstacle where the other
+/// two corners lie on either side. The result does not depend on the number of threads.
+#[must_use]
+pub fn intersections(input: &IntersectionInput) -> IntersectionCurves {
+    let Some((low, high)) = bounds(input.positions, input.triangles) else {
+        return IntersectionCurves::default();
+    };
+    let scale = (high - low).length();
+    join(&find_pairs(input, low, high, |_| PairTolerance::of_exact(scale)))
+}
+
+/// Intersections of triangles of several parts; `tolerance` is that of the part of a face, and the larger of two counts.
+#[must_use]
+pub fn intersections_of_parts(
+    input: &IntersectionInput,
+    tolerance: impl Fn(u32) -> PairTolerance + Sync,
+) -> IntersectionCurves {
+    let Some((low, high)) = bounds(input.positions, input.triangles) else {
+        return IntersectionCurves::default();
+    };
+    join(&find_pairs(input, low, high, tolerance))
+}
+
+/// All pairs of triangles that are no neighbours and have something in common, sorted; `low`
+/// and `high` are the corners of a box around them.
+pub(crate) fn find_pairs(
+    input: &IntersectionInput,
+    low: DVec3,
+    high: DVec3,
+    tolerance: impl Fn(u32) -> PairTolerance + Sync,
+) -> Vec<Pair> {
+    let IntersectionInput { positions, triangles, active, .. } = *input;
+    pairs_in(&BoxTree::new(positions, triangles, active, low, high), input, tolerance)
+}
+
+/// The pairs among the triangles that a tree was made of, sorted.
+pub(crate) fn pairs_in(
+    tree: &BoxTree,
+    input: &IntersectionInput,
+    tolerance: impl Fn(u32) -> PairTolerance + Sync,
+) -> Vec<Pair> {
+    let faces = Faces { triangles: input.triangles, bodies: input.bodies };
+    let mut pairs =
+        tree.overlaps(faces, |face, others, found| pairs_of(input, face, others, &tolerance, found));
+    pairs.par_sort_unstable_by_key(|pair| pair.faces);
+    pairs
+}
+
+/// Adds the pairs that a triangle makes with others.
+pub(crate) fn pairs_of(
+    input: &IntersectionInput,
+    face: u32,
+    others: &[u32],
+    tolerance: impl Fn(u32) -> PairTolerance,
+    found: &mut Vec<Pair>,
+) {
+    let IntersectionInput { positions, triangles, .. } = *input;
+    let own = &Triangle::new(positions, triangles[face as usize]);
+    let own_tolerance = tolerance(face);
+    for &other in others {
+        let other_vertices = triangles[other as usize];
+        if own.has_on_one_side(&other_vertices.map(|v| positions[v as usize])) {
+            continue;
+        }
+        let other_triangle = Triangle::new(positions, other_vertices);
+        if other_triangle.has_on_one_side(&own.corners) {
+            continue;
+        }
+        let tolerance = own_tolerance.and(tolerance(other));
+        let common = if face < other {
+            cross_beyond(own, &other_triangle, tolerance)
+        } else {
+            cross_beyond(&other_triangle, own, tolerance)
+        };
+        if let Some(common) = common {
+            found.push(Pair { faces: [face.min(other), face.max(other)], common });
+        }
+    }
+}
+
+/// Two triangles that have something in common.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pair {
+    pub(crate) faces: [u32; 2],
+    pub(crate) common: Common,
+}
+
+/// The box around all corners of all triangles.
+pub(crate) fn bounds(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<(DVec3, DVec3)> {
+    let empty = || (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = triangles
+        .par_iter()
+        .fold(empty, |bounds, corners| {
+            corners.iter().fold(bounds, |(low, high), &v| {
+                let p = positions[v as usize];
+                (low.min(p), high.max(p))
+            })
+        })
+        .reduce(empty, |a, b| (a.0.min(b.0), a.1.max(b.1)));
+    (!triangles.is_empty()).then_some((low, high))
+}
+
+/// What an end is: a feature, and the face it pierces (with [`FACE`]) or the feature it meets.
+type Name = (Feature, [u32; 2]);
+
+/// Stands where a face and not a feature is named; no vertex has this id.
+const FACE: u32 = u32::MAX;
+
+/// One name of one end.
+struct Naming {
+    name: Name,
+    end: u32,
+    point: DVec3,
+}
+
+/// Makes ends that share a name one point. The pairs are sorted by faces.
+pub(crate) fn join(pairs: &[Pair]) -> IntersectionCurves {
+    // Segments have two ends each; a point is one end that only lends its names.
+    let mut namings = Vec::new();
+    let mut end_count = 0;
+    let mut segments = Vec::new();
+    let (passing, crossed) = (passing_edges(pairs), crossed_edges(pairs));
+    for &Pair { faces, common } in pairs {
+        let (ends, step) = match common {
+            Common::Segment(ends) => (ends, 1),
+            Common::Point(ends) => (ends, 0),
+            Common::Touch(touch) => {
+                let Some([first, second]) = passing.get(&pierced_and_edge(faces, &touch)) else { continue };
+                let (pierced, own) = pierced_and_own(faces, &touch);
+                if own != *first {
+                    continue;
+                }
+                // Neighbours may name either face at the edge.
+                let other = if pierced < *second { [pierced, *second] } else { [*second, pierced] };
+                let turned = (pierced < own) != (pierced < *second);
+                let ends = if turned { touch.ends.map(|[a, b]| [b, a]) } else { touch.ends };
+                name_end(ends[0], other, end_count, &mut namings);
+                name_end(ends[1], other, end_count + 1, &mut namings);
+                (touch.ends, 1)
+            }
+            Common::Along(along) => {
+                let Some(all) = crossed.get(&sorted(&along)).filter(|all| all[0].faces == faces) else {
+                    continue;
+                };
+                for pair in &all[1..] {
+                    let ends = pair.common.ends();
+                    let is_turned = gap(&along.ends[0], &ends[1]) < gap(&along.ends[0], &ends[0]);
+                    name_end(ends[usize::from(is_turned)], pair.faces, end_count, &mut namings);
+                    name_end(ends[usize::from(!is_turned)], pair.faces, end_count + 1, &mut namings);
+                }
+                (along.ends, 1)
+            }
+        };
+        if step == 1 {
+            segments.push(IntersectionSegment { ends: [end_count, end_count + 1], faces });
+        }
+        name_end(ends[0], faces, end_count, &mut namings);
+        name_end(ends[1], faces, end_count + step, &mut namings);
+        end_count += step + 1;
+    }
+    namings.par_sort_unstable_by_key(|naming| (naming.name, naming.end));
+
+    let mut parent: Vec<u32> = (0..end_count).collect();
+    for same in namings.chunk_by(|a, b| a.name == b.name) {
+        for naming in &same[1..] {
+            let (a, b) = (root(&mut parent, same[0].end), root(&mut parent, naming.end));
+            parent[a.max(b) as usize] = a.min(b);
+        }
+    }
+
+    // Of several positions, apart by rounding, that of a vertex counts before those on edges, and then the least: vertices in one
+    // place and faces are numbered by the order of their parts, which must not matter.
+    let order = |a: &&Naming, b: &&Naming| {
+        let is_of_edge = |naming: &Naming| naming.name.0[0] != naming.name.0[1];
+        is_of_edge(a).cmp(&is_of_edge(b)).then_with(|| compare_places(a.point, b.point))
+    };
+    let mut place: Vec<Option<&Naming>> = vec![None; end_count as usize];
+    for naming in &namings {
+        let slot = &mut place[root(&mut parent, naming.end) as usize];
+        if slot.is_none_or(|best| order(&naming, &best).is_lt()) {
+            *slot = Some(naming);
+        }
+    }
+
+    let mut points = Vec::new();
+    let mut index: Vec<Option<u32>> = vec![None; end_count as usize];
+    for segment in &mut segments {
+        segment.ends = segment.ends.map(|end| {
+            let end = root(&mut parent, end) as usize;
+            *index[end].get_or_insert_with(|| {
+                points.extend(place[end].map(|naming| naming.point));
+                points.len() as u32 - 1
+            })
+        });
+    }
+    segments.retain(|segment| segment.ends[0] != segment.ends[1]);
+    IntersectionCurves { points, segments }
+}
+
+/// Two faces, one with an edge in the other: first the face that holds the edge, then the face with the edge.
+fn pierced_and_own([a, b]: [u32; 2], touch: &Touch) -> (u32, u32) {
+    if touch.is_of_second { (a, b) } else { (b, a) }
+}
+
+fn pierced_and_edge(faces: [u32; 2], touch: &Touch) -> (u32, Feature) {
+    (pierced_and_own(faces, touch).0, touch.edge)
+}
+
+/// The edges along which surfaces pass through a face that the edges lie in, with the first two faces on either side of it that have
+/// the edge, the lesser first.
+fn passing_edges(pairs: &[Pair]) -> FxHashMap<(u32, Feature), [u32; 2]> {
+    let mut sides: FxHashMap<(u32, Feature), [Option<u32>; 2]> = FxHashMap::default();
+    for Pair { faces, common } in pairs {
+        if let Common::Touch(touch) = common {
+            let side =
+                &mut sides.entry(pierced_and_edge(*faces, touch)).or_default()[usize::from(touch.is_above)];
+            let own = pierced_and_own(*faces, touch).1;
+            *side = Some(side.map_or(own, |known| known.min(own)));
+        }
+    }
+    let both = |(key, [below, above]): (_, [Option<u32>; 2])| {
+        let (below, above) = (below?, above?);
+        Some((key, [below.min(above), below.max(above)]))
+    };
+    sides.into_iter().filter_map(both).collect()
+}
+
+/// The pairs of edges that lie along each other where two surfaces pass through each other, with the four pairs of faces at them in
+/// their order.
+fn crossed_edges(pairs: &[Pair]) -> FxHashMap<[Feature; 2], Vec<Pair>> {
+    let mut found: FxHashMap<[Feature; 2], Vec<Pair>> = FxHashMap::default();
+    for pair in pairs {
+        if let Common::Along(along) = &pair.common {
+            found.entry(sorted(along)).or_default().push(*pair);
+        }
+    }
+    found.retain(|_, own| come_by_turns(own));
+    found
+}
+
+/// The edges of two faces that lie along each other, the lesser first.
+fn sorted(along: &Along) -> [Feature; 2] {
+    let [a, b] = along.edges;
+    [a.min(b), a.max(b)]
+}
+
+/// Whether two faces have each of two edges, and those of the one come by turns with those of the other round the line. No two of them lie
+/// in one plane: such pairs have nothing in common.
+fn come_by_turns(pairs: &[Pair]) -> bool {
+    let mut sides: [Vec<(u32, DVec3)>; 2] = Default::default();
+    for Pair { faces, common } in pairs {
+        let Common::Along(along) = common else { continue };
+        for k in 0..2 {
+            let own = &mut sides[usize::from(along.edges[k] > along.edges[1 - k])];
+            if own.iter().all(|(face, _)| *face != faces[k]) {
+                own.push((faces[k], along.away[k]));
+            }
+        }
+    }
+    let (4, [[(_, first), (_, second)], others @ [_, _]]) =
+        (pairs.len(), sides.each_ref().map(Vec::as_slice))
+    else {
+        return false;
+    };
+    let quarter = first.cross(others[0].1).normalize_or_zero().cross(*first);
+    let angle = |way: &DVec3| {
+        let angle = crate::geometry::numbers::portable_math::atan2(way.dot(quarter), way.dot(*first));
+        if angle < 0.0 { angle + std::f64::consts::TAU } else { angle }
+    };
+    let is_between = |way: &DVec3| angle(way) < angle(second);
+    is_between(&others[0].1) != is_between(&others[1].1)
+}
+
+/// How far two ends are apart.
+fn gap(one: &End, other: &End) -> f64 {
+    let place = |end: &End| end.iter().flatten().next().map(|piercing| piercing.point);
+    place(one).zip(place(other)).map_or(f64::INFINITY, |(a, b)| a.distance(b))
+}
+
+/// Adds all names of the end of the common part of two faces.
+fn name_end([a, b]: End, faces: [u32; 2], end: u32, namings: &mut Vec<Naming>) {
+    if let Some(a) = a {
+        namings.push(Naming { name: (a.feature, [faces[1], FACE]), end, point: a.point });
+    }
+    if let Some(b) = b {
+        namings.push(Naming { name: (b.feature, [faces[0], FACE]), end, point: b.point });
+    }
+    if let (Some(a), Some(b)) = (a, b) {
+        // A vertex on the other's border has its own position; two edges that meet have two, near
+        // to each other, of which the lesser edge gives one.
+        let (first, second) = if a.feature < b.feature { (a, b) } else { (b, a) };
+        namings.push(Naming { name: (first.feature, second.feature), end, point: first.point });
+    }
+}
+
+fn compare_places(a: DVec3, b: DVec3) -> Ordering {
+    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
+}
+
+/// The least end that is the same point as `end`.
+fn root(parent: &mut [u32], mut end: u32) -> u32 {
+    while parent[end as usize] != end {
+        parent[end as usize] = parent[parent[end as usize] as usize];
+        end = parent[end as usize];
+    }
+    end
+}

@@ -1,0 +1,360 @@
+//! [`cross`]: where two triangles pass through each other, decided by exact signs.
+//!
+//! Source: T. Möller, "A fast triangle-triangle intersection test", Journal of Graphics Tools
+//! 2(2), 1997: the overlap of two intervals on the line common to both planes. Here the signs
+//! come from exact predicates, and each end says which edge pierces which triangle, so that
+//! neighbouring segments meet by identity.
+
+use glam::DVec3;
+use robust::{Coord3D, orient3d};
+
+use crate::geometry::numbers::tolerance::{
+    OVERLAP_OF_PART, OVERLAP_OF_ROUNDING, PARALLEL_SINE, PLANE_OF_PART,
+};
+use crate::mesh::Extent;
+
+/// Two corners that are nearer to a plane than this share of the third one's distance may lie in it.
+const NEAR_OF_FAR: f64 = 1e-4;
+
+/// Lengths below which a pair of triangles merely touches, in world units.
+#[derive(Debug, Clone, Copy)]
+pub struct PairTolerance {
+    /// A vertex this near to the other plane lies in it.
+    pub plane: f64,
+    /// An overlap up to this long is a point.
+    pub overlap: f64,
+    /// How far rounding may have moved each vertex.
+    pub rounding: f64,
+}
+
+impl PairTolerance {
+    /// The tolerance for triangles of a part that is this large and whose coordinates are exact.
+    #[inline]
+    #[must_use]
+    pub fn of_exact(scale: f64) -> Self {
+        Self { plane: PLANE_OF_PART * scale, overlap: OVERLAP_OF_PART * scale, rounding: 0.0 }
+    }
+
+    /// The tolerance for triangles of a part.
+    #[inline]
+    #[must_use]
+    pub fn of_part(part: &Extent) -> Self {
+        let exact = Self::of_exact(part.scale);
+        let overlap = exact.overlap.max(OVERLAP_OF_ROUNDING * part.rounding);
+        Self { overlap, rounding: part.rounding, ..exact }
+    }
+
+    /// The tolerance for triangles of two parts.
+    #[inline]
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            plane: self.plane.max(other.plane),
+            overlap: self.overlap.max(other.overlap),
+            rounding: self.rounding.max(other.rounding),
+        }
+    }
+}
+
+/// A triangle with its corners in the order of the mesh.
+#[derive(Debug, Clone, Copy)]
+pub struct Triangle {
+    /// Vertices of the mesh.
+    pub vertices: [u32; 3],
+    /// Their positions.
+    pub corners: [DVec3; 3],
+    /// Twice the area, along the normal.
+    pub normal: DVec3,
+    /// Whether the normal is accurate enough to reject by sides without exact arithmetic.
+    trusted: bool,
+}
+
+impl Triangle {
+    /// The triangle of three vertices.
+    #[inline]
+    #[must_use]
+    pub fn new(positions: &[DVec3], vertices: [u32; 3]) -> Self {
+        let corners = vertices.map(|v| positions[v as usize]);
+        let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
+        let normal = e1.cross(e2);
+        // The rounding error of normal·(q − corner) is below 12 ε |e1||e2| times the way to q. Where
+        // the corner's sine is above 1/100 that is less than 3e-13 of this way in distance, well
+        // inside the tolerance within which a vertex lies in the plane anyway.
+        let trusted = normal.length_squared() > 1e-4 * e1.length_squared() * e2.length_squared();
+        Self { vertices, corners, normal, trusted }
+    }
+
+    /// Whether the points certainly lie all on one side of the plane, or in it, and no two of them alone in it.
+    #[inline]
+    #[must_use]
+    pub fn has_on_one_side(&self, points: &[DVec3; 3]) -> bool {
+        let [a, b, c] = points.map(|p| self.normal.dot(p - self.corners[0]));
+        let is_on_one = a.min(b).min(c) >= 0.0 || a.max(b).max(c) <= 0.0;
+        let [x, y, z] = [a.abs(), b.abs(), c.abs()];
+        let middle = x.min(y).max(x.max(y).min(z));
+        self.trusted & is_on_one & (middle > NEAR_OF_FAR * x.max(y).max(z))
+    }
+
+    /// Distances of points from the plane, right in sign; zero within the tolerance. None where they are surely not on both sides, and
+    /// not two of them in it.
+    #[inline]
+    fn distances(
+        &self,
+        points: &[DVec3; 3],
+        normal_length: f64,
+        tolerance: PairTolerance,
+    ) -> Option<[f64; 3]> {
+        let [a, b, c] = self.corners;
+        let reach = |way: DVec3| way.x.abs() + way.y.abs() + way.z.abs();
+        let size = reach(b - a) + reach(c - a);
+        let (mut is_zero, mut below, mut above) = ([false; 3], false, false);
+        for (is_zero, point) in is_zero.iter_mut().zip(points) {
+            let way = *point - a;
+            let about = self.normal.dot(way);
+            // More than any determinant of these points is off by, so that what is below comes to zero either way.
+            let far = size + reach(way);
+            let error = 48.0 * f64::EPSILON * (far * far * far);
+            // Where surfaces lie on each other most corners are in the other plane, and exact signs take long to
+            // say so; most others are all on one side of it.
+            *is_zero = about.abs() + error < far_tolerance(far, normal_length, tolerance) && {
+                let least = self.plane_tolerance(*point, normal_length, tolerance) * normal_length;
+                about.abs() + error < (1.0 - 1e-6) * least
+            };
+            below |= !*is_zero && about <= error;
+            above |= !*is_zero && about >= -error;
+        }
+        if !(below && above) && is_zero.iter().filter(|is_zero| **is_zero).count() != 2 {
+            return None;
+        }
+        let mut distances = [0.0; 3];
+        for ((distance, point), is_zero) in distances.iter_mut().zip(points).zip(is_zero) {
+            if !is_zero {
+                *distance = self.distance(*point, normal_length, tolerance);
+            }
+        }
+        Some(distances)
+    }
+
+    fn distance(&self, point: DVec3, normal_length: f64, tolerance: PairTolerance) -> f64 {
+        let [a, b, c] = self.corners;
+        let (a, b, c) = (coordinates(a), coordinates(b), coordinates(c));
+        let distance = -orient3d(a, b, c, coordinates(point)) / normal_length;
+        let within = self.plane_tolerance(point, normal_length, tolerance);
+        if distance.abs() < within { 0.0 } else { distance }
+    }
+
+    /// How near to the plane of the triangle a point must lie to count as lying in it.
+    ///
+    /// Rounding moves the point by as much as each corner. Where it moves the plane is the sum of what it moves the corners by, each
+    /// times the barycentric weight of the point: far from a narrow triangle the plane is unknown.
+    #[inline]
+    fn plane_tolerance(&self, point: DVec3, normal_length: f64, tolerance: PairTolerance) -> f64 {
+        if tolerance.rounding == 0.0 {
+            return tolerance.plane;
+        }
+        let [a, b, c] = self.corners;
+        let weight = |p: DVec3, q: DVec3| (p - point).cross(q - point).dot(self.normal).abs();
+        let weights = (weight(a, b) + weight(b, c) + weight(c, a)) / (normal_length * normal_length);
+        tolerance.plane.max(tolerance.rounding * (1.0 + weights))
+    }
+}
+
+/// A number that [`Triangle::plane_tolerance`] times the length of the normal never exceeds, if no corner is farther than `far` from the
+/// point: then none of the three weights is more than the square of that.
+#[inline]
+fn far_tolerance(far: f64, normal_length: f64, tolerance: PairTolerance) -> f64 {
+    let of_rounding = tolerance.rounding * (normal_length + 3.0 * far * far);
+    (tolerance.plane * normal_length).max(of_rounding)
+}
+
+fn coordinates(p: DVec3) -> Coord3D<f64> {
+    Coord3D { x: p.x, y: p.y, z: p.z }
+}
+
+/// The part of a triangle that lies in the other plane: an edge (lesser vertex first) that goes
+/// through it, or a vertex (twice) in it.
+pub type Feature = [u32; 2];
+
+/// Where the border of one triangle meets the other.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Piercing {
+    /// What pierces.
+    pub feature: Feature,
+    /// Where; the same to the last bit for every triangle that has the feature.
+    pub point: DVec3,
+}
+
+/// One end of the common part of two triangles: where the border of the first, of the second, or
+/// (within the tolerance) of both is met.
+pub type End = [Option<Piercing>; 2];
+
+/// What two triangles have in common, from its first to its last end along the cross product of
+/// their normals.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Common {
+    /// A segment.
+    Segment([End; 2]),
+    /// A segment too short to count, whose ends are one: segments of neighbours may end there.
+    Point([End; 2]),
+    /// An edge of one triangle that lies in the other. The surfaces cross there if the next triangle at the edge lies on the other side.
+    Touch(Touch),
+    /// An edge of one triangle that lies along one of the other. The surfaces cross there if their triangles at these edges come by turns
+    /// round the line.
+    Along(Along),
+}
+
+impl Common {
+    /// Where it begins and ends.
+    #[must_use]
+    pub fn ends(&self) -> [End; 2] {
+        match self {
+            Self::Segment(ends) | Self::Point(ends) => *ends,
+            Self::Touch(touch) => touch.ends,
+            Self::Along(along) => along.ends,
+        }
+    }
+}
+
+/// An edge of one triangle that lies in the plane of the other, as far as it lies in the triangle.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// From its first to its last end along the cross product of the normals.
+    pub ends: [End; 2],
+    /// The edge, lesser vertex first.
+    pub edge: Feature,
+    /// Whether it is an edge of the second triangle.
+    pub is_of_second: bool,
+    /// Whether the triangle with the edge lies on the side of the other one's normal.
+    pub is_above: bool,
+}
+
+/// The common part of an edge of each of two triangles.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Along {
+    /// From its first to its last end along the cross product of the normals.
+    pub ends: [End; 2],
+    /// The edges of both, lesser vertex first.
+    pub edges: [Feature; 2],
+    /// Which way each triangle lies from the line, square to it: unit vectors.
+    pub away: [DVec3; 2],
+}
+
+/// Where two triangles without common vertices strictly pass through each other, if they do.
+///
+/// Triangles in one plane have nothing in common, nor have triangles that touch the other's plane with a vertex.
+#[must_use]
+pub fn cross(a: &Triangle, b: &Triangle, tolerance: PairTolerance) -> Option<Common> {
+    if a.has_on_one_side(&b.corners) || b.has_on_one_side(&a.corners) {
+        return None;
+    }
+    cross_beyond(a, b, tolerance)
+}
+
+/// The same for triangles of which neither is seen at once to lie on one side of the other.
+pub(crate) fn cross_beyond(a: &Triangle, b: &Triangle, tolerance: PairTolerance) -> Option<Common> {
+    let (a_length, b_length) = (a.normal.length(), b.normal.length());
+    if !(a_length > 0.0 && b_length > 0.0) {
+        return None;
+    }
+    let b_distances = a.distances(&b.corners, a_length, tolerance)?;
+    let b_edge = edge_in_plane(b_distances);
+    let b_crossings = crossings(b, b_distances, b_edge)?;
+    let a_distances = b.distances(&a.corners, b_length, tolerance)?;
+    let a_edge = edge_in_plane(a_distances);
+    let a_crossings = crossings(a, a_distances, a_edge)?;
+    let along = (a.normal / a_length).cross(b.normal / b_length);
+    let sine = along.length();
+    if sine <= PARALLEL_SINE {
+        return None;
+    }
+    let direction = along / sine;
+    let ordered = |[p, q]: [Piercing; 2]| {
+        let place = |piercing: Piercing| (direction.dot(piercing.point - a.corners[0]), piercing);
+        let (p, q) = (place(p), place(q));
+        if p.0 <= q.0 { [p, q] } else { [q, p] }
+    };
+    let [a_first, a_last] = ordered(a_crossings);
+    let [b_first, b_last] = ordered(b_crossings);
+    let length = a_last.0.min(b_last.0) - a_first.0.max(b_first.0);
+    let end = |a: (f64, Piercing), b: (f64, Piercing), a_is_inner: bool| {
+        let meet = (a.0 - b.0).abs() <= tolerance.overlap;
+        [(meet || a_is_inner).then_some(a.1), (meet || !a_is_inner).then_some(b.1)]
+    };
+    let ends = [end(a_first, b_first, a_first.0 >= b_first.0), end(a_last, b_last, a_last.0 <= b_last.0)];
+    let edge = |own: &Triangle, third: usize| {
+        let [v, w] = [own.vertices[(third + 1) % 3], own.vertices[(third + 2) % 3]];
+        [v.min(w), v.max(w)]
+    };
+    if let (Some(a_third), Some(b_third)) = (a_edge, b_edge) {
+        let away = |own: &Triangle, third: usize| {
+            let way = own.corners[third] - own.corners[(third + 1) % 3];
+            (way - direction * way.dot(direction)).normalize_or_zero()
+        };
+        let (edges, away) = ([edge(a, a_third), edge(b, b_third)], [away(a, a_third), away(b, b_third)]);
+        return (length > tolerance.overlap).then_some(Common::Along(Along { ends, edges, away }));
+    }
+    let touch = match (a_edge, b_edge) {
+        (Some(side), _) => Some((a, a_distances, side, false)),
+        (_, Some(side)) => Some((b, b_distances, side, true)),
+        _ => None,
+    };
+    if let Some((own, distances, third, is_of_second)) = touch {
+        let touch = Touch { ends, edge: edge(own, third), is_of_second, is_above: distances[third] > 0.0 };
+        return (length > tolerance.overlap).then_some(Common::Touch(touch));
+    }
+    if length > tolerance.overlap {
+        Some(Common::Segment(ends))
+    } else if length >= -tolerance.overlap {
+        Some(Common::Point(ends))
+    } else {
+        None
+    }
+}
+
+/// The corner opposite the edge that lies in a plane, given the distances of the corners from it; none if no edge does, or all.
+fn edge_in_plane(distances: [f64; 3]) -> Option<usize> {
+    let third = distances.iter().position(|d| *d != 0.0)?;
+    (distances.iter().filter(|d| **d == 0.0).count() == 2).then_some(third)
+}
+
+/// The two places where the border of a triangle goes through a plane, given the distances of its
+/// corners from it; the ends of the edge opposite the corner `third` if that lies in the plane, else none unless there are corners on
+/// both sides.
+fn crossings(triangle: &Triangle, distances: [f64; 3], third: Option<usize>) -> Option<[Piercing; 2]> {
+    if let Some(third) = third {
+        let at = |k: usize| Piercing { feature: [triangle.vertices[k]; 2], point: triangle.corners[k] };
+        return Some([at((third + 1) % 3), at((third + 2) % 3)]);
+    }
+    let below = distances.iter().any(|&d| d < 0.0);
+    let above = distances.iter().any(|&d| d > 0.0);
+    if !(below && above) {
+        return None;
+    }
+    // With corners on both sides there are two crossed edges, or a crossed edge and a vertex.
+    let mut found = [None; 2];
+    let mut slots = found.iter_mut();
+    for i in 0..3 {
+        let j = (i + 1) % 3;
+        let (vertex_i, vertex_j) = (triangle.vertices[i], triangle.vertices[j]);
+        let piercing = if distances[i] == 0.0 {
+            Piercing { feature: [vertex_i, vertex_i], point: triangle.corners[i] }
+        } else if (distances[i] < 0.0) != (distances[j] < 0.0) && distances[j] != 0.0 {
+            let (i, j) = if vertex_i < vertex_j { (i, j) } else { (j, i) };
+            let t = distances[i] / (distances[i] - distances[j]);
+            let point = triangle.corners[i] + t * (triangle.corners[j] - triangle.corners[i]);
+            Piercing { feature: [vertex_i.min(vertex_j), vertex_i.max(vertex_j)], point }
+        } else {
+            continue;
+        };
+        if let Some(slot) = slots.next() {
+            *slot = Some(piercing);
+        }
+    }
+    match found {
+        [Some(p), Some(q)] => Some([p, q]),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,146 @@
+//! Removal of quantization noise from compressed vertices.
+//!
+//! Compression such as Draco stores vertices as whole numbers of steps, so small faces tilt at random. Every
+//! vertex is known to lie within half a step of its stored position on each axis. Of all surfaces within
+//! these boxes, the one with the least bending is drawn.
+//!
+//! 1. Find the coarsest lattice that holds all vertices.
+//! 2. Free the vertices whose faces are only a few steps wide. Wide faces and open borders stay fixed.
+//! 3. Minimise the quadratic bending energy (Bergou et al. 2006) by accelerated projected descent (FISTA,
+//!    Beck and Teboulle 2009).
+//!
+//! Files, in reading order: this file (steps 1 and 2), [`hinges`] (the energy), [`least_bending`] (the
+//! descent).
+
+mod hinges;
+mod least_bending;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use self::hinges::{Doubts, hinges};
+use self::least_bending::{STEPS, least_bending};
+use super::{EdgeFaces, Edges};
+use crate::parallel::task_size::GRAIN;
+
+/// So many bits a lattice may have. Files have 8 to 16; with fewer the same numbers may be chance.
+const BITS: std::ops::RangeInclusive<u32> = 7..=16;
+/// A vertex on the lattice is off it by no more than this share of a step: decoding goes in single precision.
+const OFF: f64 = 0.02;
+
+/// A lattice over the box of a set of vertices: 2ᵇ − 1 steps over its longest side, b a whole number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lattice {
+    /// The least coordinates, which are on it.
+    low: DVec3,
+    /// The length of a step, the same along all axes, in the unit of the vertices.
+    step: f64,
+}
+
+impl Lattice {
+    /// The coarsest lattice on which all of these vertices lie; `None` if there is none.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use ligne::mesh::lattice::Lattice;
+    ///
+    /// let on = |i: u32| DVec3::new(f64::from(i * 7 % 1024), f64::from(i * 5 % 256), 3.0) / 1023.0;
+    /// let vertices: Vec<DVec3> = (0..1024).map(on).collect();
+    /// assert!((Lattice::of(&vertices).expect("ten bits").step() - 1.0 / 1023.0).abs() < 1e-12);
+    /// let off: Vec<DVec3> = vertices.iter().map(|p| *p * p.x).collect();
+    /// assert_eq!(Lattice::of(&off), None);
+    /// ```
+    #[must_use]
+    pub fn of(vertices: &[DVec3]) -> Option<Self> {
+        let low = vertices.iter().fold(DVec3::INFINITY, |low, p| low.min(*p));
+        let high = vertices.iter().fold(DVec3::NEG_INFINITY, |high, p| high.max(*p));
+        let side = (high - low).max_element();
+        if !(side > 0.0 && side.is_finite()) {
+            return None;
+        }
+        let lattices = BITS.map(|bits| Self { low, step: side / f64::from((1 << bits) - 1) });
+        lattices.into_iter().find(|lattice| vertices.iter().all(|p| lattice.has(*p)))
+    }
+
+    /// The length of a step, in the unit of the vertices.
+    #[must_use]
+    pub fn step(&self) -> f64 {
+        self.step
+    }
+
+    fn has(&self, p: DVec3) -> bool {
+        let steps = (p - self.low) / self.step;
+        (steps - steps.round()).abs().max_element() <= OFF
+    }
+
+    /// The place of a vertex as one number: 16 bits for each axis.
+    fn key(&self, p: DVec3) -> u64 {
+        let steps = ((p - self.low) / self.step).round().to_array();
+        steps.iter().fold(0, |key, steps| key << 16 | (*steps as u64 & 0xffff))
+    }
+}
+
+/// Moves vertices on a lattice by no more than half a step along each axis, so that the surface bends as little as it can.
+///
+/// Vertices at the same place stay at the same place. `normals` are those of the vertices, or empty: where faces on both sides of an
+/// edge have normals of their own, the surface is meant to be creased and may bend for nothing. Vertices on no lattice, and those of
+/// any face wide enough, keep their bits.
+pub fn loosen(vertices: &mut [DVec3], triangles: &[[u32; 3]], normals: &[[f32; 3]]) {
+    let Some(lattice) = Lattice::of(vertices) else { return };
+    if triangles.as_flattened().iter().any(|v| *v as usize >= vertices.len()) {
+        return;
+    }
+    let (place_of, places) = places(&lattice, vertices);
+    let sound = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|v| place_of[v as usize]);
+        a != b && b != c && c != a
+    };
+    let corners: Vec<[u32; 3]> = triangles.iter().filter(|t| sound(t)).copied().collect();
+    let faces: Vec<[u32; 3]> = corners.iter().map(|t| t.map(|v| place_of[v as usize])).collect();
+    let doubts = Doubts::of(&places, &faces, lattice.step / 2.0);
+    let mut free = doubts.doubted(&faces, places.len());
+    if !free.contains(&true) {
+        return;
+    }
+    let edges = Edges::build(places.len(), &faces);
+    for edge in 0..edges.len() {
+        if !matches!(edges.faces(edge), EdgeFaces::Two { .. }) {
+            edges.vertices[edge].iter().for_each(|place| free[*place as usize] = false);
+        }
+    }
+    let hinges = hinges(&places, (&faces, &edges), &doubts, (&corners, normals), &free);
+    let moved = least_bending(&hinges, &free, STEPS);
+    vertices.par_iter_mut().with_min_len(GRAIN).zip(place_of).for_each(|(vertex, place)| {
+        let place = place as usize;
+        if free[place] {
+            *vertex = places[place] + moved[place].as_dvec3() * (lattice.step / 2.0);
+        }
+    });
+}
+
+/// Which place each vertex stands at, and the places, in the order of the first vertex of each: a file's neighbours are
+/// near each other in memory.
+fn places(lattice: &Lattice, vertices: &[DVec3]) -> (Vec<u32>, Vec<DVec3>) {
+    let keys = vertices.par_iter().with_min_len(GRAIN).enumerate();
+    let mut keys: Vec<(u64, u32)> = keys.map(|(v, p)| (lattice.key(*p), v as u32)).collect();
+    keys.par_sort_unstable();
+    // Of each vertex the first one at its place, then the number of that place.
+    let mut place_of = vec![0; vertices.len()];
+    for same in keys.chunk_by(|a, b| a.0 == b.0) {
+        same.iter().for_each(|(_, v)| place_of[*v as usize] = same[0].1);
+    }
+    let mut places = Vec::new();
+    for vertex in 0..vertices.len() {
+        let first = place_of[vertex] as usize;
+        place_of[vertex] = if first == vertex {
+            places.push(vertices[vertex]);
+            places.len() as u32 - 1
+        } else {
+            place_of[first]
+        };
+    }
+    (place_of, places)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,183 @@
+//! Needles: faces without area, across which two real faces meet.
+//!
+//! A triangle whose corners lie on one line has no normal and hides nothing, but meshes use it to
+//! stitch a long edge to two short ones. The faces on its far side are looked up *through* it: its
+//! short edges see the face beyond its long edge, and its long edge draws nothing itself. Where needles lie side by
+//! side, of the edges over any point of their line one at least is the long edge of none: that one speaks there.
+
+use glam::DVec3;
+
+use crate::mesh::{EdgeFaces, FaceId, Mesh};
+
+/// What lies across an edge when a needle is looked through.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Beyond {
+    /// A face with area.
+    Face(u32),
+    /// The edge is the needle's long one, or there are others on the same line: shorter edges speak for it.
+    LongEdge,
+    /// Nothing: the edge is a border.
+    Nothing,
+}
+
+/// Looks from an edge (`lo` < `hi`) at one of its faces, and through it if it is a needle.
+#[must_use]
+pub fn seen_from(mesh: &Mesh, face: u32, [lo, hi]: [u32; 2]) -> Beyond {
+    if mesh.is_degenerate(FaceId(face)) { beyond(mesh, face, lo, hi) } else { Beyond::Face(face) }
+}
+
+/// Looks from an edge (`lo` < `hi`) through `needle`.
+#[must_use]
+fn beyond(mesh: &Mesh, needle: u32, lo: u32, hi: u32) -> Beyond {
+    let (mut needle, mut edge) = (needle, [lo, hi]);
+    let mut long = long_edge(mesh, needle);
+    if long == edge {
+        return Beyond::LongEdge;
+    }
+    let middle = (mesh.positions[lo as usize] + mesh.positions[hi as usize]) / 2.0;
+    let mut rises = true;
+    // Needles may lie side by side; a ring of them must not hold us up for ever.
+    for _ in 0..16 {
+        let side = if long == edge { short_edge(mesh, needle, edge, middle) } else { long };
+        let Ok(id) = mesh.edges.vertices.binary_search(&side) else { return Beyond::Nothing };
+        let EdgeFaces::Two { faces, .. } = mesh.edges.faces(id) else { return Beyond::Nothing };
+        let next = if faces[0] == needle { faces[1] } else { faces[0] };
+        if !mesh.is_degenerate(FaceId(next)) {
+            return Beyond::Face(next);
+        }
+        long = long_edge(mesh, next);
+        if rises && long == side {
+            // Short edges lie on both sides of this one: those on one of them speak for it.
+            rises = false;
+            if third_corner(mesh, needle, side) > third_corner(mesh, next, side) {
+                return Beyond::LongEdge;
+            }
+        }
+        (needle, edge) = (next, side);
+    }
+    Beyond::Nothing
+}
+
+/// Of the short edges of a needle, beside its long one, that on which a point of this is.
+fn short_edge(mesh: &Mesh, needle: u32, long: [u32; 2], point: DVec3) -> [u32; 2] {
+    let at = |v: u32| mesh.positions[v as usize];
+    let third = third_corner(mesh, needle, long);
+    let is_before = (point - at(third)).dot(at(long[0]) - at(third)) > 0.0;
+    let end = long[usize::from(!is_before)];
+    [end.min(third), end.max(third)]
+}
+
+/// The corner of a face that is no end of an edge.
+fn third_corner(mesh: &Mesh, face: u32, edge: [u32; 2]) -> u32 {
+    mesh.triangles[face as usize].into_iter().find(|v| !edge.contains(v)).unwrap_or(edge[0])
+}
+
+/// The longest edge of a face, smaller vertex first.
+fn long_edge(mesh: &Mesh, face: u32) -> [u32; 2] {
+    let [a, b, c] = mesh.triangles[face as usize];
+    let length = |[u, v]: [u32; 2]| mesh.positions[u as usize].distance_squared(mesh.positions[v as usize]);
+    let mut longest = [a, b];
+    for side in [[b, c], [c, a]] {
+        if length(side) > length(longest) {
+            longest = side;
+        }
+    }
+    [longest[0].min(longest[1]), longest[0].max(longest[1])]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{Dihedral, Soup};
+
+    #[test]
+    fn faces_across_a_needle_are_neighbours() {
+        // One long side below, two short ones above; the needle 0 1 2 lies between.
+        let points = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [1.0, -1.0], [1.0, 1.0]];
+        let mesh = Mesh::build(Soup {
+            positions: points.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
+            triangles: vec![[0, 3, 1], [0, 1, 2], [0, 2, 4], [2, 1, 4]],
+            ..Soup::default()
+        });
+        let id = |k: usize| {
+            let place = DVec3::new(points[k][0], points[k][1], 0.0) - mesh.origin;
+            mesh.positions.iter().position(|p| *p == place).unwrap() as u32
+        };
+        let needle = (0..4).find(|f| mesh.is_degenerate(FaceId(*f))).unwrap();
+        let below = (0..4).find(|f| mesh.triangles[*f as usize].contains(&id(3))).unwrap();
+        let look = |a: usize, b: usize| beyond(&mesh, needle, id(a).min(id(b)), id(a).max(id(b)));
+        assert_eq!(look(0, 2), Beyond::Face(below));
+        assert_eq!(look(1, 2), Beyond::Face(below));
+        assert_eq!(look(0, 1), Beyond::LongEdge);
+    }
+
+    #[test]
+    fn a_needle_at_a_border_has_nothing_beyond() {
+        let points = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+        let mesh = Mesh::build(Soup {
+            positions: points.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
+            triangles: vec![[0, 1, 2], [0, 2, 3], [2, 1, 3]],
+            ..Soup::default()
+        });
+        let needle = (0..3).find(|f| mesh.is_degenerate(FaceId(*f))).unwrap();
+        let at = |x: f64| mesh.positions.iter().position(|p| p.x == x && p.y == 0.0).unwrap() as u32;
+        assert_eq!(beyond(&mesh, needle, at(0.0), at(1.0)), Beyond::Nothing);
+    }
+
+    /// Two walls that meet in one line, as those of a roof, and needles between them. Of the vertices on that line, at these
+    /// places, each wall has its own: the ends of its faces.
+    fn roof(places: &[f64], left: &[[u32; 2]], right: &[[u32; 2]], needles: &[[u32; 3]]) -> Mesh {
+        let mut positions: Vec<DVec3> = places.iter().map(|x| DVec3::X * *x).collect();
+        let far = positions.len() as u32;
+        positions.extend([DVec3::new(1.0, 5.0, -5.0), DVec3::new(1.0, -5.0, -5.0)]);
+        let mut triangles = needles.to_vec();
+        triangles.extend(left.iter().map(|[a, b]| [*b, *a, far]));
+        triangles.extend(right.iter().map(|[a, b]| [*a, *b, far + 1]));
+        Mesh::build(Soup { positions, triangles, ..Soup::default() })
+    }
+
+    /// From where to where on the line of a roof two walls are seen to meet, in order.
+    fn met(mesh: &Mesh) -> Vec<[f64; 2]> {
+        let on_line = |edge: &usize| mesh.edges.vertices[*edge].iter().all(|v| place(mesh, *v).z == 0.0);
+        let turns = |edge: &usize| Dihedral::at(mesh, *edge).is_some_and(|d| (d.turn() - 90.0).abs() < 1e-3);
+        let edges = (0..mesh.edges.len()).filter(on_line).filter(turns);
+        let mut found: Vec<[f64; 2]> = edges
+            .map(|edge| mesh.edges.vertices[edge].map(|v| place(mesh, v).x))
+            .map(|[a, b]| [a.min(b), a.max(b)])
+            .collect();
+        found.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        found
+    }
+
+    fn place(mesh: &Mesh, vertex: u32) -> DVec3 {
+        mesh.positions[vertex as usize] + mesh.origin
+    }
+
+    #[test]
+    fn walls_meet_between_needles_whose_long_edges_are_of_one_wall_each() {
+        let mesh = roof(&[0.0, 1.0, 2.0, 3.0], &[[0, 2], [2, 3]], &[[0, 1], [1, 3]], &[[0, 2, 1], [1, 2, 3]]);
+        assert_eq!(met(&mesh), [[0.0, 1.0], [1.0, 2.0], [2.0, 3.0]]);
+    }
+
+    #[test]
+    fn walls_meet_over_needles_that_share_their_long_edge() {
+        let mesh = roof(&[0.0, 1.0, 1.8, 3.0], &[[0, 2], [2, 3]], &[[0, 1], [1, 3]], &[[0, 3, 1], [0, 2, 3]]);
+        // As one of the walls is parted, and not twice.
+        let found = met(&mesh);
+        assert!(found == [[0.0, 1.0], [1.0, 3.0]] || found == [[0.0, 1.8], [1.8, 3.0]], "{found:?}");
+    }
+
+    #[test]
+    fn walls_meet_over_three_needles_of_which_one_has_two_corners_in_all_but_one_place() {
+        let (at, beside) = (2.0, 2.0 + 1e-15);
+        let mesh = roof(
+            &[0.0, 1.0, at, beside, 3.0],
+            &[[0, 2], [2, 3], [3, 4]],
+            &[[0, 1], [1, 4]],
+            &[[0, 2, 1], [1, 2, 3], [1, 3, 4]],
+        );
+        let found = met(&mesh);
+        let covered = |x: f64| found.iter().any(|[a, b]| (*a..=*b).contains(&x));
+        assert!([0.5, 1.5, 2.5].into_iter().all(covered), "{found:?}");
+    }
+}

@@ -1,0 +1,42 @@
+//! The normals of triangles, and which have none.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::normal_carriers::{height, is_narrow};
+use super::triangle_area::area_vector;
+use crate::parallel::task_size::GRAIN;
+
+/// Unit normals; zero where the triangle has no area, by the scale of its part.
+pub(crate) fn face_normals(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    scale: impl Fn(usize) -> f64 + Sync,
+) -> Vec<[f32; 3]> {
+    normals_and_narrow(positions, triangles, |face| (scale(face), 0.0)).0
+}
+
+/// The same, and the faces, ascending, that have an area and are so narrow that rounding may turn their normals; `measure` gives the scale of
+/// the part of a face, and how far rounding may have moved its corners.
+pub(crate) fn normals_and_narrow(
+    positions: &[DVec3],
+    triangles: &[[u32; 3]],
+    measure: impl Fn(usize) -> (f64, f64) + Sync,
+) -> (Vec<[f32; 3]>, Vec<u32>) {
+    let mut normals = vec![[0.0; 3]; triangles.len()];
+    let of_chunk = |(chunk, normals): (usize, &mut [[f32; 3]])| {
+        let mut narrow = Vec::new();
+        for (face, normal) in (chunk * GRAIN..).zip(normals) {
+            let corners = triangles[face].map(|v| positions[v as usize]);
+            let (scale, rounding) = measure(face);
+            let Some(cross) = area_vector(corners, scale) else { continue };
+            *normal = (cross / cross.length()).as_vec3().to_array();
+            let is_narrow = rounding > 0.0 && is_narrow(height(&corners), rounding);
+            narrow.extend(is_narrow.then_some(face as u32));
+        }
+        narrow
+    };
+    let narrow: Vec<Vec<u32>> = normals.par_chunks_mut(GRAIN).enumerate().map(of_chunk).collect();
+    let narrow = narrow.concat();
+    (normals, narrow)
+}

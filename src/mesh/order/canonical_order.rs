@@ -1,0 +1,400 @@
+//! The order of vertices and faces: by their places, never by the order of the file, and each place once.
+//!
+//! A model may be numbered in any way and is the same model, so its drawing must not show how: which of two
+//! coincident lines stays, the last bit of a sum over the faces round a vertex, where a closed line begins.
+//! Vertices stand along a space-filling curve, so that neighbours in space are neighbours in memory. Faces
+//! go by part and material, which stay as the file has them, and then by their corners; each begins with its
+//! first corner. Lines without faces follow the same rule.
+//!
+//! The curve is that of the whole space, not of the model's box: which of two places comes first depends on
+//! nothing but these two, so that parts that come and go leave all others in their order.
+
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::Ordering::Relaxed;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::counting_sort::counting_sort;
+use super::morton_curve::{CELLS, along_curve, along_exact_curve};
+use crate::geometry::numbers::powers_of_two::power_of_two_above;
+use crate::mesh::{MaterialId, PartId, Soup};
+use crate::parallel::task_size::GRAIN;
+
+/// How many vertices or faces, and then up to where a run ends, one task sorts.
+const PIECE: usize = 1 << 11;
+
+/// No normal or texture coordinate.
+const NONE: u32 = u32::MAX;
+
+/// A face with its first corner in front.
+#[derive(Clone, Copy, Default)]
+struct Entry {
+    corners: [u32; 3],
+    /// Where the face stood, shifted left by two; the lowest bits say which of its corners came first.
+    face_turn: u32,
+}
+
+impl Entry {
+    fn new(face: usize, [a, b, c]: [u32; 3]) -> Self {
+        let turn = if a <= b && a <= c {
+            0
+        } else if b <= c {
+            1
+        } else {
+            2
+        };
+        Self { corners: turned([a, b, c], turn), face_turn: (face as u32) << 2 | turn }
+    }
+
+    fn face(&self) -> usize {
+        (self.face_turn >> 2) as usize
+    }
+
+    /// The corners after the first, as one number.
+    fn others(&self) -> u64 {
+        u64::from(self.corners[1]) << 32 | u64::from(self.corners[2])
+    }
+
+    fn turn(&self) -> u32 {
+        self.face_turn & 3
+    }
+}
+
+/// Orders all of a soup with coordinates up to `largest`. Vertices at one place become one; returns how many
+/// went that way.
+pub(crate) fn by_place(soup: &mut Soup, largest: f64) -> u64 {
+    let before = soup.positions.len();
+    let new_id = order_vertices(&mut soup.positions, largest);
+    order_faces(soup, &new_id);
+    for wire in &mut soup.wires {
+        wire.vertices = wire.vertices.map(|v| new_id[v as usize]);
+        wire.vertices.sort_unstable();
+    }
+    soup.wires.sort_unstable_by_key(|wire| (wire.part, wire.material, wire.vertices));
+    (before - soup.positions.len()) as u64
+}
+
+/// Orders the faces of a soup again, after some of them were turned.
+pub(crate) fn faces_by_place(soup: &mut Soup) {
+    let same: Vec<u32> = (0..soup.positions.len() as u32).collect();
+    order_faces(soup, &same);
+}
+
+/// Sorts the places and leaves each once; returns the new id of each old vertex.
+fn order_vertices(positions: &mut Vec<DVec3>, largest: f64) -> Vec<u32> {
+    // A power of two, so that the cells of a larger model are made of those of a smaller one.
+    let cell = power_of_two_above(largest) / CELLS;
+    let keyed: Vec<(u64, u32)> = positions
+        .par_iter()
+        .enumerate()
+        .with_min_len(GRAIN)
+        .map(|(id, p)| (along_curve(*p, cell), id as u32))
+        .collect();
+    // Most of the work is done by large cells, of which a surface meets one for every few vertices. What all
+    // keys begin with says nothing.
+    let first = keyed.first().map_or(0, |(key, _)| *key);
+    let different =
+        keyed.par_iter().with_min_len(GRAIN).map(|(key, _)| key ^ first).reduce(|| 0, |a, b| a | b);
+    let used = 64 - different.leading_zeros();
+    let depth = (positions.len() / 8).max(1).ilog2().div_ceil(2).min(7);
+    let bits = (3 * depth).min(used);
+    let large = |key: u64| (key >> (used - bits)) as u32 & ((1 << bits) - 1);
+    let mut keyed = counting_sort(keyed, 1 << bits, |(key, _)| large(*key));
+    let place = |id: u32| positions[id as usize];
+    let at_one_cell = |a: &(u64, u32), b: &(u64, u32)| large(a.0) == large(b.0);
+    for_each_run(&mut keyed, at_one_cell, |cell| {
+        cell.sort_unstable_by(|a, b| a.0.cmp(&b.0).then_with(|| along_exact_curve(place(a.1), place(b.1))));
+    });
+
+    numbered(positions, &keyed)
+}
+
+/// Leaves each place once, in the order of `keyed`; returns the new id of each old vertex.
+fn numbered(positions: &mut Vec<DVec3>, keyed: &[(u64, u32)]) -> Vec<u32> {
+    let place = |k: usize| positions[keyed[k].1 as usize];
+    let is_new = |k: usize| k == 0 || place(k - 1) != place(k);
+    let chunks = keyed.len().div_ceil(GRAIN);
+    let chunk = |c: usize| c * GRAIN..((c + 1) * GRAIN).min(keyed.len());
+    let counts: Vec<usize> =
+        (0..chunks).into_par_iter().map(|c| chunk(c).filter(|k| is_new(*k)).count()).collect();
+    let mut places = vec![DVec3::ZERO; counts.iter().sum()];
+    let mut free = places.as_mut_slice();
+    let mut before = 0;
+    let mut each = Vec::with_capacity(chunks);
+    for (c, count) in counts.into_iter().enumerate() {
+        let own;
+        (own, free) = free.split_at_mut(count);
+        each.push((c, before, own));
+        before += count as u32;
+    }
+    let new_id: Vec<AtomicU32> =
+        (0..positions.len()).into_par_iter().with_min_len(GRAIN).map(|_| AtomicU32::new(0)).collect();
+    each.into_par_iter().for_each(|(c, before, own)| {
+        let mut count = 0;
+        for k in chunk(c) {
+            if is_new(k) {
+                own[count] = place(k);
+                count += 1;
+            }
+            // What a chunk begins with may stand at the last place of the one before.
+            new_id[keyed[k].1 as usize].store(before + count as u32 - 1, Relaxed);
+        }
+    });
+    *positions = places;
+    new_id.into_iter().map(AtomicU32::into_inner).collect()
+}
+
+/// Gives the faces their new vertices and order.
+fn order_faces(soup: &mut Soup, new_id: &[u32]) {
+    let renamed = |t: &[u32; 3]| t.map(|v| new_id[v as usize]);
+    let entry = |(face, t): (usize, &[u32; 3])| Entry::new(face, renamed(t));
+    let of_file: Vec<Entry> = soup.triangles.par_iter().enumerate().with_min_len(GRAIN).map(entry).collect();
+    let mut entries = counting_sort(of_file, soup.positions.len(), |e| e.corners[0]);
+    let groups = groups(soup);
+    let group = |e: &Entry| groups.as_ref().map_or(0, |groups| groups.of_face[e.face()]);
+    if let Some(groups) = &groups {
+        entries = counting_sort(entries, groups.count, group);
+    }
+    let at_one_corner = |a: &Entry, b: &Entry| a.corners[0] == b.corners[0] && group(a) == group(b);
+    for_each_run(&mut entries, at_one_corner, |faces| {
+        faces.sort_unstable_by(|a, b| {
+            a.others().cmp(&b.others()).then_with(|| attributes(soup, a).cmp(&attributes(soup, b)))
+        });
+    });
+
+    soup.triangles = entries.par_iter().with_min_len(GRAIN).map(|e| e.corners).collect();
+    if groups.is_some() {
+        reorder(&mut soup.triangle_part, &entries, |part, _| part);
+        reorder(&mut soup.triangle_material, &entries, |material, _| material);
+    }
+    reorder(&mut soup.triangle_paint, &entries, |paint, _| paint);
+    reorder(&mut soup.corner_normals, &entries, turned);
+    reorder(&mut soup.corner_uvs, &entries, turned);
+    reorder(&mut soup.corner_colours, &entries, turned);
+    reorder(&mut soup.edge_marks, &entries, turned);
+}
+
+/// What belongs to the corners of a face, or to the sides that begin there, from another corner on.
+fn turned<T: Copy>([a, b, c]: [T; 3], turn: u32) -> [T; 3] {
+    match turn {
+        0 => [a, b, c],
+        1 => [b, c, a],
+        _ => [c, a, b],
+    }
+}
+
+/// Changes each run of neighbours that belong together.
+fn for_each_run<T: Send>(
+    items: &mut [T],
+    together: impl Fn(&T, &T) -> bool + Sync,
+    change: impl Fn(&mut [T]) + Sync,
+) {
+    // Pieces that end where a run does, all of about a size: left to split as it likes, a thread keeps what another would wait for.
+    let mut pieces = Vec::new();
+    let mut rest = items;
+    while rest.len() > PIECE {
+        let end = (PIECE..rest.len()).find(|k| !together(&rest[k - 1], &rest[*k])).unwrap_or(rest.len());
+        let piece;
+        (piece, rest) = rest.split_at_mut(end);
+        pieces.push(piece);
+    }
+    pieces.push(rest);
+    let change_all = |piece: &mut [T]| piece.chunk_by_mut(&together).for_each(&change);
+    pieces.into_par_iter().with_max_len(1).for_each(change_all);
+}
+
+/// Numbers for what has one part and one material, in the order of parts, then of materials.
+struct Groups {
+    of_face: Vec<u32>,
+    count: usize,
+}
+
+/// The groups of the faces; none where all are one.
+fn groups(soup: &Soup) -> Option<Groups> {
+    let key = |face: usize| {
+        let part = soup.triangle_part.get(face).copied().unwrap_or_default();
+        (part, soup.triangle_material.get(face).copied().unwrap_or_default())
+    };
+    let faces = soup.triangles.len();
+    let first = key(0);
+    if (1..faces).into_par_iter().with_min_len(GRAIN).all(|face| key(face) == first) {
+        return None;
+    }
+    let mut keys: Vec<(PartId, MaterialId)> = (0..faces).map(key).collect();
+    keys.dedup();
+    keys.sort_unstable();
+    keys.dedup();
+    let of = |face: usize| keys.binary_search(&key(face)).unwrap_or_default() as u32;
+    let of_face = (0..faces).into_par_iter().with_min_len(GRAIN).map(of).collect();
+    Some(Groups { of_face, count: keys.len() })
+}
+
+/// All else that tells faces with the same corners apart: their paint, and by their bits what they have at
+/// each side and corner. Where that is alike too, so are the faces.
+fn attributes(soup: &Soup, entry: &Entry) -> impl Ord + use<> {
+    let (face, turn) = (entry.face(), entry.turn());
+    let at_corners = |corners: &[[u32; 3]]| turned(corners.get(face).copied().unwrap_or([NONE; 3]), turn);
+    let normal = |id: u32| soup.normals.get(id as usize).map(|n| n.map(f32::to_bits));
+    let uv = |id: u32| soup.uvs.get(id as usize).map(|uv| uv.map(f32::to_bits));
+    (
+        soup.triangle_paint.get(face).copied(),
+        soup.edge_marks.get(face).map(|marks| turned(*marks, turn).map(|mark| mark as u8)),
+        at_corners(&soup.corner_normals).map(normal),
+        at_corners(&soup.corner_uvs).map(uv),
+        soup.corner_colours.get(face).map(|colours| turned(*colours, turn).map(|c| c.map(f32::to_bits))),
+    )
+}
+
+/// Puts what each face has in the faces' new order, changed by how far the face was turned.
+fn reorder<T: Copy + Default + Send + Sync>(
+    list: &mut Vec<T>,
+    entries: &[Entry],
+    change: impl Fn(T, u32) -> T + Sync,
+) {
+    if !list.is_empty() {
+        let of = |e: &Entry| change(list.get(e.face()).copied().unwrap_or_default(), e.turn());
+        *list = entries.par_iter().with_min_len(GRAIN).map(of).collect();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{EdgeMark, PaintId, Wire};
+
+    /// Two triangles that share a side, each with all that a face may have.
+    fn soup() -> Soup {
+        Soup {
+            positions: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+                .map(|[x, y]| DVec3::new(x, y, 0.0))
+                .to_vec(),
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            triangle_part: vec![PartId(0); 2],
+            triangle_material: vec![MaterialId(1), MaterialId(0)],
+            triangle_paint: vec![PaintId(4), PaintId(5)],
+            normals: (0..6).map(|k| [k as f32, 0.0, 0.0]).collect(),
+            corner_normals: vec![[0, 1, 2], [3, 4, 5]],
+            uvs: (0..6).map(|k| [k as f32, 0.0]).collect(),
+            corner_uvs: vec![[0, 1, NONE], [3, 4, 5]],
+            edge_marks: vec![
+                [EdgeMark::Hard, EdgeMark::Hidden, EdgeMark::Contour],
+                [EdgeMark::Unmarked, EdgeMark::Hard, EdgeMark::Unmarked],
+            ],
+            wires: vec![
+                Wire { vertices: [0, 1], part: PartId(0), material: MaterialId(0) },
+                Wire { vertices: [3, 2], part: PartId(0), material: MaterialId(0) },
+            ],
+            ..Soup::default()
+        }
+    }
+
+    /// Everything of a soup with values in the place of ids.
+    fn values(soup: &Soup) -> impl PartialEq + std::fmt::Debug {
+        let normals = soup.corner_normals.iter().map(|t| t.map(|id| soup.normals.get(id as usize).copied()));
+        let uvs = soup.corner_uvs.iter().map(|t| t.map(|id| soup.uvs.get(id as usize).copied()));
+        (
+            soup.positions.clone(),
+            soup.triangles.clone(),
+            (soup.triangle_part.clone(), soup.triangle_material.clone(), soup.triangle_paint.clone()),
+            normals.collect::<Vec<_>>(),
+            uvs.collect::<Vec<_>>(),
+            (soup.edge_marks.clone(), soup.wires.clone()),
+        )
+    }
+
+    #[test]
+    fn runs_are_changed_whole_in_pieces_of_many() {
+        // Runs shorter and longer than a piece.
+        let mut items: Vec<(usize, usize)> =
+            (0..5 * PIECE).map(|k| (k * k / (3 * PIECE * PIECE), (k * 7919) % 10_007)).collect();
+        let mut expected = items.clone();
+        expected.chunk_by_mut(|a, b| a.0 == b.0).for_each(<[_]>::sort_unstable);
+        for_each_run(&mut items, |a, b| a.0 == b.0, <[_]>::sort_unstable);
+        assert!(items == expected && items[0].0 < items[items.len() - 1].0);
+    }
+
+    #[test]
+    fn faces_go_by_material_and_begin_with_their_first_corner() {
+        let mut soup = soup();
+        assert_eq!(by_place(&mut soup, 1.0), 0);
+        // Along the curve: 0 0, then 1 0, then 0 1, then 1 1.
+        let places: Vec<[f64; 2]> = soup.positions.iter().map(|p| [p.x, p.y]).collect();
+        assert_eq!(places, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]);
+        assert_eq!(soup.triangles, [[0, 3, 2], [0, 1, 3]]);
+        assert_eq!(soup.triangle_material, [MaterialId(0), MaterialId(1)]);
+        assert_eq!(soup.wires.iter().map(|w| w.vertices).collect::<Vec<_>>(), [[0, 1], [2, 3]]);
+    }
+
+    #[test]
+    fn numbering_leaves_no_trace() {
+        let mut first = soup();
+        by_place(&mut first, 1.0);
+        // Other ids, other corners in front, zeros of another sign, a vertex twice, an unused one at an old place.
+        let mut second = soup();
+        second.positions = [3, 2, 0, 1, 2].map(|k: usize| soup().positions[k]).to_vec();
+        second.triangles = vec![[4, 0, 2], [1, 2, 3]];
+        for list in [&mut second.corner_normals, &mut second.corner_uvs] {
+            list.reverse();
+            *list = list.iter().enumerate().map(|(k, c)| turned(*c, if k == 0 { 1 } else { 2 })).collect();
+        }
+        second.edge_marks.reverse();
+        second.edge_marks = second
+            .edge_marks
+            .iter()
+            .enumerate()
+            .map(|(k, c)| turned(*c, if k == 0 { 1 } else { 2 }))
+            .collect();
+        second.triangle_material.reverse();
+        second.triangle_paint.reverse();
+        second.wires[0].vertices = [0, 1];
+        second.wires[1].vertices = [3, 2];
+        assert_eq!(by_place(&mut second, 1.0), 1);
+        assert_eq!(values(&first), values(&second));
+    }
+
+    #[test]
+    fn equal_places_become_one() {
+        let near = DVec3::new(0.5, 0.5, 0.5 + 1e-15);
+        let mut soup = Soup {
+            positions: vec![near, DVec3::splat(0.5), DVec3::X, near, DVec3::splat(0.5)],
+            triangles: vec![[0, 1, 2], [3, 4, 2]],
+            ..Soup::default()
+        };
+        // Two places in one cell of the curve are two.
+        assert_eq!(by_place(&mut soup, 1.0), 2);
+        assert_eq!(soup.positions, [DVec3::splat(0.5), near, DVec3::X]);
+        assert_eq!(soup.triangles, [[0, 2, 1]; 2]);
+    }
+
+    #[test]
+    fn faces_with_the_same_corners_go_by_what_else_they_have() {
+        let twins = |paints: [u32; 2]| {
+            let mut soup = Soup {
+                positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+                triangles: vec![[0, 1, 2], [1, 2, 0]],
+                triangle_paint: paints.map(PaintId).to_vec(),
+                ..Soup::default()
+            };
+            by_place(&mut soup, 1.0);
+            soup.triangle_paint
+        };
+        assert_eq!(twins([7, 8]), twins([8, 7]));
+    }
+
+    #[test]
+    fn what_is_added_leaves_the_rest_in_order() {
+        let order = |far: &[DVec3]| {
+            let mut positions: Vec<DVec3> = (0..40)
+                .map(|k| DVec3::new(f64::from(k % 7) - 3.0, f64::from(k % 5), f64::from(k)) / 7.0)
+                .collect();
+            let own = positions.len();
+            positions.extend(far);
+            let new_id = order_vertices(&mut positions, 1e3);
+            let mut ids: Vec<usize> = (0..own).collect();
+            ids.sort_by_key(|k| new_id[*k]);
+            ids
+        };
+        assert_eq!(order(&[]), order(&[DVec3::splat(-900.0), DVec3::splat(0.3), DVec3::X * 1e3]));
+    }
+}

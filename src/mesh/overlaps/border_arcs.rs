@@ -1,0 +1,61 @@
+//! [`arcs`]: the curved borders of flat surfaces, and the area between their chords and the curves they stand for.
+//!
+//! A pin that is flush with the plate around it has a border of its own facets, and so has its hole. Where the two are cut in different
+//! places, corners of the pin lie over the plate. These slivers are no larger than what the chords of both cut off their curve.
+//!
+//! 1. A border edge has just one face of the surface.
+//! 2. At a vertex with two border edges the border turns. Turns below [`MAX_FACET_DEG`] are those of a curve.
+//! 3. A chord of length c whose curve turns by t along it lies up to c/2 · tan(t/4) from the curve.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+use crate::geometry::numbers::portable_math::{acos, tan};
+use crate::geometry::numbers::tolerance::MAX_FACET_DEG;
+use crate::mesh::{EdgeFaces, Mesh};
+
+/// An edge of a curved border.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Arc {
+    pub ends: [DVec3; 2],
+    /// The area of the rectangle over the edge that holds the curve.
+    pub area: f64,
+}
+
+/// The curved borders of the surface of some faces; `is_own` tells whether a face is one of them.
+pub(crate) fn arcs(mesh: &Mesh, faces: &[u32], is_own: impl Fn(u32) -> bool) -> Vec<Arc> {
+    let mut border: Vec<[u32; 2]> = Vec::new();
+    for face in faces {
+        let [a, b, c] = mesh.triangles[*face as usize];
+        for ends in [[a, b], [b, c], [c, a]].map(|[v, w]| [v.min(w), v.max(w)]) {
+            let Ok(edge) = mesh.edges.vertices.binary_search(&ends) else { continue };
+            let own = match mesh.edges.faces(edge) {
+                EdgeFaces::One(_) => 1,
+                EdgeFaces::Two { faces, .. } => faces.iter().filter(|face| is_own(**face)).count(),
+                EdgeFaces::Many(faces) => faces.iter().filter(|face| is_own(**face)).count(),
+            };
+            border.extend((own == 1).then_some(ends));
+        }
+    }
+    let mut at_vertex: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+    for [v, w] in &border {
+        at_vertex.entry(*v).or_default().push(*w);
+        at_vertex.entry(*w).or_default().push(*v);
+    }
+    let place = |v: u32| mesh.positions[v as usize];
+    let turn = |v: u32| match at_vertex.get(&v).map(Vec::as_slice) {
+        Some([p, q]) => {
+            let (before, after) = (place(v) - place(*p), place(*q) - place(v));
+            let cosine = before.normalize_or_zero().dot(after.normalize_or_zero());
+            let turn = acos(cosine.clamp(-1.0, 1.0));
+            if turn.to_degrees() < MAX_FACET_DEG { turn } else { 0.0 }
+        }
+        _ => 0.0,
+    };
+    let arc = |[v, w]: &[u32; 2]| {
+        let (ends, turn) = ([place(*v), place(*w)], turn(*v).max(turn(*w)));
+        let chord = ends[0].distance(ends[1]);
+        (turn > 0.0).then(|| Arc { ends, area: chord * chord / 2.0 * tan(turn / 4.0) })
+    };
+    border.iter().filter_map(arc).collect()
+}

@@ -1,0 +1,351 @@
+//! [`Overlay`]: surfaces of unlike colours that overlap in one plane, as a label on a wall does, and which of them is on top.
+//!
+//! A surface is a connected flat patch of one part, material and paint. Two surfaces overlap if triangles of them have a common area,
+//! over all of which the planes lie within contact, and which is more than the slivers between two borders of facets along one curve
+//! (`arcs`). What overlaps, directly or through others, is one plane. In it the smaller surface
+//! is on top; of equal ones that whose part, then whose material, comes later in the file. The order is the same in every view and
+//! from both sides.
+//!
+//! 1. Flat edges join faces to surfaces.
+//! 2. Surfaces are sorted by the cell of their plane: squares of its normal's coordinates, and its distance from the middle.
+//! 3. In each cell with unlike colours boxes are swept along an axis; where two meet, triangles are clipped by triangles.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use self::plane_key::{Candidate, PlaneKey, widest_axis};
+use super::border_arcs::{Arc, arcs};
+use super::colour_grid::near_other_colours;
+use super::common_area::common_area;
+use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::mesh::normals::dihedral::{Dihedral, runs_up};
+use crate::mesh::{EdgeFaces, FaceId, Groups, MaterialId, Mesh, PaintId, PartId};
+use crate::parallel::task_size::GRAIN;
+
+mod plane_key;
+
+/// The place of a face among surfaces that overlap in one plane.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Overlay {
+    /// The number of the plane, from 1; 0 where the face overlaps nothing.
+    pub plane: u32,
+    /// The number of its surface, from the lowest up.
+    pub rank: u32,
+}
+
+/// Faces are flat neighbours only if the cosine between their normals is greater.
+const FLAT_COSINE: f32 = 0.999;
+
+/// Pairs of surfaces, and of triangles, after which the search ends.
+const MAX_TESTS: usize = 50_000_000;
+
+/// For each face its place among surfaces that overlap; empty if none do.
+pub(crate) fn overlays(mesh: &Mesh) -> Vec<Overlay> {
+    let colour = |face: u32| colour(mesh, face);
+    let count = mesh.triangles.len() as u32;
+    let is_alike = |face: u32| colour(face) == colour(0);
+    if count == 0 || (0..count).into_par_iter().with_min_len(GRAIN).all(is_alike) {
+        return Vec::new();
+    }
+    let surfaces = Surfaces::of(mesh);
+    let mut planes = Joined::new(surfaces.all.len());
+    let related = surfaces.related(mesh, &mut planes);
+    if !related {
+        return Vec::new();
+    }
+    let mut numbers: Vec<(u32, u32)> =
+        (0..surfaces.all.len() as u32).map(|surface| (planes.root(surface), surface)).collect();
+    numbers.sort_unstable();
+    let mut of_surface = vec![Overlay::default(); surfaces.all.len()];
+    let shared = numbers.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1);
+    for (same, plane) in shared.zip(1..) {
+        let mut order: Vec<u32> = same.iter().map(|(_, surface)| *surface).collect();
+        surfaces.sort_upwards(&mut order);
+        for (surface, rank) in order.into_iter().zip(0..) {
+            of_surface[surface as usize] = Overlay { plane, rank };
+        }
+    }
+    let of_face = |surface: &u32| of_surface.get(*surface as usize).copied().unwrap_or_default();
+    surfaces.of_face.iter().map(of_face).collect()
+}
+
+impl Mesh {
+    /// The place of a face among surfaces that overlap in one plane.
+    #[inline]
+    #[must_use]
+    pub fn overlay(&self, face: u32) -> Overlay {
+        self.overlays.get(face as usize).copied().unwrap_or_default()
+    }
+
+    /// Whether two faces are of surfaces that overlap in one plane, or are of the same one of these.
+    #[inline]
+    #[must_use]
+    pub fn share_plane(&self, a: u32, b: u32) -> bool {
+        let plane = self.overlay(a).plane;
+        plane != 0 && plane == self.overlay(b).plane
+    }
+
+    /// Whether a face is one of the two that a line lies on, or lies in one plane with one of these: then it never hides the line.
+    #[inline]
+    #[must_use]
+    pub fn touches(&self, hosts: [u32; 2], face: u32) -> bool {
+        hosts.contains(&face)
+            || (!self.overlays.is_empty() && hosts.iter().any(|host| self.share_plane(*host, face)))
+    }
+
+    /// Whether a face is on top of another one that lies in the same plane.
+    #[inline]
+    #[must_use]
+    pub fn is_over(&self, face: u32, other: u32) -> bool {
+        self.share_plane(face, other) && self.overlay(face).rank > self.overlay(other).rank
+    }
+}
+
+/// The source of a face's colour.
+fn colour(mesh: &Mesh, face: u32) -> (MaterialId, PaintId) {
+    (mesh.face_material[face as usize], mesh.paint(FaceId(face)))
+}
+
+/// Sets that are joined one by one.
+struct Joined(Vec<u32>);
+
+impl Joined {
+    fn new(count: usize) -> Self {
+        Self((0..count as u32).collect())
+    }
+
+    fn root(&mut self, of: u32) -> u32 {
+        let mut at = of;
+        while self.0[at as usize] != at {
+            self.0[at as usize] = self.0[self.0[at as usize] as usize];
+            at = self.0[at as usize];
+        }
+        at
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a.max(b) as usize] = a.min(b);
+    }
+}
+
+/// A connected flat patch of one part, material and paint.
+#[derive(Debug, Clone, Copy)]
+struct FlatSurface {
+    part: PartId,
+    colour: (MaterialId, PaintId),
+    area: f64,
+    low: DVec3,
+    high: DVec3,
+    /// Its largest face, and the area of that.
+    largest: (u32, f64),
+    contact: f64,
+}
+
+struct Surfaces {
+    all: Vec<FlatSurface>,
+    /// For each face its surface; none without area, and where no other colour is near.
+    of_face: Vec<u32>,
+    faces: Grouped<u32>,
+    /// Whether each face comes near another colour: no others can overlap one.
+    near: Vec<bool>,
+}
+
+impl Surfaces {
+    fn of(mesh: &Mesh) -> Self {
+        let owner = |face: u32| (mesh.face_part[face as usize], colour(mesh, face));
+        let is_one = |[a, b]: [u32; 2], same_way: bool, edge: usize| {
+            let dihedral = Dihedral::of(mesh, [a, b], same_way);
+            owner(a) == owner(b) && dihedral.cosine > FLAT_COSINE && dihedral.is_flat(mesh, edge)
+        };
+        let is_up = |edge: usize, face: u32| runs_up(mesh, edge, face);
+        let groups = Groups::new(mesh.triangles.len(), |join| {
+            (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN).for_each(|edge| {
+                match mesh.edges.faces(edge) {
+                    EdgeFaces::One(_) => {}
+                    EdgeFaces::Two { faces: [a, b], same_way } => {
+                        if is_one([a, b], same_way, edge) {
+                            join(a, b);
+                        }
+                    }
+                    EdgeFaces::Many(faces) => {
+                        // Neighbours in the list are enough where all are one surface; else some of its patches stay apart.
+                        for (k, a) in faces.iter().enumerate() {
+                            for b in faces[..k].iter().rev().take(8) {
+                                if is_one([*b, *a], is_up(edge, *a) == is_up(edge, *b), edge) {
+                                    join(*a, *b);
+                                }
+                            }
+                        }
+                    }
+                }
+            });
+        });
+        // Patches none of whose faces comes near another colour are passed over.
+        let near = near_other_colours(mesh, |face| mesh.paint(FaceId(face)).0);
+        let mut is_asked = vec![false; near.len()];
+        for face in (0..near.len() as u32).filter(|face| near[*face as usize]) {
+            is_asked[groups.of(face) as usize] = true;
+        }
+        let (mut all, mut of_face): (Vec<FlatSurface>, Vec<u32>) = (Vec::new(), Vec::new());
+        for face in 0..mesh.triangles.len() as u32 {
+            let root = groups.of(face);
+            if mesh.is_degenerate(FaceId(face)) || !is_asked[root as usize] {
+                of_face.push(u32::MAX);
+                continue;
+            }
+            let [a, b, c] = mesh.corners(FaceId(face));
+            let area = (b - a).cross(c - a).length() / 2.0;
+            let surface = if root == face { all.len() as u32 } else { of_face[root as usize] };
+            of_face.push(surface);
+            if root == face {
+                let (part, colour) = owner(face);
+                let contact = mesh.extent(FaceId(face)).contact;
+                let (low, high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+                all.push(FlatSurface { part, colour, area: 0.0, low, high, largest: (face, area), contact });
+            }
+            let own = &mut all[surface as usize];
+            own.area += area;
+            (own.low, own.high) = (own.low.min(a).min(b).min(c), own.high.max(a).max(b).max(c));
+            if area > own.largest.1 {
+                own.largest = (face, area);
+            }
+        }
+        let is_real = |(surface, _): &(usize, u32)| *surface < all.len();
+        let numbered = of_face.iter().map(|surface| *surface as usize).zip(0..).filter(is_real);
+        let faces = grouped_pairs(all.len(), numbered);
+        Self { all, of_face, faces, near }
+    }
+
+    /// Orders surfaces of a plane from the lowest up.
+    fn sort_upwards(&self, order: &mut [u32]) {
+        let of = |surface: &u32| &self.all[*surface as usize];
+        let in_file = |surface: &u32| (of(surface).part, of(surface).colour, of(surface).largest.0);
+        order.sort_by(|a, b| of(b).area.total_cmp(&of(a).area).then_with(|| in_file(a).cmp(&in_file(b))));
+        // Areas that differ by no more than rounding are equal.
+        let is_equal = |a: &u32, b: &u32| {
+            let reach = |own: &FlatSurface| 2.0 * own.contact * own.low.distance(own.high);
+            (of(a).area - of(b).area).abs() <= reach(of(a)) + reach(of(b))
+        };
+        order.chunk_by_mut(is_equal).for_each(|equal| equal.sort_by_key(in_file));
+    }
+
+    /// Joins the surfaces of unlike colours that overlap; whether any do.
+    fn related(&self, mesh: &Mesh, planes: &mut Joined) -> bool {
+        let surfaces = (0..self.all.len() as u32).into_par_iter().with_min_len(GRAIN);
+        let keys: Vec<PlaneKey> = surfaces.clone().map(|surface| self.key(mesh, surface)).collect();
+        let of_surface = |surface: u32| keys[surface as usize].cells().map(move |cell| (cell, surface));
+        let mut cells: Vec<([i64; 3], u32)> = surfaces.flat_map_iter(of_surface).collect();
+        cells.par_sort_unstable();
+        let (mut tests, mut related) = (0, false);
+        let mut arcs: Vec<Option<Vec<Arc>>> = vec![None; self.all.len()];
+        let mut own: Vec<Candidate> = Vec::new();
+        for cell in cells.chunk_by(|a, b| a.0 == b.0) {
+            let colour = |at: &([i64; 3], u32)| self.all[at.1 as usize].colour;
+            if cell.iter().all(|at| colour(at) == colour(&cell[0])) {
+                continue;
+            }
+            own.clear();
+            own.extend(cell.iter().map(|(_, surface)| {
+                let FlatSurface { low, high, colour, contact, .. } = self.all[*surface as usize];
+                Candidate {
+                    low: low - contact,
+                    high: high + contact,
+                    key: keys[*surface as usize],
+                    colour,
+                    surface: *surface,
+                }
+            }));
+            let axis = widest_axis(&own);
+            own.sort_by(|a, b| a.low[axis].total_cmp(&b.low[axis]).then(a.surface.cmp(&b.surface)));
+            for (k, first) in own.iter().enumerate() {
+                for other in own[k + 1..].iter().take_while(|other| other.low[axis] <= first.high[axis]) {
+                    tests += 1;
+                    if tests > MAX_TESTS {
+                        return related;
+                    }
+                    if first.may_overlap(other)
+                        && planes.root(first.surface) != planes.root(other.surface)
+                        && self.overlap(mesh, first.surface, other.surface, &mut arcs, &mut tests)
+                    {
+                        planes.join(first.surface, other.surface);
+                        related = true;
+                    }
+                }
+            }
+        }
+        related
+    }
+
+    /// The key of the plane of a surface, by its largest face.
+    fn key(&self, mesh: &Mesh, surface: u32) -> PlaneKey {
+        let own = &self.all[surface as usize];
+        PlaneKey::of(mesh, own.largest.0)
+    }
+
+    /// Whether triangles of two surfaces have a common area in one plane, and more than slivers; `arcs` keeps the curved borders of
+    /// surfaces.
+    fn overlap(
+        &self,
+        mesh: &Mesh,
+        first: u32,
+        other: u32,
+        arcs: &mut [Option<Vec<Arc>>],
+        tests: &mut usize,
+    ) -> bool {
+        let (one, two) = (&self.all[first as usize], &self.all[other as usize]);
+        let contact = one.contact.max(two.contact);
+        let meet = |a: (DVec3, DVec3), b: (DVec3, DVec3)| {
+            a.0.cmple(b.1 + contact).all() && a.1.cmpge(b.0 - contact).all()
+        };
+        let (one_box, two_box) = ((one.low, one.high), (two.low, two.high));
+        if !meet(one_box, two_box) {
+            return false;
+        }
+        // The triangles near the other surface, with their boxes.
+        let near = |surface: u32, other: (DVec3, DVec3)| -> Vec<([DVec3; 3], (DVec3, DVec3))> {
+            let faces = self.faces.of(surface as usize).iter().filter(|face| self.near[**face as usize]);
+            let corners = faces.map(|face| mesh.corners(FaceId(*face)));
+            let boxed = corners.map(|own| {
+                let [a, b, c] = own;
+                (own, (a.min(b).min(c), a.max(b).max(c)))
+            });
+            boxed.filter(|(_, own)| meet(*own, other)).collect()
+        };
+        *tests += self.faces.of(first as usize).len() + self.faces.of(other as usize).len();
+        let (one, two) = (near(first, two_box), near(other, one_box));
+        let (mut common, mut slivers) = (0.0, None);
+        for (a, a_box) in &one {
+            *tests += two.len();
+            if *tests > MAX_TESTS {
+                return false;
+            }
+            for (b, _) in two.iter().filter(|(_, b_box)| meet(*a_box, *b_box)) {
+                common += common_area(a, b, contact);
+                if common == 0.0 {
+                    continue;
+                }
+                let slivers = slivers.get_or_insert_with(|| {
+                    let mut near = |surface: u32, other| -> f64 {
+                        let own = arcs[surface as usize].get_or_insert_with(|| self.arcs(mesh, surface));
+                        let boxed = |arc: &&Arc| (arc.ends[0].min(arc.ends[1]), arc.ends[0].max(arc.ends[1]));
+                        own.iter().filter(|arc| meet(boxed(arc), other)).map(|arc| arc.area).sum()
+                    };
+                    near(first, two_box) + near(other, one_box)
+                });
+                if common > *slivers {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// The curved borders of a surface.
+    fn arcs(&self, mesh: &Mesh, surface: u32) -> Vec<Arc> {
+        arcs(mesh, self.faces.of(surface as usize), |face| self.of_face[face as usize] == surface)
+    }
+}
+
+#[cfg(test)]
+mod tests;

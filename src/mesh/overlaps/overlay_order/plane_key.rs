@@ -1,0 +1,86 @@
+//! [`Candidate`]s for an overlap: surfaces whose planes and boxes may meet.
+//!
+//! A plane has a key of three numbers: the squares of two coordinates of its normal, which are the same on both sides, and its distance
+//! from the middle of the model. Rounding of the corners makes each number a range. Planes that share a point and a direction have
+//! keys that meet.
+
+use glam::DVec3;
+
+use crate::mesh::{FaceId, MaterialId, Mesh, PaintId};
+
+/// Normals cells are this wide, squares of coordinates.
+const NORMAL_CELL: f64 = 1.0 / 16.0;
+
+/// Planes are told apart by their distance from the middle in so many steps of the model's diagonal.
+const DISTANCE_STEPS: f64 = 512.0;
+
+/// Surfaces whose normal rounding may turn by more than this (radians), or whose plane lies in more cells than this, are passed over.
+const MAX_TURN: f64 = 1e-2;
+const MAX_CELLS: f64 = 8.0;
+
+/// The range of a plane's key: squares of two coordinates of its normal, and its distance from the middle, in widths of cells.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PlaneKey {
+    low: DVec3,
+    high: DVec3,
+    /// False for slivers, whose plane rounding turns by more than [`MAX_TURN`] or moves by more than [`MAX_CELLS`].
+    is_known: bool,
+}
+
+impl PlaneKey {
+    /// The key of the plane of a face.
+    pub(crate) fn of(mesh: &Mesh, face: u32) -> Self {
+        let [a, b, c] = mesh.corners(FaceId(face));
+        // Each corner is known within half of contact.
+        let contact = mesh.extent(FaceId(face)).contact;
+        let across = (b - a).cross(c - a);
+        let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
+        let area = across.length();
+        let turn = 2.0 * contact * longest / area;
+        let (normal, way) = (across / area, a - mesh.extents.middle);
+        let reach = turn * (way.length() + longest) + 2.0 * contact;
+        let squares = normal * normal / NORMAL_CELL;
+        let step = (mesh.extents.diagonal / DISTANCE_STEPS).max(f64::MIN_POSITIVE);
+        let middle = DVec3::new(squares.x, squares.y, normal.dot(way).abs() / step);
+        let reach = DVec3::new(2.0 * turn / NORMAL_CELL, 2.0 * turn / NORMAL_CELL, reach / step);
+        let (low, high) = (middle - reach, middle + reach);
+        let is_known = turn <= MAX_TURN && high.z.floor() - low.z.floor() < MAX_CELLS;
+        Self { low, high, is_known }
+    }
+
+    /// The cells that the key may lie in; none if it is not known.
+    pub(crate) fn cells(&self) -> impl Iterator<Item = [i64; 3]> + use<> {
+        let (low, high) = (self.low.floor().as_i64vec3(), self.high.floor().as_i64vec3());
+        let last = if self.is_known { high.x } else { low.x - 1 };
+        let rows = (low.x..=last).flat_map(move |x| (low.y..=high.y).map(move |y| (x, y)));
+        rows.flat_map(move |(x, y)| (low.z..=high.z).map(move |z| [x, y, z]))
+    }
+}
+
+/// A surface in the search of one cell, with its box, which contact widens.
+pub(crate) struct Candidate {
+    pub(crate) low: DVec3,
+    pub(crate) high: DVec3,
+    pub(crate) key: PlaneKey,
+    pub(crate) colour: (MaterialId, PaintId),
+    pub(crate) surface: u32,
+}
+
+impl Candidate {
+    /// False only for surfaces of one colour, in two planes or apart.
+    #[inline]
+    pub(crate) fn may_overlap(&self, other: &Self) -> bool {
+        let meet = |a: (DVec3, DVec3), b: (DVec3, DVec3)| a.0.cmple(b.1).all() && b.0.cmple(a.1).all();
+        self.colour != other.colour
+            && meet((self.low, self.high), (other.low, other.high))
+            && meet((self.key.low, self.key.high), (other.key.low, other.key.high))
+    }
+}
+
+/// The axis along which candidates lie farthest apart.
+pub(crate) fn widest_axis(own: &[Candidate]) -> usize {
+    let low = own.iter().fold(DVec3::INFINITY, |low, own| low.min(own.low));
+    let high = own.iter().fold(DVec3::NEG_INFINITY, |high, own| high.max(own.low));
+    let size = high - low;
+    (1..3).fold(0, |widest, axis| if size[axis] > size[widest] { axis } else { widest })
+}

@@ -1,0 +1,357 @@
+//! [`Extents`]: how large each part is and where it lies, by which what concerns it is judged.
+//!
+//! Tolerances are fractions of the parts that they are about, never of the whole model: what becomes of one
+//! part must not depend on others that lie elsewhere.
+
+use std::cmp::Ordering;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::{FaceId, Mesh, PartId, Soup};
+use crate::geometry::numbers::powers_of_two::power_of_two_above;
+use crate::geometry::numbers::tolerance;
+use crate::mesh::normals::triangle_area::{has_own_area, scale_of};
+use crate::parallel::task_size::GRAIN;
+
+/// The origin of a mesh lies on a grid with steps of this many times the power of two above its size, so
+/// that parts that come and go do not move it.
+const ORIGIN_OF_SIZE: f64 = 256.0;
+
+/// Contact by the precision of a file's coordinates never reaches farther than this share of the part: a file
+/// that says so little of a part says nothing of what touches it.
+const CONTACT_AT_MOST: f64 = 1e-3;
+
+/// How large a part is and where it lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    /// Least coordinates, local space.
+    pub low: DVec3,
+    /// Greatest coordinates, local space.
+    pub high: DVec3,
+    /// The length that its tolerances are fractions of, world units: the diagonal of its box.
+    pub scale: f64,
+    /// Surfaces this near touch, as far as the numbers of the file can tell, world units.
+    pub contact: f64,
+    /// Vertices this near are one vertex, world units.
+    pub weld: f64,
+    /// The step of its coordinates as the file wrote them, world units; 0 where they are exact.
+    pub step: f64,
+    /// How far rounding may have moved a vertex, world units; 0 where coordinates are exact.
+    pub rounding: f64,
+    /// The part without the rest of its body.
+    own: Own,
+}
+
+/// The scale and the box of a part alone.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Own {
+    scale: f64,
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Extent {
+    const NOTHING: Self = Self {
+        low: DVec3::INFINITY,
+        high: DVec3::NEG_INFINITY,
+        scale: 0.0,
+        contact: 0.0,
+        weld: 0.0,
+        step: 0.0,
+        rounding: 0.0,
+        own: Own { scale: 0.0, low: DVec3::INFINITY, high: DVec3::NEG_INFINITY },
+    };
+
+    /// Diagonal of the box, world units.
+    #[must_use]
+    pub fn diagonal(&self) -> f64 {
+        if self.low.x <= self.high.x { self.low.distance(self.high) } else { 0.0 }
+    }
+
+    /// The order of two parts by their own size, then by where they are, which does not depend on that in the file.
+    #[must_use]
+    pub fn precedence(&self, other: &Self) -> Ordering {
+        let place = |own: &Own| [own.low.to_array(), own.high.to_array()];
+        let by_place = || place(&self.own).partial_cmp(&place(&other.own)).unwrap_or(Ordering::Equal);
+        self.own.scale.total_cmp(&other.own.scale).then_with(by_place)
+    }
+
+    /// Middle of the box, local space.
+    #[must_use]
+    pub fn middle(&self) -> DVec3 {
+        if self.low.x <= self.high.x { self.low / 2.0 + self.high / 2.0 } else { DVec3::ZERO }
+    }
+}
+
+/// The extents of all parts of a mesh.
+#[derive(Debug, Clone, Default)]
+pub struct Extents {
+    of_part: Vec<Extent>,
+    /// Middle of the box around all, local space. Only for searches, whose findings do not depend on it.
+    pub middle: DVec3,
+    /// Diagonal of that box. Only for searches as well.
+    pub diagonal: f64,
+    /// The middle and the diagonal of the box around what counts: without faces that have no area, unless there are no others.
+    counted: (DVec3, f64),
+}
+
+impl Extents {
+    /// The extents of what is in a soup, whose positions are relative to `origin`.
+    ///
+    /// With `has_flat_faces`, faces without area do not count in the extent of their part, unless it has no others.
+    pub(crate) fn new(soup: &Soup, origin: DVec3, has_flat_faces: bool) -> Self {
+        let mut extents = Self::of_all(soup, |_| true);
+        if has_flat_faces {
+            let counted = Self::of_all(soup, has_own_area);
+            if counted.of_part.iter().any(|part| part.low.x <= part.high.x) {
+                extents.counted = counted.counted;
+            }
+            for (own, counted) in extents.of_part.iter_mut().zip(counted.of_part) {
+                // A part of nothing but such faces keeps their box.
+                *own = if counted.low.x <= counted.high.x { counted } else { *own };
+            }
+        }
+        for (part, extent) in extents.of_part.iter_mut().enumerate() {
+            let step = soup.steps.get(part).copied().unwrap_or_default();
+            extent.measure(origin, soup.single_precision, step);
+        }
+        extents
+    }
+
+    /// The boxes of all parts, by the triangles for which `counts` holds and the wires that have a length.
+    fn of_all(soup: &Soup, counts: impl Fn([DVec3; 3]) -> bool + Sync) -> Self {
+        let part = |face: usize| soup.triangle_part.get(face).copied().unwrap_or_default();
+        type Boxes = Vec<(PartId, DVec3, DVec3)>;
+        let grow = |boxes: &mut Boxes, part: PartId, vertices: &[u32]| {
+            if boxes.last().is_none_or(|last| last.0 != part) {
+                boxes.push((part, DVec3::INFINITY, DVec3::NEG_INFINITY));
+            }
+            if let Some((_, low, high)) = boxes.last_mut() {
+                for v in vertices {
+                    let p = soup.positions[*v as usize];
+                    (*low, *high) = (low.min(p), high.max(p));
+                }
+            }
+        };
+        let of_faces: Vec<Boxes> = soup
+            .triangles
+            .par_chunks(GRAIN)
+            .enumerate()
+            .map(|(chunk, faces)| {
+                let mut boxes = Boxes::new();
+                for (i, t) in faces.iter().enumerate() {
+                    if counts(t.map(|v| soup.positions[v as usize])) {
+                        grow(&mut boxes, part(chunk * GRAIN + i), t);
+                    }
+                }
+                boxes
+            })
+            .collect();
+        let mut boxes = of_faces.concat();
+        soup.wires.iter().for_each(|wire| grow(&mut boxes, wire.part, &wire.vertices));
+
+        let mut all = Extent::NOTHING;
+        let count = boxes.iter().map(|(part, ..)| part.index() + 1).max().unwrap_or(0);
+        let mut of_part = vec![Extent::NOTHING; count];
+        for (part, low, high) in boxes {
+            for extent in [&mut of_part[part.index()], &mut all] {
+                (extent.low, extent.high) = (extent.low.min(low), extent.high.max(high));
+            }
+        }
+        let (middle, diagonal) = (all.middle(), all.diagonal());
+        Self { of_part, middle, diagonal, counted: (middle, diagonal) }
+    }
+
+    /// The extent of a part; nothing for a part without faces and wires.
+    #[must_use]
+    pub fn of(&self, part: PartId) -> &Extent {
+        self.of_part.get(part.index()).unwrap_or(&Extent::NOTHING)
+    }
+
+    /// The extents of all parts.
+    #[must_use]
+    pub fn all(&self) -> &[Extent] {
+        &self.of_part
+    }
+
+    /// The place of each part in the order of [`Extent::precedence`]; parts of one size in one place keep the order of the file.
+    #[must_use]
+    pub fn ranks(&self) -> Vec<u32> {
+        let mut order: Vec<u32> = (0..self.of_part.len() as u32).collect();
+        order.sort_by(|a, b| self.of_part[*a as usize].precedence(&self.of_part[*b as usize]));
+        let mut ranks = vec![0; order.len()];
+        for (rank, part) in (0..).zip(order) {
+            ranks[part as usize] = rank;
+        }
+        ranks
+    }
+
+    /// Whether the coordinates of some part are rounded.
+    #[must_use]
+    pub fn is_rounded(&self) -> bool {
+        self.of_part.iter().any(|part| part.rounding > 0.0)
+    }
+
+    /// A ball that holds all vertices: its middle, local space, and its radius. Both are rounded, so that they
+    /// seldom change when parts come, go and move.
+    #[must_use]
+    pub fn ball(&self) -> (DVec3, f64) {
+        ball(self.middle, self.diagonal)
+    }
+
+    /// The same of what counts: faces without area do not, unless there are no others. For all that shows in a drawing.
+    #[must_use]
+    pub fn counted_ball(&self) -> (DVec3, f64) {
+        ball(self.counted.0, self.counted.1)
+    }
+
+    /// The diagonal of the box around what counts.
+    #[must_use]
+    pub fn counted_diagonal(&self) -> f64 {
+        self.counted.1
+    }
+}
+
+impl Extents {
+    /// The same, but that each part has the extent of its body: the union of those of its parts. The order of parts stays that of
+    /// their own sizes.
+    pub(crate) fn united(mut self, bodies: &[PartId], origin: DVec3, single_precision: bool) -> Self {
+        if bodies.is_empty() {
+            return self;
+        }
+        let mut of_body = vec![Extent::NOTHING; self.of_part.len()];
+        for (extent, body) in self.of_part.iter().zip(bodies) {
+            let own = &mut of_body[body.index()];
+            (own.low, own.high) = (own.low.min(extent.low), own.high.max(extent.high));
+            own.step = own.step.max(extent.step);
+        }
+        of_body.iter_mut().for_each(|extent| extent.measure(origin, single_precision, extent.step));
+        for (extent, body) in self.of_part.iter_mut().zip(bodies) {
+            *extent = Extent { own: extent.own, ..of_body[body.index()] };
+        }
+        self
+    }
+}
+
+/// A ball around a box, rounded.
+fn ball(middle: DVec3, diagonal: f64) -> (DVec3, f64) {
+    if diagonal == 0.0 {
+        return (middle, 1.0);
+    }
+    let step = power_of_two_above(diagonal) / 8.0;
+    let middle = (middle / step).round() * step;
+    // The middle is off by no more than half a step along each axis.
+    let least = diagonal / 2.0 + step;
+    let quarter = step / 2.0;
+    (middle, (least / quarter).ceil() * quarter)
+}
+
+impl Extent {
+    fn measure(&mut self, origin: DVec3, single_precision: bool, step: f64) {
+        if self.low.x > self.high.x {
+            return;
+        }
+        self.scale = scale_of(self.low, self.high);
+        let (low, high) = (self.low + origin, self.high + origin);
+        let largest = low.abs().max(high.abs()).max_element();
+        let written = if single_precision { tolerance::WELD_OF_F32_COORDINATE * largest } else { 0.0 };
+        self.weld = (tolerance::WELD_OF_PART * self.scale).max(written);
+        // Placing a part in the world rounds its coordinates again.
+        let of_single = if single_precision { tolerance::F32_STEP * largest } else { 0.0 };
+        self.step = step.max(of_single);
+        // A lattice that can be seen is the shape itself.
+        let step = if step <= tolerance::VISIBLE_STEP * self.diagonal() { step } else { 0.0 };
+        let rounding = (tolerance::ROUNDING_OF_LATTICE * step).max(tolerance::ROUNDING_OF_SINGLE * of_single);
+        self.rounding = rounding.min(CONTACT_AT_MOST * self.scale);
+        let between = (2.0 * written).max(2.0 * self.rounding).min(CONTACT_AT_MOST * self.scale);
+        self.contact = (tolerance::CONTACT_OF_PART * self.scale).max(between);
+        self.own = Own { scale: self.scale, low: self.low, high: self.high };
+    }
+}
+
+/// The zero of a mesh whose box is given: zero itself, unless the model lies far from it for its size. It
+/// lies on a coarse grid, and subtracting it rounds nothing.
+pub(crate) fn origin(low: DVec3, high: DVec3) -> DVec3 {
+    let middle = low / 2.0 + high / 2.0;
+    let size = low.distance(high);
+    if size == 0.0 {
+        return middle + DVec3::ZERO;
+    }
+    let step = ORIGIN_OF_SIZE * power_of_two_above(size);
+    // The sum makes zeros positive.
+    (middle / step).round() * step + DVec3::ZERO
+}
+
+impl Mesh {
+    /// The extent of the part that a face belongs to.
+    #[inline]
+    #[must_use]
+    pub fn extent(&self, face: FaceId) -> &Extent {
+        self.extents.of(self.face_part[face.index()])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{MaterialId, Wire};
+    use super::*;
+
+    #[test]
+    fn the_origin_is_zero_near_zero_and_near_the_model_far_away() {
+        let at = |x: f64| origin(DVec3::new(x, 0.0, 0.0), DVec3::new(x + 1.0, 1.0, 1.0));
+        assert_eq!(at(-0.3), DVec3::ZERO);
+        assert_eq!(at(100.0), DVec3::ZERO);
+        let far = at(1e6 + 0.3);
+        assert!((far.x - 1e6).abs() <= 256.5 && far.x % 512.0 == 0.0 && far.y == 0.0, "{far}");
+        assert_eq!(at(1e6 + 0.3), at(1e6 + 40.3));
+    }
+
+    #[test]
+    fn parts_are_measured_each_by_itself() {
+        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let soup = |far: f64| Soup {
+            positions: corners.into_iter().chain(corners.map(|p| p * 3.0 + DVec3::Z * far)).collect(),
+            triangles: vec![[0, 1, 2], [3, 4, 5]],
+            triangle_part: vec![PartId(0), PartId(2)],
+            ..Soup::default()
+        };
+        let (near, far) = (Mesh::build(soup(2.0)), Mesh::build(soup(7.0)));
+        assert_eq!(near.extents.of(PartId(0)), far.extents.of(PartId(0)));
+        assert_eq!(near.extents.of(PartId(0)).scale, 2.0_f64.sqrt());
+        assert_eq!(near.extents.of(PartId(2)).scale, 18.0_f64.sqrt());
+        for part in [1, 9] {
+            assert_eq!(near.extents.of(PartId(part)).scale, 0.0);
+        }
+        let (middle, radius) = far.extents.ball();
+        assert!(far.positions.iter().all(|p| p.distance(middle) <= radius));
+    }
+
+    #[test]
+    fn faces_without_area_and_wires_without_length_do_not_count() {
+        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let far = [[1e6, 0.0, 0.0], [1e6 + 1.0, 0.0, 0.0], [1e6 + 2.0, 0.0, 0.0]].map(DVec3::from_array);
+        // The model itself may lie far from zero, and the face at zero.
+        for shift in [DVec3::ZERO, DVec3::new(-1e6, 0.0, 0.0)] {
+            let wire = Wire { vertices: [5, 5], part: PartId(0), material: MaterialId(0) };
+            let soup = |triangles: &[[u32; 3]], parts: &[PartId]| Soup {
+                positions: corners.into_iter().chain(far).map(|p| p + shift).collect(),
+                triangles: triangles.to_vec(),
+                triangle_part: parts.to_vec(),
+                wires: vec![wire],
+                ..Soup::default()
+            };
+            let plain = Mesh::build(soup(&[[0, 1, 2]], &[PartId(0)]));
+            let flat = Mesh::build(soup(&[[0, 1, 2], [3, 4, 5]], &[PartId(0); 2]));
+            assert_eq!(plain.extents.of(PartId(0)), flat.extents.of(PartId(0)), "{shift}");
+            assert_eq!((plain.origin, flat.cleaning.degenerate > 0), (flat.origin, true));
+            // A part of such faces alone.
+            let apart = Mesh::build(soup(&[[0, 1, 2], [3, 4, 5]], &[PartId(0), PartId(1)]));
+            assert_eq!(plain.extents.of(PartId(0)), apart.extents.of(PartId(0)));
+            assert_eq!(apart.extents.of(PartId(1)).diagonal(), 2.0);
+            assert_eq!(plain.extents.counted_ball(), flat.extents.counted_ball());
+            let (middle, radius) = flat.extents.ball();
+            assert!(flat.positions.iter().all(|p| p.distance(middle) <= radius));
+        }
+    }
+}

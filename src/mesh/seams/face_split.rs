@@ -1,0 +1,189 @@
+//! [`cut_faces`]: faces cut at corners that lie on their sides, into triangles round the opposite corner.
+
+use glam::DVec3;
+
+use crate::mesh::EdgeMark;
+use crate::mesh::soup::Soup;
+
+/// A corner that cuts a side, and where on it, from 0 to 1.
+pub(crate) type Cut = (f64, u32);
+
+/// A face and what cuts its sides 0-1, 1-2 and 2-0, in order along each.
+pub(crate) type CutFace = (u32, [Vec<Cut>; 3]);
+
+/// Pieces lean from their face by less than the angle of this cosine (20 degrees): two of them bend together by less
+/// than makes a crease.
+const UPRIGHT: f64 = 0.94;
+
+/// No normal or texture coordinate.
+const NONE: u32 = u32::MAX;
+
+/// A triangle, what each of its corners has, and what the file says of its sides.
+#[derive(Clone, Copy)]
+struct Piece {
+    corners: [Corner; 3],
+    marks: [EdgeMark; 3],
+}
+
+#[derive(Clone, Copy)]
+struct Corner {
+    vertex: u32,
+    normal: u32,
+    uv: u32,
+    colour: [f32; 3],
+}
+
+/// Cuts faces of a soup; the first piece of each stands where the face stood, the others behind all. A face of which a
+/// piece would turn over or lean stays whole.
+pub(crate) fn cut_faces(soup: &mut Soup, faces: &[CutFace]) {
+    for (face, cuts) in faces {
+        let face = *face as usize;
+        let (mut pieces, uvs) = (Vec::new(), soup.uvs.len());
+        split(soup, piece(soup, face), [&cuts[0], &cuts[1], &cuts[2]], &mut pieces);
+        let upright = normal(soup, soup.triangles[face]);
+        let cosine = |piece: &Piece| normal(soup, piece.corners.map(|corner| corner.vertex)).dot(upright);
+        if pieces.iter().any(|piece| cosine(piece) < UPRIGHT) {
+            soup.uvs.truncate(uvs);
+            continue;
+        }
+        for (k, piece) in pieces.into_iter().enumerate() {
+            put(&mut soup.triangles, face, k, |_| piece.corners.map(|corner| corner.vertex));
+            put(&mut soup.triangle_part, face, k, |part| part);
+            put(&mut soup.triangle_material, face, k, |material| material);
+            put(&mut soup.triangle_paint, face, k, |paint| paint);
+            put(&mut soup.corner_normals, face, k, |_| piece.corners.map(|corner| corner.normal));
+            put(&mut soup.corner_uvs, face, k, |_| piece.corners.map(|corner| corner.uv));
+            put(&mut soup.corner_colours, face, k, |_| piece.corners.map(|corner| corner.colour));
+            put(&mut soup.edge_marks, face, k, |_| piece.marks);
+        }
+    }
+}
+
+fn normal(soup: &Soup, corners: [u32; 3]) -> DVec3 {
+    let [a, b, c] = corners.map(|v| soup.positions[v as usize]);
+    (b - a).cross(c - a).normalize_or_zero()
+}
+
+/// Puts what a piece has in the place of what its face had, or behind all; where nothing is known of any face, nothing.
+fn put<T: Copy>(list: &mut Vec<T>, face: usize, piece: usize, of: impl Fn(T) -> T) {
+    let Some(own) = list.get_mut(face) else { return };
+    let new = of(*own);
+    if piece == 0 {
+        *own = new;
+    } else {
+        list.push(new);
+    }
+}
+
+fn piece(soup: &Soup, face: usize) -> Piece {
+    let [vertices, normals, uvs] = [
+        soup.triangles[face],
+        soup.corner_normals.get(face).copied().unwrap_or([NONE; 3]),
+        soup.corner_uvs.get(face).copied().unwrap_or([NONE; 3]),
+    ];
+    let colours = soup.corner_colours.get(face).copied().unwrap_or_default();
+    let corner =
+        |k: usize| Corner { vertex: vertices[k], normal: normals[k], uv: uvs[k], colour: colours[k] };
+    let marks = soup.edge_marks.get(face).copied().unwrap_or_default();
+    Piece { corners: [0, 1, 2].map(corner), marks }
+}
+
+/// The pieces of a triangle whose sides are cut. What is new inside it is no line of the file.
+fn split(soup: &mut Soup, whole: Piece, cuts: [&[Cut]; 3], pieces: &mut Vec<Piece>) {
+    let Some(side) = cuts.iter().position(|cuts| !cuts.is_empty()) else {
+        pieces.push(whole);
+        return;
+    };
+    let [a, b, c] = [0, 1, 2].map(|k| whole.corners[(side + k) % 3]);
+    let marks = [0, 1, 2].map(|k| whole.marks[(side + k) % 3]);
+    let mut from = a;
+    for k in 0..=cuts[side].len() {
+        let cut = cuts[side].get(k);
+        let to = cut.map_or(b, |(t, vertex)| between(soup, [a, b], *t, *vertex));
+        let (first, last) = (k == 0, cut.is_none());
+        let mark = |own: bool, mark: EdgeMark| if own { mark } else { EdgeMark::Hidden };
+        let part =
+            Piece { corners: [from, to, c], marks: [marks[0], mark(last, marks[1]), mark(first, marks[2])] };
+        let rest = |own: bool, k: usize| if own { cuts[(side + k) % 3] } else { &[] };
+        split(soup, part, [&[], rest(last, 1), rest(first, 2)], pieces);
+        from = to;
+    }
+}
+
+/// What a face has on one of its sides, at a place from 0 to 1; of normals that of the nearer end.
+fn between(soup: &mut Soup, [a, b]: [Corner; 2], t: f64, vertex: u32) -> Corner {
+    let mix = |p: f32, q: f32| (f64::from(p) + (f64::from(q) - f64::from(p)) * t) as f32;
+    let uvs = [a.uv, b.uv].map(|uv| soup.uvs.get(uv as usize).copied());
+    let uv = match uvs {
+        [Some(p), Some(q)] => {
+            soup.uvs.push([0, 1].map(|k| mix(p[k], q[k])));
+            soup.uvs.len() as u32 - 1
+        }
+        _ => NONE,
+    };
+    let normal = if t < 0.5 { a.normal } else { b.normal };
+    Corner { vertex, normal, uv, colour: [0, 1, 2].map(|k| mix(a.colour[k], b.colour[k])) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pieces_keep_what_the_face_has() {
+        let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+        let mut soup = Soup {
+            positions: vec![
+                at(0.0, 0.0),
+                at(4.0, 0.0),
+                at(0.0, 4.0),
+                at(1.0, 0.0),
+                at(2.0, 0.0),
+                at(3.0, 1.0),
+            ],
+            triangles: vec![[0, 1, 2]],
+            uvs: vec![[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]],
+            corner_uvs: vec![[0, 1, 2]],
+            edge_marks: vec![[EdgeMark::Hard; 3]],
+            ..Soup::default()
+        };
+        cut_faces(&mut soup, &[(0, [vec![(0.25, 3), (0.5, 4)], vec![(0.25, 5)], vec![]])]);
+        let place = |v: u32| soup.positions[v as usize];
+        let area = |[a, b, c]: [u32; 3]| (place(b) - place(a)).cross(place(c) - place(a)).z / 2.0;
+        assert_eq!(soup.triangles.len(), 4);
+        assert!(soup.triangles.iter().all(|t| area(*t) > 0.0));
+        assert_eq!(soup.triangles.iter().map(|t| area(*t)).sum::<f64>(), 8.0);
+        for (triangle, uvs) in soup.triangles.iter().zip(&soup.corner_uvs) {
+            for (v, uv) in triangle.iter().zip(uvs) {
+                let uv = soup.uvs[*uv as usize].map(f64::from);
+                assert_eq!([place(*v).x, place(*v).y], uv);
+            }
+        }
+        // Of the file's sides there are three, two and one pieces.
+        let hard = soup.edge_marks.as_flattened().iter().filter(|mark| **mark == EdgeMark::Hard);
+        assert_eq!(hard.count(), 6);
+    }
+
+    #[test]
+    fn no_piece_turns_over_or_leans() {
+        // The last corner but one lies beyond the long side of a narrow face, as seen from the side that it cuts; the last above it.
+        let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+        let mut soup = Soup {
+            positions: vec![
+                at(0.0, 0.0),
+                at(22.0, 0.0),
+                at(20.0, 1.0),
+                at(21.0, -0.1),
+                DVec3::new(10.0, 0.0, 0.3),
+            ],
+            triangles: vec![[0, 1, 2]],
+            uvs: vec![[0.0, 0.0], [22.0, 0.0], [20.0, 1.0]],
+            corner_uvs: vec![[0, 1, 2]],
+            ..Soup::default()
+        };
+        cut_faces(&mut soup, &[(0, [vec![], vec![(0.5, 3)], vec![]])]);
+        assert_eq!((&soup.triangles, soup.uvs.len()), (&vec![[0, 1, 2]], 3));
+        cut_faces(&mut soup, &[(0, [vec![(0.5, 4)], vec![], vec![]])]);
+        assert_eq!((&soup.triangles, soup.uvs.len()), (&vec![[0, 1, 2]], 3));
+    }
+}

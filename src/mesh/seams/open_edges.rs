@@ -1,0 +1,377 @@
+//! Seams: open edges that lie along each other are cut at each other's corners, so that the surface goes on
+//! across them.
+//!
+//! CAD programs turn each surface into triangles by itself, and what voxels or solids are merged into has corners in the
+//! middle of sides: there two open edges lie along each other and share no corner. A line drawn there would be one
+//! of the mesh and not of the thing. Nothing moves: faces get more corners, no more places.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::face_split::{Cut, CutFace};
+use super::point_tree::Places;
+use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use crate::geometry::numbers::tolerance;
+use crate::mesh::soup::Soup;
+use crate::mesh::{EdgeFaces, Edges, Extents, PartId};
+use crate::parallel::task_size::GRAIN;
+
+/// Open edges of one seam run against each other but for an angle of this cosine (45 degrees); a curve that
+/// turns by more at a corner has a corner there.
+const ALONG: f64 = 0.7;
+
+/// Faces on both sides of a gap turn by less than the angle of this cosine (120 degrees), unless their borders part at a common
+/// corner and meet again at another: then there is no gap, but an edge with a corner in it.
+const FOLDED: f64 = -0.5;
+
+/// Most corners that a border has between two corners that it shares with the border on the other side.
+const MAX_CORNERS_BETWEEN: usize = 64;
+
+/// A corner stays this many times nearer to the side that it cuts than the face is high, and than to the ends of the side.
+const NEARER: f64 = 2.0;
+
+/// Chords of a curve differ in length: each may stand off by this many times what it would if all were alike.
+const UNEVEN: f64 = 2.0;
+
+/// Curves of space leave their plane by this part of how far they stand off.
+const TWIST: f64 = 4.0;
+
+/// Texture coordinates and colours of both sides of a seam differ by no more than this: what is painted apart is meant to
+/// be seen apart.
+const PAINTED: f32 = 1e-3;
+
+/// A side of a face that no other face of the part has.
+struct Open {
+    /// Its corners, in the order of the face.
+    ends: [u32; 2],
+    face: u32,
+    part: PartId,
+    /// Whether faces of other parts have it.
+    is_shared: bool,
+    /// From the first to the second.
+    along: DVec3,
+    length: f64,
+    normal: DVec3,
+    /// What its ends are painted with.
+    paint: [Painted; 2],
+}
+
+/// Texture coordinates and colour at a corner of a face.
+type Painted = (Option<[f32; 2]>, Option<[f32; 3]>);
+
+/// What makes the sides of seams meet.
+#[derive(Default)]
+pub(crate) struct Found {
+    /// For each vertex the one that it becomes, where corners on both sides are one all but for the precision of the
+    /// program that made them; empty if there are none.
+    pub joined: Vec<u32>,
+    /// Faces that are cut; none as long as corners are to be joined.
+    pub cuts: Vec<CutFace>,
+}
+
+/// Finds the seams of a soup; with `corners` corners to be joined first.
+pub(crate) fn find(soup: &Soup, edges: &Edges, extents: &Extents, corners: bool) -> Found {
+    let open = open_edges(soup, edges);
+    if open.len() < 2 {
+        return Found::default();
+    }
+    let seams = Seams::new(soup, &open);
+    let joined = if corners { seams.joined(edges, extents) } else { Vec::new() };
+    let cuts = if joined.is_empty() { seams.all_cuts(extents) } else { Vec::new() };
+    Found { joined, cuts }
+}
+
+/// The sides of faces that no other face of the same part has. Other parts may touch there.
+fn open_edges(soup: &Soup, edges: &Edges) -> Vec<Open> {
+    let part = |face: u32| soup.triangle_part.get(face as usize).copied().unwrap_or_default();
+    let open = |edge: usize, face: u32, is_shared: bool| {
+        let [a, b, c] = soup.triangles[face as usize];
+        let [lo, hi] = edges.vertices[edge];
+        let ends = [[a, b], [b, c], [c, a]].into_iter().find(|[p, q]| [*p.min(q), *p.max(q)] == [lo, hi])?;
+        let [p, q, r] = [a, b, c].map(|v| soup.positions[v as usize]);
+        let side = soup.positions[ends[1] as usize] - soup.positions[ends[0] as usize];
+        let (along, normal) = (side.normalize_or_zero(), (q - p).cross(r - p).normalize_or_zero());
+        let paint = ends.map(|v| painted(soup, face, v));
+        Some(Open { ends, face, part: part(face), is_shared, along, length: side.length(), normal, paint })
+    };
+    let sides = |edge: usize| {
+        let (one, more) = match edges.faces(edge) {
+            EdgeFaces::One(face) => ([Some(face), None], &[][..]),
+            EdgeFaces::Two { faces: [a, b], .. } if part(a) == part(b) => ([None; 2], &[][..]),
+            EdgeFaces::Two { faces, .. } => (faces.map(Some), &[][..]),
+            EdgeFaces::Many(faces) => ([None; 2], faces),
+        };
+        let is_shared = one[0].is_none() || one[1].is_some();
+        let is_alone = |face: &u32| more.iter().filter(|other| part(**other) == part(*face)).count() == 1;
+        let alone = more.iter().copied().filter(is_alone);
+        one.into_iter().flatten().chain(alone).filter_map(move |face| open(edge, face, is_shared))
+    };
+    (0..edges.len()).into_par_iter().with_min_len(GRAIN).flat_map_iter(sides).collect()
+}
+
+fn painted(soup: &Soup, face: u32, vertex: u32) -> Painted {
+    let face = face as usize;
+    let Some(corner) = soup.triangles[face].iter().position(|v| *v == vertex) else { return (None, None) };
+    let uv = soup.corner_uvs.get(face).and_then(|ids| soup.uvs.get(ids[corner] as usize));
+    (uv.copied(), soup.corner_colours.get(face).map(|colours| colours[corner]))
+}
+
+impl Open {
+    /// Whether another open edge of the part runs against this one.
+    fn runs_against(&self, other: &Self) -> bool {
+        other.face != self.face && other.part == self.part && other.along.dot(self.along) < -ALONG
+    }
+
+    /// Whether the surface would fold back if another open edge were the other side of a seam.
+    fn folds(&self, other: &Self) -> bool {
+        other.normal.dot(self.normal) <= FOLDED
+    }
+
+    /// Whether another open edge may be the other side of a seam: it runs against this one, and the surface does not
+    /// fold back there.
+    fn faces_across(&self, other: &Self) -> bool {
+        self.runs_against(other) && !self.folds(other)
+    }
+
+    /// Whether both ends and a corner of another face on the way between them are painted as one surface is.
+    fn goes_on(&self, t: f64, corner: Painted) -> bool {
+        fn alike<const N: usize>(t: f64, ends: [Option<[f32; N]>; 2], corner: Option<[f32; N]>) -> bool {
+            match (ends, corner) {
+                ([Some(a), Some(b)], Some(c)) => {
+                    (0..N).all(|k| (a[k] + (b[k] - a[k]) * t as f32 - c[k]).abs() <= PAINTED)
+                }
+                ([a, b], c) => a.is_none() && b.is_none() && c.is_none(),
+            }
+        }
+        alike(t, self.paint.map(|p| p.0), corner.0) && alike(t, self.paint.map(|p| p.1), corner.1)
+    }
+}
+
+/// Open edges by their corners, and these by where they lie.
+struct Seams<'a> {
+    soup: &'a Soup,
+    open: &'a [Open],
+    corners: Vec<u32>,
+    /// The number of each vertex among the corners.
+    numbers: Vec<u32>,
+    /// The open edges at each corner.
+    at: Grouped<u32>,
+    /// Where the corners lie.
+    places: Places,
+}
+
+impl<'a> Seams<'a> {
+    fn new(soup: &'a Soup, open: &'a [Open]) -> Self {
+        let mut corners: Vec<u32> = open.iter().flat_map(|edge| edge.ends).collect();
+        corners.sort_unstable();
+        corners.dedup();
+        let mut numbers = vec![u32::MAX; soup.positions.len()];
+        (0..).zip(&corners).for_each(|(number, v)| numbers[*v as usize] = number);
+        let at = grouped(corners.len(), |put| {
+            for (k, edge) in (0..).zip(open) {
+                edge.ends.iter().for_each(|v| put(numbers[*v as usize] as usize, k));
+            }
+        });
+        let places = Places::new(corners.iter().map(|v| soup.positions[*v as usize]));
+        Self { soup, open, corners, numbers, at, places }
+    }
+
+    fn place(&self, corner: u32) -> DVec3 {
+        self.soup.positions[self.corners[corner as usize] as usize]
+    }
+
+    /// For each vertex the one that it becomes; empty if none changes.
+    fn joined(&self, edges: &Edges, extents: &Extents) -> Vec<u32> {
+        let mates: Vec<Option<u32>> = (0..self.corners.len() as u32)
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|corner| self.mate(corner, edges, extents))
+            .collect();
+        let mut joined: Vec<u32> = Vec::new();
+        for (corner, mate) in (0..).zip(&mates) {
+            let Some(mate) = mate.filter(|mate| corner < *mate && mates[*mate as usize] == Some(corner))
+            else {
+                continue;
+            };
+            if joined.is_empty() {
+                joined = (0..self.soup.positions.len() as u32).collect();
+            }
+            joined[self.corners[mate as usize] as usize] = self.corners[corner as usize];
+        }
+        joined
+    }
+
+    /// All that is cut, by faces in their order.
+    fn all_cuts(&self, extents: &Extents) -> Vec<CutFace> {
+        let cuts: Vec<Vec<Cut>> = (0..self.open.len())
+            .into_par_iter()
+            .with_min_len(256)
+            .map(|edge| self.cuts(edge, tolerance::SEAM_OF_PART * extents.of(self.open[edge].part).scale))
+            .collect();
+        let mut faces: Vec<CutFace> = Vec::new();
+        for (edge, cuts) in self.open.iter().zip(cuts).filter(|(_, cuts)| !cuts.is_empty()) {
+            let mut sides: [Vec<Cut>; 3] = Default::default();
+            if let Some(side) =
+                self.soup.triangles[edge.face as usize].iter().position(|v| *v == edge.ends[0])
+            {
+                sides[side] = cuts;
+                faces.push((edge.face, sides));
+            }
+        }
+        faces.sort_by_key(|(face, _)| *face);
+        faces.dedup_by(|more, first| {
+            let same = more.0 == first.0;
+            if same {
+                first.1.iter_mut().zip(&mut more.1).for_each(|(own, more)| own.append(more));
+            }
+            same
+        });
+        faces
+    }
+
+    /// The corner nearest to one, if it is no farther than the sides of seams are apart and both are corners of one.
+    fn mate(&self, corner: u32, edges: &Edges, extents: &Extents) -> Option<u32> {
+        // Corners that parts share stay together.
+        let borders = |of: u32| {
+            let edges = self.at.of(of as usize).iter().map(|k| &self.open[*k as usize]);
+            edges.filter(|edge| !edge.is_shared)
+        };
+        let mut own = borders(corner).peekable();
+        own.peek()?;
+        let scale = own.clone().map(|edge| extents.of(edge.part).scale).fold(0.0, f64::max);
+        let (reach, place) = (tolerance::SEAM_OF_PART * scale, self.place(corner));
+        let mut nearest: Option<(f64, u32)> = None;
+        self.places.near(place, DVec3::ZERO, reach, |other, at| {
+            let apart = at.distance(place);
+            let is_nearer = nearest.is_none_or(|(least, at)| (apart, other) < (least, at));
+            if other != corner && apart <= reach && is_nearer && borders(other).next().is_some() {
+                nearest = Some((apart, other));
+            }
+        });
+        let (_, other) = nearest?;
+        let [p, q] = [corner, other].map(|k| self.corners[k as usize]);
+        // Across a narrow strip there is an edge.
+        let is_strip = edges.vertices.binary_search(&[p.min(q), p.max(q)]).is_ok();
+        let meets = |a: &Open, b: &Open| {
+            let end = usize::from(a.ends[1] == p);
+            b.ends[1 - end] == q && a.faces_across(b) && a.goes_on(end as f64, b.paint[1 - end])
+        };
+        (!is_strip && own.any(|a| borders(other).any(|b| meets(a, b)))).then_some(other)
+    }
+
+    /// The corners that cut an open edge, in order along it.
+    fn cuts(&self, edge: usize, least: f64) -> Vec<Cut> {
+        let own = &self.open[edge];
+        let third = self.soup.triangles[own.face as usize].into_iter().find(|v| !own.ends.contains(v));
+        let start = self.soup.positions[own.ends[0] as usize];
+        let opposite = third.map_or(DVec3::ZERO, |v| self.soup.positions[v as usize] - start);
+        let height = (opposite - own.along * opposite.dot(own.along)).length();
+        // As seen from the opposite corner, what cuts the side lies between its ends: no piece turns over.
+        let is_between = |way: DVec3| {
+            let [from, to, at] = [-opposite, own.along * own.length - opposite, way - opposite];
+            from.cross(at).dot(own.normal) > 0.0 && at.cross(to).dot(own.normal) > 0.0
+        };
+        // Where other parts touch there is a vertex wherever the surface of the part has one.
+        let sagitta = if own.is_shared { DVec3::ZERO } else { self.sagitta(own) };
+        let reach = least.max(sagitta.length()).min(height / NEARER);
+        let aside = least.max(sagitta.length() / TWIST);
+        let mut cuts: Vec<Cut> = Vec::new();
+        if own.length == 0.0 || reach == 0.0 {
+            return cuts;
+        }
+        self.places.near(start, own.along * own.length, reach, |corner, at| {
+            let vertex = self.corners[corner as usize];
+            let way = at - start;
+            let along = way.dot(own.along);
+            let off = way - own.along * along;
+            let way_off = off - off.project_onto_normalized(sagitta.normalize_or_zero());
+            let off = off.length();
+            let clear = along > NEARER * off && own.length - along > NEARER * off;
+            let is_own = own.ends.contains(&vertex) || third == Some(vertex);
+            if off <= reach
+                && way_off.length() <= aside
+                && clear
+                && !is_own
+                && is_between(way)
+                && self.is_of_seam(own, along / own.length, corner)
+            {
+                cuts.push((along / own.length, vertex));
+            }
+        });
+        cuts.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        cuts.dedup_by_key(|cut| cut.1);
+        cuts
+    }
+
+    /// Whether an open edge with this corner lies along another one, as the other side of a seam does.
+    fn is_of_seam(&self, own: &Open, t: f64, corner: u32) -> bool {
+        let vertex = self.corners[corner as usize];
+        self.at.of(corner as usize).iter().map(|k| &self.open[*k as usize]).any(|other| {
+            own.runs_against(other)
+                && own.goes_on(t, other.paint[usize::from(other.ends[1] == vertex)])
+                && (!own.folds(other) || self.meets_on_both_sides(own, vertex))
+        })
+    }
+
+    /// Whether the border of an open edge and that of a vertex next to it part at a common corner before them and meet at
+    /// another one behind them.
+    fn meets_on_both_sides(&self, own: &Open, vertex: u32) -> bool {
+        [0, 1].into_iter().all(|end| {
+            let way = if end == 0 { -own.along } else { own.along };
+            let own_corners = self.corners_from(own.ends[end], end, way, own.part);
+            // The border on the other side runs the other way.
+            let others = self.corners_from(vertex, 1 - end, way, own.part);
+            own_corners.iter().any(|corner| others.contains(corner))
+        })
+    }
+
+    /// The corners of a border from a vertex on in one direction, itself first: those that its open edges begin at
+    /// (`end` is 0) or end at (1).
+    fn corners_from(&self, vertex: u32, end: usize, way: DVec3, part: PartId) -> Vec<u32> {
+        let mut found = vec![vertex];
+        while let Some(last) = found.last().copied().filter(|_| found.len() < MAX_CORNERS_BETWEEN) {
+            let corner = self.numbers[last as usize] as usize;
+            let edges = self.at.of(corner).iter().map(|k| &self.open[*k as usize]);
+            let own = edges.filter(|edge| edge.ends[1 - end] == last && edge.part == part);
+            let cosine = |edge: &Open| edge.along.dot(if end == 0 { -way } else { way });
+            let next = own.max_by(|a, b| cosine(a).total_cmp(&cosine(b)));
+            let Some(next) = next.filter(|next| cosine(next) > ALONG && !found.contains(&next.ends[end]))
+            else {
+                break;
+            };
+            found.push(next.ends[end]);
+        }
+        found
+    }
+
+    /// How far the curve, of which an open edge is a chord, may stand off, and which way: told by how it turns at
+    /// the end where it turns less, since at the end of a curve there is another corner. What of that turn is the next
+    /// edge's is told by how that one turns at its other end: beside the rounding of a corner a straight
+    /// side stays straight.
+    fn sagitta(&self, own: &Open) -> DVec3 {
+        let next = |of: &Open, end: usize| {
+            let corner = self.numbers[of.ends[end] as usize] as usize;
+            let goes_on = |other: &&Open| other.ends[1 - end] == of.ends[end] && other.part == of.part;
+            let others = self.at.of(corner).iter().map(|k| &self.open[*k as usize]).filter(goes_on);
+            others.max_by(|a, b| a.along.dot(of.along).total_cmp(&b.along.dot(of.along)))
+        };
+        let ends = [0, 1].into_iter().filter_map(|end| Some((end, next(own, end)?)));
+        let straighter = ends.max_by(|a, b| a.1.along.dot(own.along).total_cmp(&b.1.along.dot(own.along)));
+        let Some((end, beside)) = straighter else { return DVec3::ZERO };
+        let cosine = beside.along.dot(own.along);
+        if cosine < ALONG {
+            return DVec3::ZERO;
+        }
+        // The tangent of half a turn; halves of a turn belong to either edge where both are alike.
+        let half_turn = |cosine: f64| ((1.0 - cosine) / (1.0 + cosine)).max(0.0).sqrt();
+        let turn = half_turn(cosine);
+        let share = next(beside, end).map_or(0.0, |beyond| {
+            let cosine = beyond.along.dot(beside.along);
+            let of_beside = beside.length / (beside.length + beyond.length);
+            if cosine < ALONG { 0.0 } else { half_turn(cosine) * of_beside }
+        });
+        let own_turn = (turn - share.max(turn / 2.0)).max(0.0);
+        let height = UNEVEN * own.length * own_turn / 2.0;
+        (beside.along - own.along * cosine).normalize_or_zero() * height
+    }
+}

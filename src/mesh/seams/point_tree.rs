@@ -1,0 +1,207 @@
+//! [`Places`]: points in space, and which of them lie near a line.
+//!
+//! A tree of boxes, so that points may crowd: with a grid of one width, where the outlines of leaves lie beside the corners
+//! of a field, all leaves of a tree are in one cell.
+//!
+//! Source: Bentley, "Multidimensional binary search trees used for associative searching", 1975, for how the points are parted.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use crate::parallel::task_size::GRAIN;
+
+/// How many points, and how many boxes, one box is around.
+const FAN: usize = 4;
+
+/// Parameters of a line that differ by no more than this may be one but for rounding.
+const ROUNDED: f64 = 1e-9;
+
+/// A point and its number.
+type Place = (DVec3, u32);
+
+/// A box around some points.
+#[derive(Clone, Copy)]
+struct Around {
+    low: DVec3,
+    high: DVec3,
+}
+
+/// Points by where they are: boxes are around runs of them, of these, and so on.
+pub(crate) struct Places {
+    places: Vec<Place>,
+    /// The boxes around points first, the one around all last.
+    levels: Vec<Vec<Around>>,
+}
+
+impl Places {
+    /// Of points with the numbers from 0 on.
+    pub fn new(points: impl IntoIterator<Item = DVec3>) -> Self {
+        let mut places: Vec<Place> = points.into_iter().zip(0..).collect();
+        part(&mut places);
+        let of_points = |run: &[Place]| Around::all(run.iter().map(|(p, _)| Around { low: *p, high: *p }));
+        let of_boxes = |run: &[Around]| Around::all(run.iter().copied());
+        let mut levels: Vec<Vec<Around>> = vec![places.par_chunks(FAN).map(of_points).collect()];
+        while let Some(last) = levels.last().filter(|last| last.len() > 1) {
+            let above = last.par_chunks(FAN).map(of_boxes).collect();
+            levels.push(above);
+        }
+        Self { places, levels }
+    }
+
+    /// Visits all points no farther than `reach` from the line from `start` to `start + way`, and some others, each once.
+    pub fn near(&self, start: DVec3, way: DVec3, reach: f64, mut visit: impl FnMut(u32, DVec3)) {
+        let line = Line { start, per_way: way.recip(), reach };
+        let top = self.levels.len() - 1;
+        for k in 0..self.levels[top].len() {
+            self.ask(&line, top, k, &mut visit);
+        }
+    }
+
+    /// Visits the points in a box of a level.
+    fn ask(&self, line: &Line, level: usize, k: usize, visit: &mut impl FnMut(u32, DVec3)) {
+        if !line.meets(&self.levels[level][k]) {
+            return;
+        }
+        let all = if level == 0 { self.places.len() } else { self.levels[level - 1].len() };
+        let run = FAN * k..(FAN * (k + 1)).min(all);
+        if level == 0 {
+            self.places[run].iter().for_each(|(place, number)| visit(*number, *place));
+        } else {
+            run.for_each(|k| self.ask(line, level - 1, k, visit));
+        }
+    }
+}
+
+/// Brings points into an order in which each box is around a run of them: halves, as far as whole boxes go, along the
+/// axis along which they reach farthest.
+fn part(places: &mut [Place]) {
+    if places.len() <= FAN {
+        return;
+    }
+    let mut unit = FAN;
+    while unit * FAN < places.len() {
+        unit *= FAN;
+    }
+    let Around { low, high } = Around::all(places.iter().map(|(p, _)| Around { low: *p, high: *p }));
+    let axis = (high - low).max_position();
+    let at = unit * (places.len().div_ceil(unit) / 2);
+    places.select_nth_unstable_by(at, |a, b| a.0[axis].total_cmp(&b.0[axis]));
+    let (first, second) = places.split_at_mut(at);
+    if first.len() < GRAIN {
+        part(first);
+        part(second);
+    } else {
+        crate::parallel::join(|| part(first), || part(second));
+    }
+}
+
+impl Around {
+    /// The box around all of some.
+    fn all(boxes: impl Iterator<Item = Self>) -> Self {
+        let nothing = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+        boxes.fold(nothing, |all, one| Self { low: all.low.min(one.low), high: all.high.max(one.high) })
+    }
+}
+
+/// A line, and how far from it is near.
+struct Line {
+    start: DVec3,
+    /// One over how far it goes along each axis; infinite where it does not.
+    per_way: DVec3,
+    reach: f64,
+}
+
+impl Line {
+    /// Whether the line gets as near to a box, along each axis; now and then it does not and is said to.
+    fn meets(&self, around: &Around) -> bool {
+        let (low, high) = (around.low - self.start - self.reach, around.high - self.start + self.reach);
+        let (mut from, mut to) = (0.0f64, 1.0f64);
+        for axis in 0..3 {
+            if self.per_way[axis].is_infinite() {
+                if low[axis] > 0.0 || high[axis] < 0.0 {
+                    return false;
+                }
+                continue;
+            }
+            let (a, b) = (low[axis] * self.per_way[axis], high[axis] * self.per_way[axis]);
+            (from, to) = (from.max(a.min(b)), to.min(a.max(b)));
+        }
+        from <= to + ROUNDED
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::dice::Dice;
+
+    /// Points that crowd in a few places of a wide field, in any order.
+    fn crowds(count: usize) -> Vec<DVec3> {
+        let mut dice = Dice::new(5);
+        let middles: Vec<DVec3> = (0..count).map(|_| dice.point(1000.0)).collect();
+        (0..500).flat_map(|_| &middles).map(|middle| *middle + dice.point(0.5)).collect()
+    }
+
+    #[test]
+    fn what_is_near_is_what_looking_at_all_finds() {
+        let all = crowds(9);
+        let places = Places::new(all.iter().copied());
+        let mut dice = Dice::new(6);
+        let mut found = 0;
+        for k in 0..600 {
+            let start = all[k * 7 % all.len()] + dice.point(0.01);
+            // Along axes, short, from crowd to crowd, and none at all.
+            let way = match k % 4 {
+                0 => DVec3::X * 0.3,
+                1 => dice.point(0.1),
+                2 => all[k * 31 % all.len()] - start,
+                _ => DVec3::ZERO,
+            };
+            let reach = [0.0, 0.001, 0.02, 0.2][k / 4 % 4];
+            let mut visited = Vec::new();
+            places.near(start, way, reach, |number, place| {
+                assert_eq!(place, all[number as usize]);
+                visited.push(number);
+            });
+            visited.sort_unstable();
+            assert!(visited.is_sorted_by(|a, b| a < b), "some twice");
+            for (number, point) in (0..).zip(&all) {
+                let t = ((*point - start).dot(way) / way.length_squared().max(1e-300)).clamp(0.0, 1.0);
+                if (*point - start - way * t).length() <= reach {
+                    found += 1;
+                    assert!(visited.binary_search(&number).is_ok(), "{number} beside line {k}");
+                }
+            }
+        }
+        assert!(found > 1000, "{found}");
+        let none = Places::new(Vec::new());
+        none.near(DVec3::ZERO, DVec3::X, 1.0, |_, _| unreachable!("there is no point"));
+    }
+
+    #[test]
+    fn in_crowds_few_are_visited() {
+        let all = crowds(40);
+        let places = Places::new(all.iter().copied());
+        let mut visits = 0;
+        for start in &all {
+            places.near(*start, DVec3::new(0.004, 0.002, 0.001), 1e-6, |_, _| visits += 1);
+        }
+        assert!(visits < 12 * all.len(), "{visits} visits of {}", all.len());
+    }
+
+    #[test]
+    fn a_line_along_an_axis_meets_what_lies_on_it() {
+        let row = || (0..100).map(|k| DVec3::new(f64::from(k), 0.0, 0.0));
+        let places = Places::new(row());
+        for (start, way) in [(DVec3::X * 20.0, DVec3::X * 10.0), (DVec3::X * 30.0, DVec3::X * -10.0)] {
+            let mut met = Vec::new();
+            places.near(start, way, 0.0, |number, place| {
+                if (20.0..=30.0).contains(&place.x) {
+                    met.push(number);
+                }
+            });
+            met.sort_unstable();
+            assert_eq!(met, (20..=30).collect::<Vec<u32>>());
+        }
+    }
+}

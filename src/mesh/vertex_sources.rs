@@ -1,0 +1,172 @@
+//! [`Sources`]: from which vertices of a soup those of its mesh came, so that the mesh can follow when they move.
+//!
+//! What a mesh is joined of, which faces meet at which edge and what is drawn of it as round or creased does not change
+//! when a figure moves; only places and normals do.
+
+use std::cmp::Ordering;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+use super::{Extents, Mesh, Soup};
+use crate::mesh::normals::face_normals::normals_and_narrow;
+use crate::mesh::normals::normal_carriers::{Faces, take_over};
+use crate::mesh::overlaps::overlay_order::overlays;
+
+/// Vertices that are one at rest are one in a pose if they are no farther apart than this part of all: what rounding of joints does.
+const TOGETHER: f64 = 1e-6;
+
+/// From which vertices of a soup those of its mesh came.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Sources {
+    /// One a vertex of the soup: the vertex of the mesh that is at its place.
+    vertices: Vec<u32>,
+    /// One a vertex of the mesh: the first vertex of the soup at its place.
+    first: Vec<u32>,
+    triangles: usize,
+    normals: usize,
+}
+
+impl Sources {
+    /// Of a mesh and the soup that it was built of; none if places of the one are not in the other.
+    #[must_use]
+    pub fn of(mesh: &Mesh, soup: &Soup) -> Option<Self> {
+        let places = mesh.positions.iter().zip(0..).map(|(p, vertex)| (bits(*p), vertex));
+        let places: FxHashMap<[u64; 3], u32> = places.collect();
+        let place = |p: &DVec3| places.get(&bits(local(*p, mesh.origin))).copied();
+        let vertices: Option<Vec<u32>> = soup.positions.iter().map(place).collect();
+        let vertices = vertices?;
+        let mut first = vec![u32::MAX; mesh.positions.len()];
+        for (vertex, number) in vertices.iter().zip(0..) {
+            let own = first.get_mut(*vertex as usize)?;
+            *own = (*own).min(number);
+        }
+        let known = first.iter().all(|number| *number != u32::MAX);
+        known.then_some(Self {
+            vertices,
+            first,
+            triangles: soup.triangles.len(),
+            normals: soup.normals.len(),
+        })
+    }
+}
+
+impl Mesh {
+    /// This mesh with its vertices where `soup` has them: the same soup as that of `sources`, but that all has moved.
+    ///
+    /// None if it is another soup, or if vertices have parted that are one in the mesh: then it must be built anew.
+    #[must_use]
+    pub fn posed(&self, sources: &Sources, soup: &Soup) -> Option<Self> {
+        let Sources { vertices, first, triangles, normals } = sources;
+        let same = [soup.positions.len(), soup.triangles.len(), soup.normals.len()];
+        if same != [vertices.len(), *triangles, *normals] || self.positions.len() != first.len() {
+            return None;
+        }
+        let positions: Option<Vec<DVec3>> = first
+            .iter()
+            .map(|source| Some(local(*soup.positions.get(*source as usize)?, self.origin)))
+            .collect();
+        let moved = Soup {
+            positions: positions?,
+            triangles: self.triangles.clone(),
+            triangle_part: self.face_part.clone(),
+            wires: self.wires.clone(),
+            single_precision: soup.single_precision,
+            steps: soup.steps.clone(),
+            ..Soup::default()
+        };
+        let extents = Extents::new(&moved, self.origin, true);
+        let extents = extents.united(&self.bodies, self.origin, moved.single_precision);
+        let together = TOGETHER * extents.counted_diagonal();
+        let parted = |(vertex, p): (&u32, &DVec3)| {
+            let joined = moved.positions.get(*vertex as usize).copied().unwrap_or(DVec3::NAN);
+            (local(*p, self.origin) - joined).length().partial_cmp(&together).is_none_or(Ordering::is_gt)
+        };
+        if vertices.par_iter().zip(&soup.positions).any(parted) {
+            return None;
+        }
+        let measure = |face: usize| {
+            let part = extents.of(moved.triangle_part[face]);
+            (part.scale, part.rounding)
+        };
+        let (mut face_normals, narrow) = normals_and_narrow(&moved.positions, &moved.triangles, measure);
+        let Soup { positions, triangles, triangle_part: parts, .. } = &moved;
+        let carriers =
+            Faces { positions, triangles, parts, edges: &self.edges, extents: &extents }.carriers(&narrow);
+        take_over(&carriers, &mut face_normals);
+        let mut posed = Self {
+            face_normals,
+            carriers,
+            normals: soup.normals.clone(),
+            positions: moved.positions,
+            extents,
+            ..self.clone()
+        };
+        posed.overlays = overlays(&posed);
+        Some(posed)
+    }
+}
+
+/// A place relative to the origin of a mesh, as building it computes it: the sum makes zeros positive.
+fn local(p: DVec3, origin: DVec3) -> DVec3 {
+    let p = p + DVec3::ZERO;
+    if origin == DVec3::ZERO { p } else { p - origin }
+}
+
+fn bits(p: DVec3) -> [u64; 3] {
+    p.to_array().map(f64::to_bits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn soup(shift: f64, apart: f64) -> Soup {
+        let points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 0.0], [0.0, 1.0], [1.0 + apart, 1.0]];
+        let split = |(number, p): (usize, &[f64; 2])| {
+            DVec3::new(p[0] + shift, p[1], if number == 4 { apart } else { 0.0 })
+        };
+        Soup {
+            positions: points.iter().enumerate().map(split).collect(),
+            triangles: vec![[0, 1, 2], [3, 5, 4]],
+            ..Soup::default()
+        }
+    }
+
+    #[test]
+    fn a_moved_mesh_is_as_one_built_there() {
+        let rest = Mesh::build(soup(0.0, 0.0));
+        let sources = Sources::of(&rest, &soup(0.0, 0.0)).unwrap();
+        let moved = rest.posed(&sources, &soup(3.0, 0.0)).unwrap();
+        let built = Mesh::build(soup(3.0, 0.0));
+        // The order is that of the rest.
+        let faces = |mesh: &Mesh| {
+            let corner =
+                |vertex: u32| (mesh.positions[vertex as usize] + mesh.origin).to_array().map(f64::to_bits);
+            let mut faces: Vec<_> = mesh
+                .triangles
+                .iter()
+                .zip(&mesh.face_normals)
+                .map(|(face, normal)| {
+                    let mut corners = face.map(corner);
+                    corners.sort_unstable();
+                    (corners, normal.map(|x| (x + 0.0).to_bits()))
+                })
+                .collect();
+            faces.sort_unstable();
+            faces
+        };
+        assert_eq!(faces(&moved), faces(&built));
+        assert_eq!(moved.edges.len(), built.edges.len());
+    }
+
+    #[test]
+    fn what_parts_is_built_anew() {
+        let rest = Mesh::build(soup(0.0, 0.0));
+        let sources = Sources::of(&rest, &soup(0.0, 0.0)).unwrap();
+        assert!(rest.posed(&sources, &soup(0.0, 0.1)).is_none());
+        assert!(rest.posed(&sources, &Soup::default()).is_none());
+        assert!(Sources::of(&rest, &soup(9.0, 0.0)).is_none());
+    }
+}

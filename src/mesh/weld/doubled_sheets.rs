@@ -1,0 +1,229 @@
+//! Sheets: surfaces whose faces stand twice, back to back, and the side of each that stays.
+//!
+//! Leaves and cloth are often modelled so. If each pair kept the face that happens to come first, the surface
+//! would turn over from face to face. Hence a side is chosen for a whole sheet: what goes on in single faces
+//! goes on as they do, and other sheets show outward, away from the middle of the model.
+
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::Ordering::Relaxed;
+
+use crate::parallel::prelude::*;
+
+use crate::mesh::Edges;
+use crate::mesh::soup::Soup;
+
+const NONE: u32 = u32::MAX;
+
+/// Edges that one task looks at.
+const CHUNK: usize = 1 << 12;
+
+/// Of each pair of faces that have the same corners and run opposite ways the face that stays.
+pub(crate) fn one_side(soup: &Soup, edges: &Edges, pairs: &[[u32; 2]]) -> Vec<u32> {
+    if pairs.is_empty() {
+        return Vec::new();
+    }
+    let sheets = Sheets::new(soup, edges, pairs);
+    let mut sides: Vec<Option<usize>> = vec![None; pairs.len()];
+    for seed in 0..pairs.len() {
+        if sides[seed].is_none() {
+            sheets.choose(seed, &mut sides);
+        }
+    }
+    pairs.iter().zip(sides).map(|(faces, side)| faces[side.unwrap_or_default()]).collect()
+}
+
+struct Sheets<'a> {
+    soup: &'a Soup,
+    pairs: &'a [[u32; 2]],
+    pair_of: Vec<u32>,
+    /// What of the same part goes on beyond each side of the first face of each pair: another pair, by its first face, or a
+    /// single face; none where there is nothing, or too much.
+    beyond: Vec<[AtomicU32; 3]>,
+}
+
+impl<'a> Sheets<'a> {
+    fn new(soup: &'a Soup, edges: &Edges, pairs: &'a [[u32; 2]]) -> Self {
+        let mut pair_of = vec![NONE; soup.triangles.len()];
+        for (pair, faces) in pairs.iter().enumerate() {
+            faces.iter().for_each(|face| pair_of[*face as usize] = pair as u32);
+        }
+        let beyond = pairs.iter().map(|_| [NONE; 3].map(AtomicU32::new)).collect();
+        let sheets = Self { soup, pairs, pair_of, beyond };
+        let all = (0..edges.len()).into_par_iter().with_min_len(CHUNK);
+        all.for_each(|edge| sheets.look_beyond(edges, edge));
+        sheets
+    }
+
+    /// Chooses the side of all pairs of the sheet to which one belongs.
+    fn choose(&self, seed: usize, sides: &mut [Option<usize>]) {
+        sides[seed] = Some(0);
+        let mut members = vec![(seed, 0)];
+        let mut done = 0;
+        // Single faces that this side goes on in, less those in which the other does; and its volume.
+        let (mut votes, mut volume) = (0i64, 0.0);
+        while let Some(&(pair, side)) = members.get(done) {
+            done += 1;
+            let face = self.pairs[pair][side];
+            let [a, b, c] = self.soup.triangles[face as usize];
+            let [p, q, r] = [a, b, c].map(|v| self.soup.positions[v as usize]);
+            volume += p.dot(q.cross(r));
+            for edge in [[a, b], [b, c], [c, a]] {
+                let other = self.beyond[pair][self.side(self.pairs[pair][0], edge)].load(Relaxed);
+                if other == NONE {
+                    continue;
+                }
+                // A surface runs along each edge both ways.
+                let turned = self.runs(other, edge);
+                match self.pair_of[other as usize] {
+                    NONE => votes += if turned { -1 } else { 1 },
+                    other => {
+                        let (other, side) = (other as usize, usize::from(turned));
+                        if sides[other].is_none() {
+                            sides[other] = Some(side);
+                            members.push((other, side));
+                        }
+                    }
+                }
+            }
+        }
+        if votes < 0 || votes == 0 && volume < 0.0 {
+            members.iter().for_each(|(pair, side)| sides[*pair] = Some(1 - side));
+        }
+    }
+
+    /// Tells the pairs at an edge what goes on beyond it.
+    fn look_beyond(&self, edges: &Edges, edge: usize) {
+        let faces = edges.faces(edge);
+        let part = |face: u32| self.soup.triangle_part.get(face as usize);
+        // Of the two faces of a pair one is enough.
+        let first_of = |face: u32| match self.pair_of[face as usize] {
+            NONE => None,
+            pair => Some((pair as usize, self.pairs[pair as usize][0])),
+        };
+        let counts = |face: &u32| first_of(*face).is_none_or(|(_, first)| first == *face);
+        let counted = || faces.list().iter().copied().filter(counts);
+        for face in counted() {
+            let Some((pair, _)) = first_of(face) else { continue };
+            let mut others = counted().filter(|other| *other != face && part(*other) == part(face));
+            if let (Some(other), None) = (others.next(), others.next()) {
+                self.beyond[pair][self.side(face, edges.vertices[edge])].store(other, Relaxed);
+            }
+        }
+    }
+
+    /// Which of the sides of a face lies between two of its vertices.
+    fn side(&self, face: u32, ends: [u32; 2]) -> usize {
+        let corners = self.soup.triangles[face as usize];
+        (0..2).find(|side| ends.contains(&corners[*side]) && ends.contains(&corners[side + 1])).unwrap_or(2)
+    }
+
+    /// Whether a face runs from the first of two vertices to the second.
+    fn runs(&self, face: u32, [from, to]: [u32; 2]) -> bool {
+        let [a, b, c] = self.soup.triangles[face as usize];
+        [[a, b], [b, c], [c, a]].contains(&[from, to])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+    use crate::geometry::dice::Dice;
+    use crate::mesh::{EdgeFaces, FaceId, Mesh, PartId};
+
+    /// A bent strip of squares, of which those from `single` on have one face only; which of the two
+    /// faces of a triangle comes first changes along it.
+    fn strip(single: u32, shift: f64) -> Mesh {
+        let bend = |i: u32| f64::from(i * i) / 20.0;
+        let positions: Vec<DVec3> =
+            (0..22).map(|k| DVec3::new(f64::from(k / 2), f64::from(k % 2), shift + bend(k / 2))).collect();
+        let mut soup = Soup { positions, ..Soup::default() };
+        for k in 0..10 {
+            let a = 2 * k;
+            for [a, b, c] in [[a, a + 2, a + 1], [a + 1, a + 2, a + 3]] {
+                let (up, down) = ([a, b, c], [c, b, a]);
+                match (k < single, k % 3 == 1) {
+                    (false, _) => soup.triangles.push(up),
+                    (_, false) => soup.triangles.extend([up, down]),
+                    (_, true) => soup.triangles.extend([down, up]),
+                }
+            }
+        }
+        // Something far below or above, so that the strip is not in the middle.
+        let far = soup.positions.len() as u32;
+        soup.positions.extend([0.0, 1.0, 2.0].map(|x| DVec3::new(x, x * x, -shift)));
+        soup.triangles.push([far, far + 1, far + 2]);
+        Mesh::build(soup)
+    }
+
+    /// How many faces of a strip face up, after a look at its edges.
+    fn upward(mesh: &Mesh) -> usize {
+        let turned = |e: &usize| matches!(mesh.edges.faces(*e), EdgeFaces::Two { same_way: true, .. });
+        assert_eq!((0..mesh.edges.len()).filter(turned).count(), 0);
+        let middle = |face: usize| mesh.corners(FaceId(face as u32)).iter().sum::<DVec3>() / 3.0;
+        let strip: Vec<usize> = (0..mesh.triangles.len()).filter(|f| middle(*f).y < 1.0).collect();
+        assert_eq!((mesh.triangles.len(), strip.len()), (21, 20));
+        strip.into_iter().filter(|face| mesh.face_normals[*face][2] > 0.0).count()
+    }
+
+    #[test]
+    fn a_sheet_keeps_its_outer_side() {
+        let [above, below] = [40.0, -40.0].map(|shift| strip(10, shift));
+        assert_eq!((above.cleaning.doubled, below.cleaning.doubled), (20, 20));
+        assert_eq!((upward(&above), upward(&below)), (20, 0));
+    }
+
+    #[test]
+    fn a_sheet_goes_on_as_its_single_faces_do() {
+        for shift in [40.0, -40.0] {
+            assert_eq!(upward(&strip(7, shift)), 20);
+        }
+    }
+
+    #[test]
+    fn beyond_the_sides_of_pairs_is_what_all_faces_tell() {
+        let (mut dice, mut found) = (Dice::new(5), 0);
+        for round in 0..200 {
+            let mut soup = Soup { positions: vec![DVec3::ZERO; 9], ..Soup::default() };
+            let mut below = |n: u32| dice.below(n as usize) as u32;
+            while soup.triangles.len() < 30 {
+                let corners @ [a, b, c] = [0; 3].map(|_| below(9));
+                let part = PartId(below(1 + round % 3));
+                let is_new = |t: &[u32; 3]| !corners.iter().all(|corner| t.contains(corner));
+                if a != b && b != c && c != a && soup.triangles.iter().all(is_new) {
+                    // One of two stands twice.
+                    let twice = below(2) as usize;
+                    soup.triangles.extend([[a, b, c], [c, b, a]].iter().take(1 + twice));
+                    soup.triangle_part.extend([part; 2].iter().take(1 + twice));
+                }
+            }
+            let faces = soup.triangles.len() as u32;
+            let is_pair = |face: &u32| {
+                let [a, b, c] = soup.triangles[*face as usize];
+                face + 1 < faces && soup.triangles[*face as usize + 1] == [c, b, a]
+            };
+            let pairs: Vec<[u32; 2]> = (0..faces).filter(is_pair).map(|face| [face, face + 1]).collect();
+            let edges = Edges::build(9, &soup.triangles);
+            let sheets = Sheets::new(&soup, &edges, &pairs);
+            for ([first, second], beyond) in pairs.iter().zip(&sheets.beyond) {
+                let [a, b, c] = soup.triangles[*first as usize];
+                for (ends, beyond) in [[a, b], [b, c], [c, a]].iter().zip(beyond) {
+                    let is_other = |face: &u32| {
+                        let corners = soup.triangles[*face as usize];
+                        let is_second = pairs.iter().any(|pair| pair[1] == *face);
+                        let same_part =
+                            soup.triangle_part[*face as usize] == soup.triangle_part[*first as usize];
+                        let is_own = face == first || face == second;
+                        same_part && !is_own && !is_second && ends.iter().all(|end| corners.contains(end))
+                    };
+                    let others: Vec<u32> = (0..faces).filter(is_other).collect();
+                    let expected = if let [only] = others[..] { only } else { NONE };
+                    assert_eq!(beyond.load(Relaxed), expected, "{round}");
+                    found += usize::from(expected != NONE);
+                }
+            }
+        }
+        assert!(found > 300, "{found}");
+    }
+}

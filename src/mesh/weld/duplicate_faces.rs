@@ -1,0 +1,182 @@
+//! Cleaning: faces that no surface has, and the count of what was mended.
+
+use crate::parallel::prelude::*;
+
+use super::doubled_sheets;
+use crate::mesh::Edges;
+use crate::mesh::soup::Soup;
+
+/// What was mended or noticed while a mesh was built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Cleaning {
+    /// Vertices joined to another at the same place.
+    pub welded: u64,
+    /// Faces dropped because two of their corners were one place.
+    pub collapsed: u64,
+    /// Wires dropped because both of their ends were one place.
+    pub short_wires: u64,
+    /// Faces dropped because another face of the part had the same corners.
+    pub doubled: u64,
+    /// Faces kept that have no area: they join their neighbours but hide nothing.
+    pub degenerate: u64,
+    /// Edges with one face.
+    pub borders: u64,
+    /// Edges with three faces or more.
+    pub non_manifold: u64,
+}
+
+/// Drops the faces (and all that is stored beside them) for which `keep` is false.
+pub(crate) fn retain_faces(soup: &mut Soup, keep: &[bool]) {
+    fn filter<T>(list: &mut Vec<T>, keep: &[bool]) {
+        let mut flags = keep.iter();
+        list.retain(|_| flags.next().copied().unwrap_or(true));
+    }
+    let Soup { triangles, triangle_part, triangle_material, triangle_paint, .. } = soup;
+    let Soup { corner_normals, corner_uvs, corner_colours, edge_marks, .. } = soup;
+    // Each list is gone through in order, all of them side by side.
+    rayon_core::scope(|all| {
+        all.spawn(|_| filter(triangles, keep));
+        all.spawn(|_| filter(triangle_part, keep));
+        all.spawn(|_| filter(triangle_material, keep));
+        all.spawn(|_| filter(triangle_paint, keep));
+        all.spawn(|_| filter(corner_normals, keep));
+        all.spawn(|_| filter(corner_uvs, keep));
+        all.spawn(|_| filter(corner_colours, keep));
+        all.spawn(|_| filter(edge_marks, keep));
+    });
+}
+
+/// For each face whether it is the only one of its part with its three corners (in any order), or
+/// the one of several that stays; `None` if all are alone.
+///
+/// Of faces that run the same way the first stays; where they run both ways, see [`doubled_sheets`].
+pub(crate) fn one_of_doubles(soup: &Soup, edges: &Edges) -> Option<Vec<bool>> {
+    let found: Vec<Doubles> =
+        edges.suspects.par_chunks(CHUNK).map(|some| Doubles::at(soup, edges, some)).collect();
+    if found.iter().all(|doubles| doubles.dropped.is_empty()) {
+        return None;
+    }
+    let mut keep = vec![true; soup.triangles.len()];
+    found.iter().flat_map(|doubles| &doubles.dropped).for_each(|face| keep[*face as usize] = false);
+    let mut pairs: Vec<[u32; 2]> = found.iter().flat_map(|doubles| &doubles.pairs).copied().collect();
+    // Part by part; within each they are by their corners already.
+    pairs.par_sort_by_key(|[face, _]| part(soup, *face));
+    for face in doubled_sheets::one_side(soup, edges, &pairs) {
+        keep[face as usize] = true;
+    }
+    Some(keep)
+}
+
+/// So many edges are asked by one task.
+const CHUNK: usize = 1 << 12;
+
+/// Faces of one part that have the same corners.
+#[derive(Default)]
+struct Doubles {
+    /// Those that do not stay, and both of each pair.
+    dropped: Vec<u32>,
+    /// The first of those with the same corners and the first that runs the other way, where one does.
+    pairs: Vec<[u32; 2]>,
+}
+
+impl Doubles {
+    /// Those at some edges: each face counts at the edge between its two least corners.
+    fn at(soup: &Soup, edges: &Edges, some: &[u32]) -> Self {
+        let mut doubles = Self::default();
+        let mut own: Vec<(u32, u32, u32)> = Vec::new();
+        for edge in some {
+            let ends = edges.vertices[*edge as usize];
+            let faces = edges.faces(*edge as usize);
+            if faces.list().len() < 2 {
+                continue;
+            }
+            own.clear();
+            own.extend(faces.list().iter().filter_map(|&face| {
+                let third =
+                    soup.triangles[face as usize].into_iter().find(|corner| !ends.contains(corner))?;
+                (third > ends[1]).then(|| (part(soup, face), third, face))
+            }));
+            own.sort_unstable();
+            let same = own.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1));
+            same.filter(|same| same.len() > 1).for_each(|same| doubles.add(soup, same));
+        }
+        doubles
+    }
+
+    /// Adds faces with the same corners, of which the first is the first of the mesh.
+    fn add(&mut self, soup: &Soup, same: &[(u32, u32, u32)]) {
+        let faces = || same.iter().map(|(_, _, face)| *face);
+        let Some(first) = faces().next() else { return };
+        match faces().find(|face| is_upward(soup, *face) != is_upward(soup, first)) {
+            Some(other) => {
+                self.pairs.push([first, other]);
+                self.dropped.extend(faces());
+            }
+            None => self.dropped.extend(faces().skip(1)),
+        }
+    }
+}
+
+/// The number of the part that a face is of.
+fn part(soup: &Soup, face: u32) -> u32 {
+    soup.triangle_part.get(face as usize).copied().unwrap_or_default().0
+}
+
+/// Whether the corners of a face run from the least id to the greatest by way of the third.
+fn is_upward(soup: &Soup, face: u32) -> bool {
+    let [a, b, c] = soup.triangles[face as usize];
+    [a < b, b < c, c < a].into_iter().filter(|up| *up).count() == 2
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+    use crate::geometry::dice::Dice;
+    use crate::mesh::PartId;
+
+    /// By looking up all faces by part and corners.
+    fn plain(soup: &Soup, edges: &Edges) -> Vec<bool> {
+        let mut alike: BTreeMap<(u32, [u32; 3]), Vec<u32>> = BTreeMap::new();
+        for (face, corners) in (0..).zip(&soup.triangles) {
+            let mut corners = *corners;
+            corners.sort_unstable();
+            alike.entry((part(soup, face), corners)).or_default().push(face);
+        }
+        let mut keep = vec![false; soup.triangles.len()];
+        let mut pairs = Vec::new();
+        for faces in alike.values() {
+            match faces.iter().find(|face| is_upward(soup, **face) != is_upward(soup, faces[0])) {
+                Some(other) => pairs.push([faces[0], *other]),
+                None => keep[faces[0] as usize] = true,
+            }
+        }
+        doubled_sheets::one_side(soup, edges, &pairs).into_iter().for_each(|face| keep[face as usize] = true);
+        keep
+    }
+
+    #[test]
+    fn doubles_are_those_of_looking_up_all_faces() {
+        let mut dice = Dice::new(7);
+        for round in 0..400 {
+            // Few vertices make many doubles, also of three faces and more; many hardly any.
+            let vertices = 4 + round % 30;
+            let mut below = |n: u32| dice.below(n as usize) as u32;
+            let mut soup = Soup::default();
+            while soup.triangles.len() < 60 {
+                let corners = [0; 3].map(|_| below(vertices));
+                if corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0] {
+                    soup.triangles.push(corners);
+                    soup.triangle_part.push(PartId(below(1 + round % 3)));
+                }
+            }
+            soup.positions = (0..vertices).map(|_| dice.point(1.0)).collect();
+            let edges = Edges::build(soup.positions.len(), &soup.triangles);
+            let expected = plain(&soup, &edges);
+            let found = one_of_doubles(&soup, &edges);
+            assert_eq!(found.is_none(), expected.iter().all(|keep| *keep), "{round}");
+            assert_eq!(found.unwrap_or_else(|| vec![true; 60]), expected, "{round}");
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Which bodies there are, and which of them leave lines.
+
+use super::options::{MotionOptions, Speed};
+use crate::animation::Rigged;
+use crate::geometry::names::name_ids::identities;
+use crate::geometry::numbers::noise::hash;
+
+/// Where nothing else chooses bodies, those leave lines that go this part of the model's size in a second.
+const FAST: f64 = 0.5;
+
+/// What moves as one: a part, or what a joint of its skin moves most.
+pub(crate) struct Body {
+    /// The part, as it stands in the file.
+    pub part: usize,
+    /// The node or joint that moves it.
+    pub node: usize,
+    /// What tells it from others at all times.
+    pub identity: u64,
+    /// Of a skinned part, the vertices that are its own; of others all are.
+    own: Option<Vec<bool>>,
+}
+
+impl Body {
+    /// Whether it is what a joint of a skin moves.
+    pub fn is_joint(&self) -> bool {
+        self.own.is_some()
+    }
+
+    /// Whether a vertex of the part is one of its own.
+    pub fn holds(&self, vertex: u32) -> bool {
+        self.own.as_ref().is_none_or(|own| own.get(vertex as usize).copied().unwrap_or(false))
+    }
+}
+
+/// The bodies of those parts of a scene that move: parts, and those of skins joint by joint.
+pub(crate) fn bodies(rigged: &Rigged, moves: impl Fn(usize) -> bool) -> Vec<Body> {
+    let (scene, rig) = (&rigged.scene, &rigged.rig);
+    let parts = identities(scene.parts.iter().map(|part| part.name.as_str()));
+    let mut bodies = Vec::new();
+    for (part, ((node, _), shown)) in
+        rig.parts.iter().zip(&scene.parts).enumerate().filter(|(part, _)| moves(*part))
+    {
+        let identity = parts.get(part).copied().unwrap_or_default();
+        let is_skinned = rig.forms.get(shown.geometry).is_some_and(|form| form.skin.is_some());
+        if !is_skinned {
+            bodies.push(Body { part, node: *node, identity, own: None });
+            continue;
+        }
+        let count = scene.geometries.get(shown.geometry).map_or(0, |geometry| geometry.positions.len());
+        let carriers: Vec<usize> =
+            (0..count).map(|vertex| rigged.carrier(part, vertex).unwrap_or(*node)).collect();
+        let mut joints = carriers.clone();
+        joints.sort_unstable();
+        joints.dedup();
+        bodies.extend(joints.into_iter().map(|joint| Body {
+            part,
+            node: joint,
+            identity: hash(identity, &[joint as u64]),
+            own: Some(carriers.iter().map(|carrier| *carrier == joint).collect()),
+        }));
+    }
+    bodies
+}
+
+/// What chooses bodies: their names, the file, or their speed.
+pub(crate) struct Choice<'a> {
+    /// Whether lines begin at a body that is fast enough on the page.
+    pub asks_page: bool,
+    rigged: &'a Rigged,
+    options: &'a MotionOptions,
+    /// Whether each node is chosen, or one that it hangs on.
+    nodes: Vec<bool>,
+    /// The speed above which bodies are chosen, model units a second.
+    pub speed: Option<f64>,
+}
+
+impl<'a> Choice<'a> {
+    pub fn new(rigged: &'a Rigged, options: &'a MotionOptions) -> Self {
+        let rig = &rigged.rig;
+        let mut nodes = vec![false; rig.nodes.len()];
+        for &number in &rig.order {
+            let Some(node) = rig.nodes.get(number) else { continue };
+            let above = node.parent.and_then(|parent| nodes.get(parent).copied()).unwrap_or(false);
+            if let Some(own) = nodes.get_mut(number) {
+                *own =
+                    above || node.leaves_lines || options.parts.iter().any(|name| name.matches(&node.name));
+            }
+        }
+        let speed = match options.speed {
+            Some(Speed::Model(speed)) => Some(speed),
+            Some(Speed::Page(_)) => None,
+            None if !options.parts.is_empty() || nodes.contains(&true) => None,
+            None => rigged.scene.bounds().map(|(least, greatest)| FAST * least.distance(greatest)),
+        };
+        Self { asks_page: matches!(options.speed, Some(Speed::Page(_))), rigged, options, nodes, speed }
+    }
+
+    /// Whether a body leaves lines at a speed, wherever it is seen from.
+    pub fn takes(&self, body: &Body, speed: f64) -> bool {
+        let named = |part: usize| {
+            let name = self.rigged.scene.parts.get(part).map_or("", |part| &part.name);
+            let node = self.rigged.rig.parts.get(part).map(|(node, _)| *node);
+            self.options.parts.iter().any(|glob| glob.matches(name))
+                || node.is_some_and(|node| self.is_marked(node))
+        };
+        self.speed.is_some_and(|least| speed > least) || self.is_marked(body.node) || named(body.part)
+    }
+
+    fn is_marked(&self, node: usize) -> bool {
+        self.nodes.get(node).copied().unwrap_or(false)
+    }
+}

@@ -1,0 +1,77 @@
+//! [`Candidate`]: a place of one balloon that holds whatever becomes of the others.
+
+use kurbo::{Point, Rect, Vec2};
+
+use super::cost::cost;
+use super::request::{Placed, Room, Wish};
+use super::tail::{around, is_clear, tail};
+use crate::page::layout::Polygon;
+
+/// Places tried across and down a panel.
+const ACROSS: usize = 26;
+
+/// A place of one balloon that holds whatever becomes of the others.
+pub(crate) struct Candidate {
+    pub place: Placed,
+    /// Around its tail, from the middle to the tip, with room for a bend.
+    pub tail: Option<Polygon>,
+    /// Around the balloon.
+    pub bounds: Rect,
+    /// Around the balloon and its tail.
+    pub reach: Rect,
+    pub cost: f64,
+}
+
+/// The places of a balloon by itself, the best first.
+pub(crate) fn candidates(wish: &Wish, room: &Room) -> Vec<Candidate> {
+    let mut found = Vec::new();
+    for (shape, hull) in wish.hulls.iter().enumerate() {
+        for middle in middles(wish, hull, room) {
+            let hull = hull.moved(middle.to_vec2());
+            if wish.at.is_none() && !hull.0.iter().all(|p| room.outline.holds(*p)) {
+                continue;
+            }
+            let tail = match &wish.target {
+                None => None,
+                Some((target, aim)) => match tail(middle, &hull, (target, *aim), wish, room) {
+                    Some(tail) => Some(tail),
+                    None => continue,
+                },
+            };
+            let around = tail.as_ref().map(|tail| around(middle, tail.tip, wish.foot));
+            let place = Placed { shape, middle, tip: tail.as_ref().map(|tail| tail.tip), hull };
+            if wish.at.is_some() || is_free(&place, around.as_ref(), wish, room) {
+                let bounds = place.hull.bounds();
+                let reach = around.as_ref().map_or(bounds, |tail| bounds.union(tail.bounds()));
+                let cost = cost(bounds, shape, tail.as_ref(), wish, room);
+                found.push(Candidate { place, tail: around, bounds, reach, cost });
+            }
+        }
+    }
+    found.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    found
+}
+
+/// Where its middle may be.
+fn middles(wish: &Wish, hull: &Polygon, room: &Room) -> Vec<Point> {
+    if let Some(at) = wish.at {
+        return vec![at];
+    }
+    let (bounds, own) = (room.outline.bounds(), hull.bounds());
+    let free = Vec2::new(bounds.width() - own.width(), bounds.height() - own.height());
+    if free.x < 0.0 || free.y < 0.0 || !free.is_finite() {
+        return Vec::new();
+    }
+    let from = Point::new(bounds.x0 - own.x0, bounds.y0 - own.y0);
+    let step = free / (ACROSS - 1) as f64;
+    let places = (0..ACROSS * ACROSS).map(|k| (k % ACROSS, k / ACROSS));
+    places.map(|(x, y)| from + Vec2::new(x as f64 * step.x, y as f64 * step.y)).collect()
+}
+
+/// Whether a balloon covers nothing that is kept, and its tail runs over nothing but what it points at.
+fn is_free(own: &Placed, tail: Option<&Polygon>, wish: &Wish, room: &Room) -> bool {
+    let free = |other: &Polygon| !own.hull.meets(other, room.gap);
+    let is_own = |other: &Polygon| wish.target.as_ref().is_some_and(|(target, _)| target == other);
+    room.kept.iter().all(|other| free(other) && (is_own(other) || is_clear(tail, other)))
+        && room.obstacles.iter().all(|other| free(other) && is_clear(tail, other))
+}

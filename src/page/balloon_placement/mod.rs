@@ -1,0 +1,119 @@
+//! Placement of speech balloons: they cover no faces, are read in order, and their tails do not cross.
+//!
+//! 1. For each balloon the candidate places on a grid are listed; hard constraints are checked and the rest
+//!    get a cost.
+//! 2. Branch and bound chooses one candidate for each balloon. The sum of the costs is the lowest that a
+//!    bounded search finds.
+//! 3. Two chosen candidates must not overlap, their tails must not cross, and the later one must be read
+//!    later.
+//!
+//! Hard constraints are never weighed against costs.
+//!
+//! Files, in reading order: [`request`], the input and the result; `candidate`; `tail`, where a tail ends;
+//! `cost`.
+
+mod candidate;
+mod cost;
+pub mod request;
+mod tail;
+
+use kurbo::Rect;
+
+use super::layout::Reading;
+use candidate::{Candidate, candidates};
+use tail::is_clear;
+
+pub use request::{Placed, Room, Wish};
+
+/// Pairs of places looked at, at most, in the search for the best choice.
+const MOST_LOOKS: usize = 400_000;
+
+/// Places for all balloons, in their order.
+///
+/// # Errors
+/// Which of them found none.
+pub fn place(wishes: &[Wish], room: &Room) -> Result<Vec<Placed>, usize> {
+    let all: Vec<Vec<Candidate>> = wishes.iter().map(|wish| candidates(wish, room)).collect();
+    if let Some(none) = all.iter().position(Vec::is_empty) {
+        return Err(none);
+    }
+    // The least that the balloons from each one on cost.
+    let mut least = vec![0.0; all.len() + 1];
+    for (number, own) in all.iter().enumerate().rev() {
+        least[number] = least[number + 1] + own.first().map_or(0.0, |candidate| candidate.cost);
+    }
+    let told = wishes.iter().map(|wish| wish.at.is_some()).collect();
+    let mut search = Search { all: &all, told, least, room, best: None, looks: 0, farthest: 0 };
+    search.next(&mut Vec::new(), 0.0);
+    match search.best {
+        Some((_, best)) => Ok(best.into_iter().map(|candidate| candidate.place.clone()).collect()),
+        None => Err(search.farthest),
+    }
+}
+
+/// A search for the choice of places that costs least.
+struct Search<'a> {
+    all: &'a [Vec<Candidate>],
+    told: Vec<bool>,
+    least: Vec<f64>,
+    room: &'a Room,
+    best: Option<(f64, Vec<&'a Candidate>)>,
+    looks: usize,
+    farthest: usize,
+}
+
+impl<'a> Search<'a> {
+    /// Tries all places of the next balloon that may be better, where those before it cost so much.
+    fn next(&mut self, placed: &mut Vec<&'a Candidate>, cost: f64) {
+        let number = placed.len();
+        let all = self.all;
+        let Some(candidates) = all.get(number) else {
+            self.best = Some((cost, placed.clone()));
+            return;
+        };
+        self.farthest = number.max(self.farthest);
+        for own in candidates {
+            let cost = cost + own.cost;
+            let cannot_be_better = |(best, _): &(f64, _)| cost + self.least[number + 1] >= *best;
+            if self.looks > MOST_LOOKS || self.best.as_ref().is_some_and(cannot_be_better) {
+                return;
+            }
+            self.looks += placed.len().max(1);
+            let goes = |before: &&Candidate| goes_with(own, before, self.told[number], self.room);
+            if placed.iter().all(goes) {
+                placed.push(own);
+                self.next(placed, cost);
+                placed.pop();
+            }
+        }
+    }
+}
+
+/// Whether a balloon may be where it is beside one before it.
+fn goes_with(own: &Candidate, before: &Candidate, told: bool, room: &Room) -> bool {
+    let is_read = told || is_read_after(own.bounds, before.bounds, room.reading);
+    let apart = own.reach.inset(room.gap).intersect(before.reach).is_zero_area();
+    let keeps_off = || {
+        let (hull, other) = (&own.place.hull, &before.place.hull);
+        !hull.meets(other, room.gap)
+            && is_clear(own.tail.as_ref(), other)
+            && is_clear(before.tail.as_ref(), hull)
+            && before.tail.as_ref().is_none_or(|other| is_clear(own.tail.as_ref(), other))
+    };
+    is_read && (apart || keeps_off())
+}
+
+/// Whether one is read after the other: below its middle, or beside it on the side that is read later and no higher.
+fn is_read_after(own: Rect, before: Rect, reading: Reading) -> bool {
+    let beside = match reading {
+        Reading::Ltr => own.x0 >= before.center().x,
+        Reading::Rtl => own.x1 <= before.center().x,
+    };
+    // What is on the side that is read earlier is below all of it.
+    let below = match reading {
+        Reading::Ltr => own.center().x >= before.x0,
+        Reading::Rtl => own.center().x <= before.x1,
+    };
+    let under = own.y0 >= before.center().y + if below { 0.0 } else { 0.5 * before.height() };
+    under || (beside && own.center().y >= before.center().y - 0.15 * before.height())
+}

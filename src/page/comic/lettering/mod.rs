@@ -1,0 +1,346 @@
+//! The letters of a panel: balloons that are placed automatically, captions and sound effects.
+//!
+//! 1. Sound effects are drawn where the page file puts them, and become obstacles.
+//! 2. Each balloon gets its target, the part that its tail points at, and is set in several aspect ratios.
+//! 3. `page::balloon_placement` finds a place for all balloons together. If there is none, the letters are
+//!    made smaller in steps.
+//! 4. Balloons and their letters are painted in reading order.
+//!
+//! Files, in reading order: `balloon`, a text in an outline with a tail; `tail_target`; `sound_effect`.
+
+mod balloon;
+mod sound_effect;
+mod tail_target;
+
+use kurbo::{Affine, Point, Rect};
+use toml::Spanned;
+
+use super::comic_keys::{BalloonKeys, BalloonKind, LetteringKeys, PanelKeys, SoundKeys};
+use super::panel_drawing::Seen;
+use super::panel_outlines::{Shape, Sheet};
+use crate::drawing::{Drawing, Item, Layer, LayerKind, Mark, Page, Unit};
+use crate::error::Error;
+use crate::page::balloon_placement::{self, Placed, Room, Wish};
+use crate::page::layout::{Polygon, Reading};
+use crate::page::mm_length::Mm;
+use crate::page::page_source::Source;
+use crate::text::{Font, Setting};
+use balloon::{Balloon, Ink};
+use tail_target::Target;
+
+/// Sizes of letters, in shares of what is asked for, that are tried until all balloons find a place.
+const SIZES: [f64; 5] = [1.0, 0.92, 0.85, 0.78, 0.7];
+
+/// How much higher than wide the ellipses of balloons may be, the best first.
+const ASPECTS: [f64; 3] = [0.62, 0.9, 1.3];
+
+/// From a balloon to the line around its panel, to other balloons, and to faces, in ems.
+const GAP: f64 = 0.45;
+
+/// More balloons in a panel are refused.
+const MOST_BALLOONS: usize = 50;
+
+/// More letters in a balloon are refused.
+const MOST_LETTERS: usize = 1000;
+
+/// How letters are set on a page.
+pub(crate) struct Lettering<'a> {
+    keys: &'a LetteringKeys,
+    reading: Reading,
+    setting: Setting,
+    source: &'a Source,
+}
+
+/// A balloon that was told, and what it takes to place it.
+struct Told<'a> {
+    keys: &'a BalloonKeys,
+    target: Option<Target>,
+}
+
+impl<'a> Lettering<'a> {
+    /// Reads the font.
+    ///
+    /// # Errors
+    /// If there is no such font, or letters have no size.
+    pub fn new(keys: &'a LetteringKeys, reading: Reading, source: &'a Source) -> Result<Self, Error> {
+        let mut setting = Setting::new(font(&keys.font, source)?).with_leading(1.1);
+        setting.upper_case = keys.upper_case;
+        setting.language.clone_from(&keys.language);
+        Ok(Self { keys, reading, setting: setting.with_em(above(&keys.size, source)?), source })
+    }
+
+    /// The letters of a panel, as a drawing of the whole page.
+    ///
+    /// # Errors
+    /// If a text cannot be set, a tail points at no part, or there is no room for a balloon: at its line.
+    pub fn letter(
+        &self,
+        shape: &Shape,
+        seen: Option<&Seen>,
+        sheet: &Sheet,
+        warnings: &mut Vec<String>,
+    ) -> Result<Option<Item>, Error> {
+        let Some(keys) = shape.keys.map(Spanned::get_ref) else { return Ok(None) };
+        if keys.balloon.is_empty() && keys.sound.is_empty() {
+            return Ok(None);
+        }
+        let bounds = shape.outline.bounds();
+        let mut marks = Vec::new();
+        let mut obstacles = Vec::new();
+        for sound in &keys.sound {
+            let (own, hull) = self.sound(sound, bounds, warnings)?;
+            marks.extend(own);
+            obstacles.push(hull);
+        }
+        marks.extend(self.balloons(shape, keys, (seen, obstacles), sheet, warnings)?);
+        let Rect { x1: width, y1: height, .. } = sheet.bleed;
+        let page = Page { width, height, unit: Unit::Mm, background: None };
+        let name = format!("{}-letters", shape.name);
+        // Balloons and their words lie over one another in the order they are told in.
+        let layers = vec![Layer { kind: LayerKind::Callouts, pen: None, ordered: false, marks }];
+        let drawing = Drawing::new(&name, page, layers);
+        Ok(Some(Item { name, drawing, place: Affine::IDENTITY, clip: None }))
+    }
+
+    fn sound(
+        &self,
+        keys: &SoundKeys,
+        bounds: Rect,
+        warnings: &mut Vec<String>,
+    ) -> Result<(Vec<Mark>, Polygon), Error> {
+        let font = match &keys.font {
+            Some(name) => font(name, self.source)?,
+            None => self.setting.font.clone(),
+        };
+        let size = keys.size.as_ref().map_or(Ok(12.0), |size| above(size, self.source))?;
+        let line = keys.line.as_ref().map_or(Ok(size / 10.0), |line| above(line, self.source))?;
+        within_panel(&keys.at, self.source)?;
+        for turn in [&keys.rotate, &keys.arc] {
+            if !(-360.0..=360.0).contains(turn.get_ref()) {
+                let advice = "write degrees from -360 to 360";
+                return Err(self.source.fault(&turn.span(), "this is not an angle for letters", advice));
+            }
+        }
+        let stretch = keys.stretch.as_ref().map_or(1.0, |stretch| *stretch.get_ref());
+        if let Some(key) = keys.stretch.as_ref().filter(|_| !(0.01..=100.0).contains(&stretch)) {
+            return Err(self.source.fault(
+                &key.span(),
+                "this is not a stretch of letters",
+                "write a number from 0.01 to 100",
+            ));
+        }
+        let mut setting = Setting::new(font).with_capitals(size);
+        setting.upper_case = self.keys.upper_case;
+        let made = sound_effect::sound(keys.text.get_ref(), &setting, keys, stretch, bounds);
+        let (letters, fallbacks) = made.map_err(|error| self.source.about(&keys.text.span(), error))?;
+        tell(fallbacks, warnings);
+        let colours = [keys.fill.unwrap_or(self.keys.fill), keys.colour.unwrap_or(self.keys.colour)];
+        Ok(sound_effect::painted(letters, colours, line))
+    }
+
+    /// The balloons of a panel in their places.
+    fn balloons(
+        &self,
+        shape: &Shape,
+        keys: &PanelKeys,
+        (seen, obstacles): (Option<&Seen>, Vec<Polygon>),
+        sheet: &Sheet,
+        warnings: &mut Vec<String>,
+    ) -> Result<Vec<Mark>, Error> {
+        if keys.balloon.is_empty() {
+            return Ok(Vec::new());
+        }
+        if let Some(extra) = keys.balloon.get(MOST_BALLOONS) {
+            let message = format!("a panel can hold at most {MOST_BALLOONS} balloons");
+            return Err(self.source.fault(&extra.text.span(), &message, "spread them over several panels"));
+        }
+        for keys in &keys.balloon {
+            keys.at.as_ref().map_or(Ok(()), |at| within_panel(at, self.source))?;
+            let letters = keys.text.get_ref().chars().count();
+            if letters > MOST_LETTERS {
+                let message = format!("a text of {letters} letters is too long for a balloon");
+                let advice = format!("write at most {MOST_LETTERS}, or part it among several balloons");
+                return Err(self.source.fault(&keys.text.span(), &message, &advice));
+            }
+        }
+        let told: Vec<Told> = keys
+            .balloon
+            .iter()
+            .map(|keys| Ok(Told { keys, target: self.target(keys, shape, seen)? }))
+            .collect::<Result<_, Error>>()?;
+        let mut kept = Vec::new();
+        for glob in &keys.keep {
+            let Some(seen) = seen else {
+                return Err(self.source.fault(
+                    &glob.span(),
+                    "there is no model in this panel",
+                    "leave out `keep`",
+                ));
+            };
+            let places = seen.places(glob, self.source)?;
+            let within = |hull| Polygon(hull).common(&shape.outline);
+            kept.extend(places.into_iter().map(|place| within(place.hull)).filter(|hull| !hull.0.is_empty()));
+        }
+        kept.extend(told.iter().filter_map(|told| told.target.as_ref()?.face.clone()));
+        let parts: Vec<&str> =
+            told.iter().filter_map(|told| Some(told.target.as_ref()?.part.as_str())).collect();
+        let cover = seen.map(|seen| seen.cover(&parts));
+        let mut stuck = 0;
+        for size in SIZES {
+            let balloons: Vec<Vec<Balloon>> =
+                told.iter().map(|told| self.set(told, size)).collect::<Result<_, _>>()?;
+            let gap = GAP * self.setting.em() * size;
+            let room = Room {
+                outline: shape.outline.inset(gap).common(&Polygon::from(sheet.safe)),
+                kept: kept.clone(),
+                obstacles: obstacles.clone(),
+                cover: cover.clone(),
+                gap,
+                reading: self.reading,
+            };
+            let wishes: Vec<Wish> =
+                balloons.iter().zip(&told).map(|(shapes, told)| wish(shapes, told, shape)).collect();
+            match balloon_placement::place(&wishes, &room) {
+                Ok(places) => {
+                    if size < 1.0 {
+                        let percent = (size * 100.0).round();
+                        warnings.push(format!(
+                            "{}: letters are set at {percent} % of their size, so that all balloons fit",
+                            shape.name
+                        ));
+                    }
+                    return Ok(self.painted(&balloons, &told, &places, warnings));
+                }
+                Err(number) => stuck = stuck.max(number),
+            }
+        }
+        let text = told.get(stuck).map_or(0..0, |told| told.keys.text.span());
+        let advice =
+            "shorten the text, make letters smaller or the panel larger, or give its place: at = [0.5, 0.2]";
+        Err(self.source.fault(&text, "there is no room in the panel for this balloon", advice))
+    }
+
+    /// The part that a tail points at.
+    fn target(
+        &self,
+        keys: &BalloonKeys,
+        shape: &Shape,
+        seen: Option<&Seen>,
+    ) -> Result<Option<Target>, Error> {
+        let Some(glob) = &keys.tail else { return Ok(None) };
+        if keys.kind == BalloonKind::Caption {
+            return Err(self.source.fault(
+                &glob.span(),
+                "a caption cannot have a tail",
+                "leave it out, or choose another kind",
+            ));
+        }
+        let Some(seen) = seen else {
+            return Err(self.source.fault(
+                &glob.span(),
+                "there is no model in this panel",
+                "leave out the tail",
+            ));
+        };
+        let places = seen.places(glob, self.source)?;
+        match Target::of(&places, &shape.outline) {
+            Some(target) => Ok(Some(target)),
+            None => {
+                let message = format!("the part `{}` is not in the picture of this panel", glob.get_ref());
+                Err(self.source.fault(
+                    &glob.span(),
+                    &message,
+                    "move the camera, or let the tail point elsewhere",
+                ))
+            }
+        }
+    }
+
+    /// A balloon with its text set, in each shape that it may have.
+    fn set(&self, told: &Told, size: f64) -> Result<Vec<Balloon>, Error> {
+        let Told { keys, .. } = told;
+        let own = keys.size.as_ref().map_or(Ok(self.setting.em()), |size| above(size, self.source))?;
+        let setting = self.setting.clone().with_em(own * size);
+        let set = |aspect| {
+            Balloon::new(keys.text.get_ref(), keys.kind, &setting, aspect)
+                .map_err(|error| self.source.about(&keys.text.span(), error))
+        };
+        ASPECTS.into_iter().map(set).collect()
+    }
+
+    fn painted(
+        &self,
+        balloons: &[Vec<Balloon>],
+        told: &[Told],
+        places: &[Placed],
+        warnings: &mut Vec<String>,
+    ) -> Vec<Mark> {
+        let mut marks = Vec::new();
+        for ((shapes, told), place) in balloons.iter().zip(told).zip(places) {
+            let Some(balloon) = shapes.get(place.shape) else { continue };
+            let fill = told.keys.fill.unwrap_or(self.keys.fill);
+            let ink = Ink { fill, colour: self.keys.colour, line: self.keys.line.get_ref().0 };
+            marks.extend(balloon.marks(place.middle, place.tip, &ink));
+            tell(balloon.block.fallbacks.iter().map(ToString::to_string).collect(), warnings);
+        }
+        marks
+    }
+}
+
+/// What a balloon asks of its place, which has one of those shapes.
+fn wish(shapes: &[Balloon], told: &Told, shape: &Shape) -> Wish {
+    let bounds = shape.outline.bounds();
+    let at = told.keys.at.as_ref().map(|at| {
+        let [x, y] = *at.get_ref();
+        Point::new(bounds.x0 + x * bounds.width(), bounds.y0 + y * bounds.height())
+    });
+    let of = |measure: fn(&Balloon) -> f64| shapes.first().map_or(0.0, measure);
+    Wish {
+        hulls: shapes.iter().map(Balloon::hull).collect(),
+        target: told.target.as_ref().map(|target| (target.hull.clone(), target.aim)),
+        at,
+        em: of(Balloon::em),
+        tail: of(Balloon::shortest_tail),
+        foot: of(Balloon::foot),
+        cornered: told.keys.kind == BalloonKind::Caption,
+    }
+}
+
+/// A font by its name or its file, which is relative to the page file.
+fn font(name: &Spanned<String>, source: &Source) -> Result<Font, Error> {
+    let is_name = !name.get_ref().contains(['/', '\\', '.']);
+    if !is_name {
+        return Font::open(source.existing(name, "font")?);
+    }
+    let known = Font::names();
+    if !known.contains(&name.get_ref().as_str()) {
+        return Err(source.unknown(name, "font", &known));
+    }
+    Font::named(name.get_ref()).map_err(|error| source.about(&name.span(), error))
+}
+
+/// Refuses a place that is far from its panel.
+fn within_panel(at: &Spanned<[f64; 2]>, source: &Source) -> Result<(), Error> {
+    if at.get_ref().iter().all(|share| (-0.5..=1.5).contains(share)) {
+        return Ok(());
+    }
+    let advice = "write shares of its width and height, such as [0.5, 0.2]";
+    Err(source.fault(&at.span(), "this place is too far from the panel", advice))
+}
+
+/// A length above 0.
+fn above(length: &Spanned<Mm>, source: &Source) -> Result<f64, Error> {
+    let Mm(mm) = *length.get_ref();
+    if mm > 0.0 {
+        return Ok(mm);
+    }
+    Err(source.fault(&length.span(), "sizes of letters and lines must be above 0", "write such as \"3.4mm\""))
+}
+
+fn tell(fallbacks: Vec<String>, warnings: &mut Vec<String>) {
+    for fallback in fallbacks {
+        if !warnings.contains(&fallback) {
+            warnings.push(fallback);
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! The line around a panel, straight or as drawn by a hand.
+
+use kurbo::{Affine, BezPath, Point, Rect, Vec2};
+
+use crate::colour::srgb::Colour;
+use crate::drawing::{
+    Cap, Drawing, Item, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
+};
+use crate::geometry::numbers::noise::{hash, smooth};
+use crate::page::layout::Polygon;
+
+/// From one bend of a line drawn by a hand to the next, mm.
+const WAVE: f64 = 18.0;
+
+/// Points of such a line from one bend to the next.
+const POINTS_A_WAVE: f64 = 4.0;
+
+/// A line of a width around a panel, which strays by at most `hand`, as a drawing of the whole page.
+pub(crate) fn border(
+    name: &str,
+    outline: &Polygon,
+    [width, hand]: [f64; 2],
+    colour: Colour,
+    sheet: Rect,
+) -> Item {
+    let path = line(outline, hand, sheet);
+    let paint = Paint::Stroke(StrokePaint {
+        width,
+        colour,
+        cap: Cap::Round,
+        join: Join::Miter,
+        dash: Vec::new(),
+        dash_offset: 0.0,
+    });
+    let provenance = Provenance { classes: vec!["panel-border"], ..Provenance::default() };
+    let marks = vec![Mark { path, paint, provenance }];
+    let layers = vec![Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks }];
+    let page = Page { width: sheet.width(), height: sheet.height(), unit: Unit::Mm, background: None };
+    let drawing = Drawing::new(name, page, layers);
+    Item { name: name.to_owned(), drawing, place: Affine::IDENTITY, clip: None }
+}
+
+/// The sides of an outline but those along the edge of what is printed; where `hand` is above 0 they stray, and their corners stay.
+fn line(outline: &Polygon, hand: f64, sheet: Rect) -> BezPath {
+    let sides: Vec<(Point, Point)> = outline.sides().collect();
+    let is_edge = |(a, b): &(Point, Point)| {
+        let along = |a: f64, b: f64, edge: f64| (a - edge).abs() < 1e-6 && (b - edge).abs() < 1e-6;
+        along(a.x, b.x, sheet.x0)
+            || along(a.x, b.x, sheet.x1)
+            || along(a.y, b.y, sheet.y0)
+            || along(a.y, b.y, sheet.y1)
+    };
+    // What is open begins behind an edge.
+    let first = sides.iter().position(is_edge).map_or(0, |edge| edge + 1);
+    let mut path = BezPath::new();
+    let mut goes_on = false;
+    for number in (0..sides.len()).map(|k| (k + first) % sides.len()) {
+        let side = sides[number];
+        if is_edge(&side) {
+            goes_on = false;
+            continue;
+        }
+        if !goes_on {
+            path.move_to(side.0);
+        }
+        goes_on = true;
+        if hand > 0.0 { shake(&mut path, side, number, hand) } else { path.line_to(side.1) }
+    }
+    if !sides.iter().any(is_edge) {
+        path.close_path();
+    }
+    path
+}
+
+/// Adds a side that strays by at most `hand`.
+fn shake(path: &mut BezPath, (a, b): (Point, Point), number: usize, hand: f64) {
+    let length = a.distance(b);
+    let across = Vec2::new(b.y - a.y, a.x - b.x) / length.max(f64::MIN_POSITIVE);
+    let seed = hash(number as u64, &[a.x.to_bits(), a.y.to_bits()]);
+    let steps = (length / WAVE * POINTS_A_WAVE).ceil().max(1.0);
+    let at = |step: f64| -> Point {
+        let share = step / steps;
+        // Still at the ends, and full from a wave on.
+        let pinned = (share.min(1.0 - share) * length / WAVE).min(1.0);
+        a.lerp(b, share) + across * (hand * pinned * smooth(seed, share * length / WAVE))
+    };
+    // A smooth curve through the points: Catmull and Rom's.
+    for step in 0..steps as usize {
+        let step = step as f64;
+        let [p, q, r, s] = [step - 1.0, step, step + 1.0, step + 2.0].map(|k| at(k.clamp(0.0, steps)));
+        path.curve_to(q + (r - p) / 6.0, r - (s - q) / 6.0, r);
+    }
+}

@@ -1,0 +1,220 @@
+//! One panel: the drawing of its scene, the line around it, and what breaks that line.
+
+use kurbo::{Affine, BezPath, Rect, Shape as _, Vec2};
+use toml::Spanned;
+
+use super::comic_keys::{ComicPage, PanelKeys};
+use super::panel_border::border;
+use super::panel_outlines::{Shape, Sheet};
+use crate::colour::srgb::Colour;
+use crate::drawing::{Drawing, Item, Layer, LayerKind, Mark, Page, Paint, Provenance, Unit};
+use crate::error::Error;
+use crate::geometry::numbers::portable_math::{atan2, tan};
+use crate::page::figure::{self, Cover, Place, camera_spec, is_named};
+use crate::page::mm_length::Mm;
+use crate::page::page_source::Source;
+use crate::pipeline;
+use crate::scene::{Camera, Part, Projection, Scene};
+use crate::style::Style;
+
+/// How far beyond its panel, in shares of the shorter side, a figure may break.
+const BEYOND: f64 = 0.5;
+
+/// How far what breaks a line is drawn within the panel again, mm: so far no gap shows.
+const LAP: f64 = 0.1;
+
+/// A panel that was drawn.
+pub(crate) struct Drawn {
+    /// Its drawing and its line.
+    pub items: Vec<Item>,
+    /// What breaks that line, and may reach over other panels.
+    pub over: Option<Item>,
+    /// What is in it, and how it is seen.
+    pub seen: Option<Seen>,
+    /// What there is to say of it.
+    pub warnings: Vec<String>,
+}
+
+/// A scene in a panel.
+pub(crate) struct Seen {
+    scene: Scene,
+    camera: Camera,
+    /// From the frame of the camera to the page.
+    place: Vec2,
+}
+
+impl Seen {
+    /// Which of the panel models cover; the figures are the models of those parts, or all of them if no model has a name.
+    pub fn cover(&self, parts: &[&str]) -> Cover {
+        let models: Vec<&str> =
+            parts.iter().filter_map(|part| part.split_once('/')).map(|(model, _)| model).collect();
+        let is_figure = |part: &Part| {
+            let own = part.name.split_once('/').map(|(model, _)| model);
+            models.is_empty() || own.is_some_and(|own| models.contains(&own))
+        };
+        Cover::of(&self.scene, &self.camera, self.place.to_point(), &is_figure)
+    }
+
+    /// Where parts are on the page.
+    ///
+    /// # Errors
+    /// If there is no such part.
+    pub fn places(&self, glob: &Spanned<String>, source: &Source) -> Result<Vec<Place>, Error> {
+        let mut places = figure::places(&self.scene, &self.camera, glob.get_ref());
+        if !self.scene.parts.iter().any(|part| is_named(glob.get_ref(), &part.name)) {
+            return Err(camera_spec::unknown_part(glob, &self.scene, source));
+        }
+        for place in &mut places {
+            place.bounds = place.bounds + self.place;
+            place.hull.iter_mut().for_each(|p| *p += self.place);
+        }
+        Ok(places)
+    }
+}
+
+/// Draws a panel.
+///
+/// # Errors
+/// If a model, a style or a camera is not there or not what it should be.
+pub(crate) fn draw(shape: &Shape, page: &ComicPage, sheet: &Sheet, source: &Source) -> Result<Drawn, Error> {
+    let bounds = shape.outline.bounds();
+    let none = PanelKeys::default();
+    let keys = shape.keys.map_or(&none, Spanned::get_ref);
+    let name = keys.style.as_ref().unwrap_or(&page.style);
+    let sets: Vec<Spanned<String>> = page.set.iter().chain(&keys.set).cloned().collect();
+    let mut style = figure::style(name, &sets, source)?;
+    if let Some(colour) = &keys.background {
+        style.background = background(colour, source)?;
+    }
+    let warnings = figure::figure_style::unit_warning(name, &sets, source).into_iter().collect();
+    let mut drawn = Drawn { items: Vec::new(), over: None, seen: None, warnings };
+    let item = |name: &str, drawing, corner: Vec2, clip| Item {
+        name: name.to_owned(),
+        drawing,
+        place: Affine::translate(corner),
+        clip: Some(clip),
+    };
+    let outline = shape.outline.path();
+    let mut broken = None;
+    if keys.model.0.is_empty() {
+        let size = paper([bounds.width(), bounds.height()], style.background);
+        let drawing = Drawing::new(&shape.name, size, Vec::new());
+        drawn.items.push(item(&shape.name, drawing, bounds.origin().to_vec2(), outline));
+    } else {
+        let (time, animation) = (keys.time.as_ref(), keys.animation.as_ref());
+        let scene = figure::staged(&keys.model, time, animation, &style, source)?;
+        let usual = Spanned::new(0..0, figure::Aim::default());
+        let aim = keys.camera.as_ref().unwrap_or(&usual);
+        let camera = figure::camera(aim, &scene, [bounds.width(), bounds.height()], source)?;
+        for glob in &keys.breaking {
+            if !scene.parts.iter().any(|part| is_named(glob.get_ref(), &part.name)) {
+                return Err(camera_spec::unknown_part(glob, &scene, source));
+            }
+        }
+        // What breaks the line is drawn in a frame that is larger on all sides, with the same picture in its middle.
+        let beyond =
+            if keys.breaking.is_empty() { 0.0 } else { BEYOND * bounds.width().min(bounds.height()) };
+        let wide = widened(&camera, beyond);
+        let size = paper([wide.width, wide.height], style.background);
+        let (mut drawing, warnings) = figure::draw(&scene, &wide, &style, size)?;
+        drawing.title.clone_from(&shape.name);
+        let told = warnings.into_iter().map(|warning| format!("{}: {warning}", shape.name));
+        drawn.warnings.extend(told);
+        let corner = bounds.origin().to_vec2() - Vec2::new(beyond, beyond);
+        if beyond > 0.0 {
+            broken = Some((breaking(&drawing, &scene, &wide, &style, keys)?, corner));
+        }
+        drawn.items.push(item(&shape.name, drawing, corner, outline));
+        drawn.seen = Some(Seen { scene, camera, place: bounds.origin().to_vec2() });
+    }
+    let Mm(width) = *keys.border.as_ref().unwrap_or(&page.border).get_ref();
+    if width < 0.0 {
+        let span = keys.border.as_ref().unwrap_or(&page.border).span();
+        return Err(source.fault(&span, "this length is below 0", "write 0 or more"));
+    }
+    let hand = page.hand.get_ref().0;
+    if width > 0.0 {
+        let name = format!("{}-border", shape.name);
+        drawn.items.push(border(&name, &shape.outline, [width, hand], page.lettering.colour, sheet.bleed));
+    }
+    if let Some((drawing, corner)) = broken {
+        let inner = shape.outline.inset(width / 2.0 + hand + LAP);
+        let clip = around(sheet.bleed, &inner.path());
+        drawn.over = Some(item(&format!("{}-break", shape.name), drawing, corner, clip));
+    }
+    Ok(drawn)
+}
+
+fn paper([width, height]: [f64; 2], background: Option<Colour>) -> Page {
+    Page { width, height, unit: Unit::Mm, background }
+}
+
+/// A colour, or none.
+fn background(word: &Spanned<String>, source: &Source) -> Result<Option<Colour>, Error> {
+    if word.get_ref().eq_ignore_ascii_case("none") {
+        return Ok(None);
+    }
+    let colour = Colour::parse(word.get_ref()).ok_or_else(|| {
+        let message = format!("`{}` is not a colour", word.get_ref());
+        source.fault(&word.span(), &message, "write it as #rrggbb, by its name in CSS, or none")
+    })?;
+    Ok(Some(colour))
+}
+
+/// The camera with so much more on each side of its frame, and the same picture in the middle of that.
+fn widened(camera: &Camera, by: f64) -> Camera {
+    if by == 0.0 {
+        return *camera;
+    }
+    let larger = (camera.height + 2.0 * by) / camera.height;
+    let projection = match camera.projection {
+        Projection::Perspective { fov_y_deg } => {
+            let half = tan(fov_y_deg.to_radians() / 2.0) * larger;
+            Projection::Perspective { fov_y_deg: 2.0 * atan2(half, 1.0).to_degrees() }
+        }
+        Projection::Orthographic { height } => Projection::Orthographic { height: height * larger },
+    };
+    camera.with_projection(projection).with_frame(camera.width + 2.0 * by, camera.height + 2.0 * by)
+}
+
+/// What of a drawing is of the parts that break the line of the panel, on paper of their own where they are seen.
+fn breaking(
+    drawing: &Drawing,
+    scene: &Scene,
+    camera: &Camera,
+    style: &Style,
+    keys: &PanelKeys,
+) -> Result<Drawing, Error> {
+    let is_meant = |part: &str| keys.breaking.iter().any(|glob| is_named(glob.get_ref(), part));
+    let paper = style.background.unwrap_or(Colour::WHITE);
+    let seen = pipeline::hotspots(scene, camera, drawing.page, style)?;
+    let ground = seen.into_iter().filter(|spot| is_meant(&spot.part)).map(|spot| Mark {
+        path: spot.outline,
+        paint: Paint::Fill(paper),
+        provenance: Provenance { part: Some(spot.part), ..Provenance::default() },
+    });
+    let mut layers: Vec<Layer> = drawing.layers.clone();
+    for layer in &mut layers {
+        layer.marks.retain(|mark| mark.provenance.part.as_deref().is_some_and(is_meant));
+    }
+    layers.retain(|layer| !layer.marks.is_empty());
+    match layers.iter_mut().find(|layer| layer.kind == LayerKind::Fills) {
+        Some(fills) => {
+            let over = std::mem::replace(&mut fills.marks, ground.collect());
+            fills.marks.extend(over);
+        }
+        None => {
+            let marks = ground.collect();
+            layers.insert(0, Layer { kind: LayerKind::Fills, pen: None, ordered: false, marks });
+        }
+    }
+    let page = Page { background: None, ..drawing.page };
+    Ok(Drawing::new(format!("{} over its border", drawing.title), page, layers))
+}
+
+/// A frame with a hole.
+fn around(frame: Rect, hole: &BezPath) -> BezPath {
+    let mut path = frame.to_path(0.1);
+    path.extend(hole.reverse_subpaths());
+    path
+}

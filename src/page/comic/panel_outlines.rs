@@ -1,0 +1,172 @@
+//! [`Shape`]: the outlines of the panels of a page.
+
+use kurbo::{Point, Rect};
+use toml::Spanned;
+
+use super::comic_keys::{ComicPage, Gutter, PanelKeys};
+use crate::error::Error;
+use crate::page::layout::grammar::MOST_PANELS;
+use crate::page::layout::{Grid, Polygon, cells};
+use crate::page::mm_length::Mm;
+use crate::page::page_size::Size;
+use crate::page::page_source::Source;
+
+/// Panels have no area in common but what is less than this, mm².
+const NOTHING: f64 = 1e-3;
+
+/// The boxes of a page; what is printed begins at 0, 0.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Sheet {
+    /// What is left when it is cut.
+    pub trim: Rect,
+    /// What is printed.
+    pub bleed: Rect,
+    /// Where letters stay.
+    pub safe: Rect,
+    /// What panels part.
+    frame: Rect,
+}
+
+/// A panel on the page.
+#[derive(Debug, Clone)]
+pub(crate) struct Shape<'a> {
+    /// What its layers are called by.
+    pub name: String,
+    /// What is told of it; nothing of a panel that stays empty.
+    pub keys: Option<&'a Spanned<PanelKeys>>,
+    /// Its outline.
+    pub outline: Polygon,
+}
+
+impl Sheet {
+    /// The boxes of a page.
+    ///
+    /// # Errors
+    /// Where a length is below 0, or a margin leaves nothing.
+    pub fn of(page: &ComicPage, source: &Source) -> Result<Self, Error> {
+        for length in [&page.bleed, &page.safe, &page.margin, &page.border, &page.hand, &page.lettering.line]
+        {
+            if length.get_ref().0 < 0.0 {
+                return Err(source.fault(&length.span(), "this length is below 0", "write 0 or more"));
+            }
+        }
+        let Mm(bleed) = *page.bleed.get_ref();
+        let mut size = *page.size.get_ref();
+        if page.landscape {
+            size = size.lying();
+        }
+        if page.spread {
+            size = Size { width: size.width * 2.0, ..size };
+        }
+        let trim = Rect::new(bleed, bleed, bleed + size.width, bleed + size.height);
+        let within = |length: &Spanned<Mm>, what: &str| {
+            let found = trim.inset(-length.get_ref().0);
+            if found.width() < 5.0 || found.height() < 5.0 || found.x1 < found.x0 || found.y1 < found.y0 {
+                let message =
+                    format!("this {what} leaves no room on a page of {} x {} mm", size.width, size.height);
+                return Err(source.fault(&length.span(), &message, "make it smaller, or the page larger"));
+            }
+            Ok(found)
+        };
+        let frame = within(&page.margin, "margin")?;
+        let safe = within(&page.safe, "safe area")?;
+        Ok(Self { trim, bleed: trim.inset(bleed), safe, frame })
+    }
+}
+
+/// The panels of a page: those of the layout in reading order, then those with a place of their own.
+///
+/// # Errors
+/// At the place of a layout that is none, of panels too many, without size, or over one another.
+pub(crate) fn shapes<'a>(
+    page: &'a ComicPage,
+    sheet: &Sheet,
+    source: &Source,
+) -> Result<Vec<Shape<'a>>, Error> {
+    let gutter = match page.gutter.get_ref() {
+        Gutter::All(Mm(all)) => [*all, *all],
+        Gutter::Each([Mm(across), Mm(down)]) => [*across, *down],
+    };
+    if gutter.iter().any(|gutter| *gutter < 0.0) {
+        return Err(source.fault(
+            &page.gutter.span(),
+            "a gutter cannot be narrower than 0",
+            "write 0 or more",
+        ));
+    }
+    let grid = Grid { frame: sheet.frame, gutter, reading: page.reading.into() };
+    let cells = cells(page.layout.get_ref(), &grid)
+        .map_err(|fault| source.within(&page.layout, &fault.span, &fault.message, &fault.advice))?;
+    if let Some(extra) = page.panel.get(MOST_PANELS) {
+        let message = format!("a page can hold at most {MOST_PANELS} panels");
+        return Err(source.fault(&head(source, extra), &message, "spread them over several pages"));
+    }
+    let (placed, laid): (Vec<_>, Vec<_>) = page.panel.iter().partition(|panel| panel.get_ref().at.is_some());
+    if let Some(extra) = laid.get(cells.len()) {
+        let message = format!("the layout has only {} panels", cells.len());
+        let advice =
+            "give the layout a further share, or this panel a place: at = [left, top, width, height]";
+        return Err(source.fault(&head(source, extra), &message, advice));
+    }
+    let mut shapes: Vec<Shape> = Vec::new();
+    for (number, cell) in cells.iter().enumerate() {
+        let keys = laid.get(number).copied();
+        let bleeds = keys.is_some_and(|keys| keys.get_ref().bleed);
+        let outline = cell.outline(if bleeds { sheet.bleed } else { sheet.frame });
+        shapes.push(Shape { name: name(keys, number), keys, outline });
+    }
+    for keys in placed {
+        let Some(at) = &keys.get_ref().at else { continue };
+        let [x, y, width, height] = at.get_ref().map(|Mm(mm)| mm);
+        let corner = Point::new(sheet.trim.x0 + x, sheet.trim.y0 + y);
+        let rect = Rect::from_origin_size(corner, (width, height));
+        if !(width >= 2.0 && height >= 2.0) {
+            let message = format!("this panel has no size: {width} x {height} mm");
+            return Err(source.fault(&at.span(), &message, "write [left, top, width, height]"));
+        }
+        if rect.intersect(sheet.bleed).area() < rect.area() - NOTHING {
+            return Err(source.fault(
+                &at.span(),
+                "this panel extends past the page",
+                "move it, or make it smaller",
+            ));
+        }
+        let outline = Polygon::from(rect);
+        let over = shapes.iter().find(|other| outline.common(&other.outline).area() > NOTHING);
+        if let Some(over) = over.filter(|_| !keys.get_ref().inset) {
+            let message = format!("this panel overlaps `{}`", over.name);
+            return Err(source.fault(
+                &at.span(),
+                &message,
+                "move it, or allow the overlap with inset = true",
+            ));
+        }
+        let number = shapes.len();
+        shapes.push(Shape { name: name(Some(keys), number), keys: Some(keys), outline });
+    }
+    for (number, shape) in shapes.iter().enumerate() {
+        let named = shape.keys.and_then(|keys| keys.get_ref().name.as_ref());
+        if let Some(named) = named.filter(|named| named.get_ref().trim().is_empty()) {
+            return Err(source.fault(&named.span(), "this panel has no name", "write one, or leave it out"));
+        }
+        if let Some(named) = shape.keys.and_then(|keys| keys.get_ref().name.as_ref())
+            && shapes.iter().take(number).any(|other| other.name == shape.name)
+        {
+            let message = format!("two panels are called `{}`", shape.name);
+            return Err(source.fault(&named.span(), &message, "give each panel its own name"));
+        }
+    }
+    Ok(shapes)
+}
+
+/// The first line of a panel in the file.
+fn head(source: &Source, panel: &Spanned<PanelKeys>) -> std::ops::Range<usize> {
+    let span = panel.span();
+    let text = source.text.get(span.clone()).unwrap_or_default();
+    span.start..span.start + text.lines().next().map_or(0, str::len)
+}
+
+fn name(keys: Option<&Spanned<PanelKeys>>, number: usize) -> String {
+    let own = keys.and_then(|keys| keys.get_ref().name.as_ref());
+    own.map_or_else(|| format!("panel-{}", number + 1), |name| name.get_ref().clone())
+}

@@ -1,0 +1,289 @@
+//! [`Aim`]: from where a figure is seen, and what of it fills its frame.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use glam::DVec3;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use toml::Spanned;
+
+use super::part_bounds::{is_named, part_points};
+use crate::error::Error;
+use crate::geometry::numbers::portable_math::{atan2, cos, sin, tan};
+use crate::page::page_source::Source;
+use crate::scene::cameras::framing::{MARGIN, world_points};
+use crate::scene::cameras::named_views::{THREE_QUARTER_AZIMUTH_DEG, THREE_QUARTER_ELEVATION_DEG};
+use crate::scene::{Camera, NamedView, Projection, Scene, UpAxis};
+use crate::style::sheet_errors;
+
+/// How much of the height of what is looked at a bust shows.
+const BUST: f64 = 0.42;
+
+/// How much nearer a close view is than one of all.
+const CLOSE: f64 = 1.7;
+
+/// From where a figure is seen: a word (a camera record's file, a named view, or a camera of the model), or keys.
+#[derive(Debug, Clone)]
+pub enum Aim {
+    /// A word.
+    Word(String),
+    /// Keys.
+    Keys(Box<AimKeys>),
+}
+
+impl Default for Aim {
+    fn default() -> Self {
+        Self::Keys(Box::default())
+    }
+}
+
+/// From where a figure is seen, in keys.
+#[derive(Debug, Clone, Default, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AimKeys {
+    /// A named view, in parallel lines of sight unless `fov` is given.
+    pub view: Option<Spanned<String>>,
+    /// A camera record's file, or a camera of the model: where `look_at` is given, it keeps its direction.
+    pub record: Option<Spanned<String>>,
+    /// Degrees to the right of the front. Default: 35.
+    pub azimuth: Option<Spanned<f64>>,
+    /// Degrees above the horizon. Default: 22.
+    pub elevation: Option<Spanned<f64>>,
+    /// Vertical field of view in degrees. Default: 35.
+    pub fov: Option<Spanned<f64>>,
+    /// Whether lines of sight are parallel. Default: no, but for named views.
+    pub ortho: bool,
+    /// The parts that fill the frame. Default: all.
+    pub look_at: Option<Spanned<String>>,
+    /// How much of them: `full`, `bust` or `close`. Default: full.
+    pub crop: Option<Crop>,
+    /// How much larger than what fits. Default: 1.
+    pub zoom: Option<Spanned<f64>>,
+    /// Shares of the frame by which the picture is moved to the right and down. Default: 0, 0.
+    pub shift: [f64; 2],
+    /// Degrees by which the picture is turned, to the right if above 0. Default: 0.
+    pub roll: f64,
+}
+
+/// How much of what is looked at fills the frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Crop {
+    /// All of it.
+    #[default]
+    Full,
+    /// Its upper part.
+    Bust,
+    /// So near that its rim is cut off.
+    Close,
+}
+
+impl<'de> Deserialize<'de> for Aim {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(AimVisitor)
+    }
+}
+
+struct AimVisitor;
+
+impl<'de> Visitor<'de> for AimVisitor {
+    type Value = Aim;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("a camera: a named view, a camera record's file, or a table such as { azimuth = 20, look_at = \"hero\" }")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<Aim, E> {
+        Ok(Aim::Word(word.to_owned()))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Aim, A::Error> {
+        AimKeys::deserialize(MapAccessDeserializer::new(map)).map(|keys| Aim::Keys(Box::new(keys)))
+    }
+}
+
+impl Aim {
+    /// The file of a camera record.
+    #[must_use]
+    pub fn file(&self, source: &Source) -> Option<PathBuf> {
+        let name = match self {
+            Self::Word(word) => word,
+            Self::Keys(keys) => keys.record.as_ref()?.get_ref(),
+        };
+        name.ends_with(".json").then(|| source.beside(name))
+    }
+}
+
+/// The camera of a figure with a frame of that size, in mm.
+///
+/// # Errors
+/// If there is no such camera, view or part, or the numbers are none of a camera.
+pub fn camera(
+    aim: &Spanned<Aim>,
+    scene: &Scene,
+    [width, height]: [f64; 2],
+    source: &Source,
+) -> Result<Camera, Error> {
+    let keys = match aim.get_ref() {
+        Aim::Word(word) => {
+            let word = Spanned::new(aim.span(), word.clone());
+            if let Some(view) = NamedView::parse(word.get_ref()) {
+                let camera = Camera::named(view, scene.up).with_frame(width, height);
+                return Ok(camera.fit(scene));
+            }
+            return recorded(&word, scene, source).map(|camera| camera.with_frame(width, height));
+        }
+        Aim::Keys(keys) => keys,
+    };
+    let direction = match (&keys.record, &keys.view) {
+        (Some(record), _) => recorded(record, scene, source)?,
+        (None, Some(view)) => {
+            let known = NamedView::ALL.map(NamedView::name);
+            let named = NamedView::parse(view.get_ref());
+            Camera::named(named.ok_or_else(|| source.unknown(view, "view", &known))?, scene.up)
+        }
+        (None, None) => {
+            let angle =
+                |key: &Option<Spanned<f64>>, default| key.as_ref().map_or(default, |key| *key.get_ref());
+            let azimuth = angle(&keys.azimuth, THREE_QUARTER_AZIMUTH_DEG);
+            let elevation = angle(&keys.elevation, THREE_QUARTER_ELEVATION_DEG);
+            if let Some(key) = keys.elevation.as_ref().filter(|key| !(-90.0..=90.0).contains(key.get_ref())) {
+                return Err(source.fault(
+                    &key.span(),
+                    "this is not an elevation",
+                    "write degrees from -90 to 90",
+                ));
+            }
+            Camera::azimuth_elevation(azimuth, elevation, scene.up)
+        }
+    };
+    let camera = lens(direction, keys, source)?.with_frame(width, height);
+    let camera = match (&keys.record, &keys.look_at) {
+        (Some(_), None) => camera,
+        (_, look_at) => fitted(camera, look_at.as_ref(), keys.crop.unwrap_or_default(), scene, source)?,
+    };
+    let camera = nearer(camera, keys, source)?;
+    camera.validate().map_err(|error| source.about(&aim.span(), error))?;
+    Ok(camera)
+}
+
+/// A camera by the name of a record's file, or of the model.
+fn recorded(name: &Spanned<String>, scene: &Scene, source: &Source) -> Result<Camera, Error> {
+    if let Some(named) = scene.cameras.iter().find(|camera| camera.name == *name.get_ref()) {
+        return Ok(named.camera);
+    }
+    if name.get_ref().ends_with(".json") {
+        return Camera::open(source.existing(name, "camera record")?);
+    }
+    let cameras = scene.cameras.iter().map(|camera| camera.name.as_str());
+    let known: Vec<&str> = cameras.chain(NamedView::ALL.map(NamedView::name)).collect();
+    let advice = match sheet_errors::nearest(name.get_ref(), &known) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("there are {}; or name a camera record, FILE.json", known.join(", ")),
+    };
+    Err(source.fault(&name.span(), &format!("there is no camera `{}`", name.get_ref()), &advice))
+}
+
+/// The camera with the lens that is asked for.
+fn lens(camera: Camera, keys: &AimKeys, source: &Source) -> Result<Camera, Error> {
+    match &keys.fov {
+        Some(fov) if !(*fov.get_ref() > 0.0 && *fov.get_ref() < 180.0) => {
+            Err(source.fault(&fov.span(), "this is not a field of view", "write degrees between 0 and 180"))
+        }
+        Some(fov) => Ok(camera.with_projection(Projection::Perspective { fov_y_deg: *fov.get_ref() })),
+        None if keys.ortho => Ok(camera.with_projection(Projection::Orthographic { height: 1.0 })),
+        None => Ok(camera),
+    }
+}
+
+/// The camera so that what is looked at fills its frame.
+fn fitted(
+    camera: Camera,
+    look_at: Option<&Spanned<String>>,
+    crop: Crop,
+    scene: &Scene,
+    source: &Source,
+) -> Result<Camera, Error> {
+    let points = match look_at {
+        None => world_points(scene),
+        Some(glob) => {
+            let points = part_points(scene, glob.get_ref());
+            if points.is_empty() {
+                return Err(unknown_part(glob, scene, source));
+            }
+            points
+        }
+    };
+    Ok(match crop {
+        Crop::Full => camera.fit_points(&points, MARGIN),
+        Crop::Bust => camera.fit_points(&upper(&points, scene.up), MARGIN),
+        Crop::Close => zoomed(camera.fit_points(&points, 0.0), CLOSE),
+    })
+}
+
+/// An error about a name that no part has.
+#[must_use]
+pub fn unknown_part(glob: &Spanned<String>, scene: &Scene, source: &Source) -> Error {
+    let mut known: Vec<&str> = scene.parts.iter().map(|part| part.name.as_str()).collect();
+    known.dedup();
+    let near = sheet_errors::nearest(glob.get_ref(), &known).filter(|near| !is_named(glob.get_ref(), near));
+    known.truncate(12);
+    let advice = match near {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("the parts are {}", known.join(", ")),
+    };
+    source.fault(&glob.span(), &format!("there is no part `{}`", glob.get_ref()), &advice)
+}
+
+/// The upper ones of points.
+fn upper(points: &[DVec3], up: UpAxis) -> Vec<DVec3> {
+    let height = |p: &DVec3| match up {
+        UpAxis::Y => p.y,
+        UpAxis::Z => p.z,
+    };
+    let span = points.iter().map(height);
+    let low = span.clone().fold(f64::INFINITY, f64::min);
+    let high = span.fold(f64::NEG_INFINITY, f64::max);
+    let least = high - BUST * (high - low);
+    points.iter().copied().filter(|p| height(p) >= least).collect()
+}
+
+/// The camera zoomed, moved and turned as is asked for.
+fn nearer(camera: Camera, keys: &AimKeys, source: &Source) -> Result<Camera, Error> {
+    let zoom = keys.zoom.as_ref().map_or(1.0, |zoom| *zoom.get_ref());
+    if let Some(key) = keys.zoom.as_ref().filter(|_| !(zoom.is_finite() && zoom > 0.0)) {
+        return Err(source.fault(&key.span(), "this is not a zoom factor", "write a number above 0"));
+    }
+    let mut camera = zoomed(camera, zoom);
+    let [right, up, forward] = camera.axes();
+    let tall = match camera.projection {
+        Projection::Perspective { fov_y_deg } => {
+            2.0 * camera.eye.distance(camera.target) * tan(fov_y_deg.to_radians() / 2.0)
+        }
+        Projection::Orthographic { height } => height,
+    };
+    let [x, y] = keys.shift;
+    let moved = up * (y * tall) - right * (x * tall * camera.width / camera.height);
+    camera.eye += moved;
+    camera.target += moved;
+    if keys.roll != 0.0 {
+        let turn = keys.roll.to_radians();
+        let (sine, cosine) = (sin(turn), cos(turn));
+        // The picture turns to the right if the camera turns to the left.
+        camera.up = up * cosine - forward.cross(up) * sine;
+    }
+    Ok(camera)
+}
+
+/// A camera that sees things so much larger.
+fn zoomed(camera: Camera, zoom: f64) -> Camera {
+    camera.with_projection(match camera.projection {
+        Projection::Perspective { fov_y_deg } => {
+            let half = tan(fov_y_deg.to_radians() / 2.0) / zoom;
+            Projection::Perspective { fov_y_deg: 2.0 * atan2(half, 1.0).to_degrees() }
+        }
+        Projection::Orthographic { height } => Projection::Orthographic { height: height / zoom },
+    })
+}

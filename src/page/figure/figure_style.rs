@@ -1,0 +1,59 @@
+//! The style of a figure: its sheet, and changes to it.
+
+use std::path::PathBuf;
+
+use toml::Spanned;
+
+use crate::error::Error;
+use crate::page::page_source::Source;
+use crate::style::{Style, bare_lengths, placed_change, sheet_errors};
+
+/// The style of that name or in that file, which is relative to the page file, changed by `sets` (`KEY=VALUE` each).
+///
+/// # Errors
+/// If there is no such style, or a change has no key of one.
+pub fn style(name: &Spanned<String>, sets: &[Spanned<String>], source: &Source) -> Result<Style, Error> {
+    let known: Vec<&str> = Style::names().collect();
+    let sheet = match file(name, source) {
+        None => name.get_ref().clone(),
+        Some(_) if !name.get_ref().ends_with(".toml") => {
+            let advice = match sheet_errors::nearest(name.get_ref(), &known) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => {
+                    format!("built-in styles: {}; or name a sheet's file, such as my.toml", known.join(", "))
+                }
+            };
+            let message = format!("there is no style `{}`", name.get_ref());
+            return Err(source.fault(&name.span(), &message, &advice));
+        }
+        Some(_) => source.existing(name, "style sheet")?.to_string_lossy().into_owned(),
+    };
+    let mut changes = Vec::new();
+    for set in sets {
+        let change = placed_change(set.get_ref(), source.folder());
+        changes.push(change.map_err(|error| source.about(&set.span(), plain(error)))?);
+    }
+    Style::load(&sheet, &changes).map_err(|error| source.about(&name.span(), error))
+}
+
+/// The warning about lengths without a unit that the page file or its own sheets set: a page is in mm.
+#[must_use]
+pub fn unit_warning(name: &Spanned<String>, sets: &[Spanned<String>], source: &Source) -> Option<String> {
+    let sheet =
+        file(name, source).map_or_else(|| name.get_ref().clone(), |path| path.to_string_lossy().into_owned());
+    let sets: Vec<String> = sets.iter().map(|set| set.get_ref().clone()).collect();
+    bare_lengths(&sheet, &sets)
+}
+
+/// Without its place in another text.
+fn plain(mut error: Error) -> Error {
+    error.place = None;
+    error.remedy = error.remedy.map(|remedy| remedy.lines().next().unwrap_or_default().to_owned());
+    error
+}
+
+/// The file of a style that is not built in.
+#[must_use]
+pub fn file(name: &Spanned<String>, source: &Source) -> Option<PathBuf> {
+    Style::sheet_text(name.get_ref()).is_none().then(|| source.beside(name.get_ref()))
+}

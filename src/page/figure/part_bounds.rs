@@ -1,0 +1,71 @@
+//! Where parts are on the page: their boxes and hulls, by name.
+
+use glam::DVec3;
+use kurbo::{Point, Rect};
+
+use crate::geometry::plane::convex_hull::hull;
+use crate::scene::extent::drawn_points::DrawnPoints;
+use crate::scene::part_selection::glob_matches;
+use crate::scene::{Camera, Scene};
+use crate::view::Frame;
+
+/// Where a part is in the frame of a camera, hidden or not.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Place {
+    /// The name of the part.
+    pub part: String,
+    /// The box round it, in units of the frame.
+    pub bounds: Rect,
+    /// Its convex hull, clockwise on the page.
+    pub hull: Vec<Point>,
+}
+
+/// Whether a name of a part is meant by a pattern: as a whole, behind the name of its model (`head` is `hero/head`), or as one
+/// of a model (`hero` is all of its parts).
+#[must_use]
+pub fn is_named(glob: &str, name: &str) -> bool {
+    let own = || {
+        name.split_once('/')
+            .is_some_and(|(model, part)| glob_matches(glob, part) || glob_matches(glob, model))
+    };
+    glob_matches(glob, name) || own()
+}
+
+/// The points of the parts that are meant by a pattern, world.
+pub(crate) fn part_points(scene: &Scene, glob: &str) -> Vec<DVec3> {
+    DrawnPoints::of_parts(scene, |part| is_named(glob, &part.name)).points
+}
+
+/// Where the parts that are meant by a pattern are, those before the eye.
+#[must_use]
+pub fn places(scene: &Scene, camera: &Camera, glob: &str) -> Vec<Place> {
+    let frame = Frame::new(camera, DVec3::ZERO);
+    let mut places = Vec::new();
+    let drawn = DrawnPoints::of_parts(scene, |part| is_named(glob, &part.name));
+    for own in &drawn.parts {
+        let Some(part) = scene.parts.get(own.part) else { continue };
+        let seen = drawn.points.get(own.points.clone()).unwrap_or_default().iter().copied();
+        let before = seen.filter(|p| !frame.perspective || frame.depth(*p) > 0.0);
+        let image = before.map(|p| frame.image_from_camera(frame.camera_from_local(p)));
+        let hull = hull(image.map(|p| Point::new(p.x, p.y)).filter(|p| p.is_finite()).collect());
+        let Some(first) = hull.first() else { continue };
+        let bounds = hull.iter().fold(Rect::from_points(*first, *first), |rect, p| rect.union_pt(*p));
+        places.push(Place { part: part.name.clone(), bounds, hull });
+    }
+    places
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_meant_with_and_without_their_model() {
+        for (glob, name) in
+            [("head", "hero/head"), ("hero", "hero/head"), ("hero/h*", "hero/head"), ("head", "head")]
+        {
+            assert!(is_named(glob, name), "{glob} {name}");
+        }
+        assert!(!is_named("head", "hero/hand") && !is_named("her", "hero/head"));
+    }
+}

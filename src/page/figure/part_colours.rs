@@ -1,0 +1,95 @@
+//! [`Colours`]: colours that a page gives the parts of a model.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+use toml::Spanned;
+
+use crate::colour::srgb::Colour;
+use crate::error::Error;
+use crate::page::page_source::Source;
+use crate::scene::part_selection::glob_matches;
+use crate::scene::{Material, Scene};
+
+/// Colours that stand in for the materials of a model: one, or one for each pattern of names of parts.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "this is not a colour; write one, or a table such as { \"*\" = \"white\", \"leg*\" = \"orange\" }"
+)]
+pub enum Colours {
+    /// All parts.
+    All(Colour),
+    /// Parts by their names; of several patterns the longest one counts.
+    Parts(BTreeMap<String, Colour>),
+}
+
+impl Colours {
+    fn of(&self, part: &str) -> Option<Colour> {
+        match self {
+            Self::All(colour) => Some(*colour),
+            Self::Parts(parts) => {
+                let meant = parts.iter().filter(|(glob, _)| glob_matches(glob, part));
+                meant.max_by_key(|(glob, _)| glob.len()).map(|(_, colour)| *colour)
+            }
+        }
+    }
+}
+
+/// Gives parts these colours, in place of their materials, pictures and colours of vertices.
+///
+/// # Errors
+/// If a pattern fits no part.
+pub(crate) fn paint(scene: &mut Scene, colours: &Spanned<Colours>, source: &Source) -> Result<(), Error> {
+    if let Colours::Parts(parts) = colours.get_ref() {
+        let is_there = |glob: &str| scene.parts.iter().any(|part| glob_matches(glob, &part.name));
+        if let Some(glob) = parts.keys().find(|glob| !is_there(glob)) {
+            return Err(unknown(glob, scene, colours, source));
+        }
+    }
+    let own = scene.materials.len();
+    for number in 0..scene.parts.len() {
+        let part = &scene.parts[number];
+        let Some(colour) = colours.get_ref().of(&part.name) else { continue };
+        let known = scene.materials.iter().skip(own).position(|material| material.colour == colour);
+        let material = own + known.unwrap_or(scene.materials.len() - own);
+        if known.is_none() {
+            scene.materials.push(Material { name: colour.hex(), colour, ..Material::default() });
+        }
+        let Some(mut geometry) = scene.geometry_of(part).cloned() else { continue };
+        geometry.triangle_material.clear();
+        geometry.colours.clear();
+        geometry.material = u32::try_from(material).ok();
+        let is_shared = scene.parts.iter().filter(|other| other.geometry == part.geometry).count() > 1;
+        let place = if is_shared { scene.geometries.len() } else { part.geometry };
+        match scene.geometries.get_mut(place) {
+            Some(there) => *there = geometry,
+            None => scene.geometries.push(geometry),
+        }
+        scene.parts[number].geometry = place;
+    }
+    Ok(())
+}
+
+/// An error at a pattern that fits no part.
+fn unknown(glob: &str, scene: &Scene, colours: &Spanned<Colours>, source: &Source) -> Error {
+    let span = colours.span();
+    let text = source.text.get(span.clone()).unwrap_or_default();
+    let start = text.find(glob).map_or(span.start, |at| span.start + at);
+    super::camera_spec::unknown_part(&Spanned::new(start..start + glob.len(), glob.to_owned()), scene, source)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_longest_pattern_counts() {
+        let parts = [("*", Colour::WHITE), ("leg*", Colour::BLACK), ("l*", Colour::rgb(1, 2, 3))];
+        let colours = Colours::Parts(parts.map(|(glob, colour)| (glob.to_owned(), colour)).into());
+        assert_eq!(
+            ["leg-left", "lid", "head"].map(|part| colours.of(part).unwrap()),
+            [Colour::BLACK, Colour::rgb(1, 2, 3), Colour::WHITE]
+        );
+    }
+}

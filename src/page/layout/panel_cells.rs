@@ -1,0 +1,183 @@
+//! [`cells`]: the panels of a layout on a page.
+//!
+//! Each panel is what lies on its sides of all gutters around it. A gutter that leans turns about its middle, so that the panels
+//! beside it keep the area they would have if it did not, as long as it ends on the same two sides.
+
+use std::ops::Range;
+
+use kurbo::{Point, Rect, Vec2};
+
+use super::grammar::{Axis, Fault, Share, Stack, parse};
+use super::polygon::{HalfPlane, Polygon};
+use crate::geometry::numbers::portable_math::{cos, sin};
+
+/// Shorter sides, in mm, are those of no panel.
+const SHORTEST: f64 = 2.0;
+
+/// In which direction a page is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Reading {
+    /// From left to right.
+    #[default]
+    Ltr,
+    /// From right to left.
+    Rtl,
+}
+
+/// What a layout parts, and how.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Grid {
+    /// What is parted.
+    pub frame: Rect,
+    /// Between columns, and between rows.
+    pub gutter: [f64; 2],
+    /// In which direction columns follow each other.
+    pub reading: Reading,
+}
+
+/// A panel of a layout.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cell {
+    /// Where it would be if no gutter leaned.
+    pub nominal: Rect,
+    /// The gutters around it: it is on these sides of them.
+    pub sides: Vec<HalfPlane>,
+    /// Where it is written in the layout.
+    pub span: Range<usize>,
+}
+
+impl Cell {
+    /// Its outline within a frame: that which is parted, or a larger one that it bleeds into.
+    #[must_use]
+    pub fn outline(&self, frame: Rect) -> Polygon {
+        self.sides.iter().fold(Polygon::from(frame), |rest, side| rest.cut(side))
+    }
+}
+
+/// The panels of a layout in reading order.
+///
+/// # Errors
+/// At the place of what is no layout, and of panels without size.
+pub fn cells(layout: &str, grid: &Grid) -> Result<Vec<Cell>, Fault> {
+    let stack = parse(layout)?;
+    let mut cells = Vec::new();
+    split(&stack, grid.frame, &[], grid, &mut cells)?;
+    if grid.reading == Reading::Rtl {
+        let x = grid.frame.center().x;
+        for cell in &mut cells {
+            let Rect { x0, y0, x1, y1 } = cell.nominal;
+            cell.nominal = Rect::new(2.0 * x - x1, y0, 2.0 * x - x0, y1);
+            cell.sides.iter_mut().for_each(|side| *side = side.mirrored(x));
+        }
+    }
+    for cell in &cells {
+        let Cell { nominal, span, .. } = cell;
+        let bounds = cell.outline(grid.frame).bounds();
+        let shortest = bounds.width().min(bounds.height()).min(nominal.width()).min(nominal.height());
+        if shortest.is_nan() || shortest < SHORTEST {
+            return Err(Fault {
+                span: span.clone(),
+                message: format!(
+                    "this panel has no size: {:.1} x {:.1} mm",
+                    nominal.width().max(0.0),
+                    nominal.height().max(0.0)
+                ),
+                advice: "give it a larger share, or make gutters narrower or less slanted".to_owned(),
+            });
+        }
+    }
+    Ok(cells)
+}
+
+fn split(
+    stack: &Stack,
+    rect: Rect,
+    sides: &[HalfPlane],
+    grid: &Grid,
+    cells: &mut Vec<Cell>,
+) -> Result<(), Fault> {
+    let rows = stack.axis == Axis::Rows;
+    let (gutter, from, to) =
+        if rows { (grid.gutter[1], rect.y0, rect.y1) } else { (grid.gutter[0], rect.x0, rect.x1) };
+    let length = to - from - gutter * (stack.items.len() - 1) as f64;
+    let shares = shares(stack)?;
+    let within = sides.iter().fold(Polygon::from(grid.frame), |rest, side| rest.cut(side));
+    let mut begin = from;
+    let last = stack.items.len() - 1;
+    // The gutter before an item, as the side on which the item is.
+    let mut before: Option<HalfPlane> = None;
+    for (number, (item, share)) in stack.items.iter().zip(shares).enumerate() {
+        let end = if number == last { to } else { begin + share * length };
+        let own = match rows {
+            true => Rect { y0: begin, y1: end, ..rect },
+            false => Rect { x0: begin, x1: end, ..rect },
+        };
+        let slant = stack.slants.get(number).copied().unwrap_or(0.0).to_radians();
+        let (sine, cosine) = (sin(slant), cos(slant));
+        let middle = end + gutter / 2.0;
+        let (centre, across) = match rows {
+            true => (Point::new(rect.center().x, middle), Vec2::new(sine, cosine)),
+            false => (Point::new(middle, rect.center().y), Vec2::new(cosine, sine)),
+        };
+        let side =
+            |way: f64| HalfPlane { point: centre + across * (way * gutter / 2.0), normal: across * way };
+        if number < last && before.as_ref().is_some_and(|before| meet(before, &side(-1.0), &within)) {
+            return Err(Fault {
+                span: item.span.clone(),
+                message: "the gutters around this panel meet on the page".to_owned(),
+                advice: "reduce their slant, or make it more similar".to_owned(),
+            });
+        }
+        let mut own_sides = sides.to_vec();
+        own_sides.extend(before.take());
+        if number < last {
+            own_sides.push(side(-1.0));
+            before = Some(side(1.0));
+        }
+        match &item.within {
+            Some(within) => split(within, own, &own_sides, grid, cells)?,
+            None => cells.push(Cell { nominal: own, sides: own_sides, span: item.span.clone() }),
+        }
+        begin = end + gutter;
+    }
+    Ok(())
+}
+
+/// Whether the edges of two lines meet in a polygon.
+fn meet(a: &HalfPlane, b: &HalfPlane, within: &Polygon) -> bool {
+    let area = a.normal.cross(b.normal);
+    if area == 0.0 {
+        return false;
+    }
+    // Where both depths are 0 (Cramer's rule).
+    let [u, v] = [a, b].map(|side| side.point.to_vec2().dot(side.normal));
+    let x = (u * b.normal.y - v * a.normal.y) / area;
+    let y = (v * a.normal.x - u * b.normal.x) / area;
+    within.holds(Point::new(x, y))
+}
+
+/// The share of each item of a stack; together 1.
+fn shares(stack: &Stack) -> Result<Vec<f64>, Fault> {
+    let numbers = stack.items.iter().filter_map(|item| match item.share {
+        Share::Number(number) => Some(number),
+        Share::Rest => None,
+    });
+    let told: f64 = numbers.sum();
+    let resting = stack.items.iter().filter(|item| item.share == Share::Rest).count();
+    let all_rest = resting == stack.items.len();
+    let whole = if resting == 0 { told } else { 100.0 };
+    if resting > 0 && !all_rest && told >= 100.0 {
+        let first = stack.items.iter().find(|item| item.share == Share::Rest);
+        return Err(Fault {
+            span: first.map_or(0..0, |item| item.span.clone()),
+            message: format!("no room is left for the rest: the other shares add up to {told} %"),
+            advice: "with *, shares are percent and must add up to less than 100".to_owned(),
+        });
+    }
+    let rest = (whole - told) / resting.max(1) as f64;
+    let share = |share: Share| match share {
+        Share::Number(number) => number / whole,
+        Share::Rest => rest / whole,
+    };
+    Ok(stack.items.iter().map(|item| share(item.share)).collect())
+}

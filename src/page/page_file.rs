@@ -1,0 +1,235 @@
+//! [`PageFile`]: a page file that was read; each of its pages in the vocabulary of its kind.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::comic::{self, ComicPage};
+use super::composed_page::Composed;
+use super::model_reader::ModelReader;
+use super::page_source::Source;
+use super::print_inks::Print;
+use super::sheet::{self, SheetPage};
+use crate::error::Error;
+use crate::scene::Scene;
+use crate::style::toml_reader::{self, Fault};
+
+/// What pages are of.
+const KINDS: [&str; 2] = ["comic", "sheet"];
+
+/// The keys of a file.
+const KEYS: [&str; 2] = ["page", "pages"];
+
+/// A file holds no more pages than this, those of the files it names included.
+const MOST_PAGES: usize = 2000;
+
+/// A page file that was read.
+#[derive(Debug, Clone)]
+pub struct PageFile {
+    /// The pages, each with the file it is told in.
+    pages: Vec<(Source, Kind)>,
+    /// The files that were read.
+    files: Vec<PathBuf>,
+}
+
+/// A page in the vocabulary of its kind.
+#[derive(Debug, Clone)]
+enum Kind {
+    Comic(Box<ComicPage>),
+    Sheet(Box<SheetPage>),
+}
+
+impl PageFile {
+    /// Reads a page file, and those it names.
+    ///
+    /// # Errors
+    /// If one cannot be read or names itself; names the line and the key that is wrong, and the nearest known one.
+    pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
+        let mut read = Self { pages: Vec::new(), files: Vec::new() };
+        read.add_file(path.as_ref().to_path_buf(), &mut Vec::new())?;
+        Ok(read)
+    }
+
+    /// Reads the text of a page file; paths in it are relative to the folder of `path`, which need not be there.
+    ///
+    /// # Errors
+    /// As [`PageFile::open`].
+    pub fn from_text(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
+        let mut read = Self { pages: Vec::new(), files: Vec::new() };
+        let source = Source {
+            path: path.as_ref().to_path_buf(),
+            text: text.to_owned(),
+            models: ModelReader::default(),
+        };
+        read.add(source, &mut Vec::new())?;
+        Ok(read)
+    }
+
+    /// Reads models in further formats by a function, which returns `None` for all others.
+    #[must_use]
+    pub fn reading_models(
+        mut self,
+        read: impl Fn(&Path) -> Result<Option<Scene>, Error> + Send + Sync + 'static,
+    ) -> Self {
+        let reader = ModelReader::new(read);
+        for (source, _) in &mut self.pages {
+            source.models = reader.clone();
+        }
+        self
+    }
+
+    /// How many pages there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.pages.len()
+    }
+
+    /// Whether there is no page; no file is read that has none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.pages.is_empty()
+    }
+
+    /// The files that the pages are made from: page files, models, style sheets, camera records.
+    #[must_use]
+    pub fn inputs(&self) -> Vec<PathBuf> {
+        let mut files = self.files.clone();
+        for (source, kind) in &self.pages {
+            files.extend(match kind {
+                Kind::Comic(page) => page.inputs(source),
+                Kind::Sheet(page) => page.inputs(source),
+            });
+        }
+        files.sort();
+        files.dedup();
+        files
+    }
+
+    /// The inks that the pages ask for.
+    ///
+    /// # Errors
+    /// At a key that is not what it should be, or that says another thing than a page before.
+    pub fn print(&self) -> Result<Print, Error> {
+        let mut print = Print::default();
+        for (source, kind) in &self.pages {
+            if let Kind::Comic(page) = kind {
+                print.add(&page.print(), source)?;
+            }
+        }
+        Ok(print)
+    }
+
+    /// Draws all pages, in their order.
+    ///
+    /// # Errors
+    /// If a model, a style, a font or a camera cannot be read, and where what a page tells does not go together: each names the
+    /// line.
+    pub fn compose(&self) -> Result<Vec<Composed>, Error> {
+        let compose = |(source, kind): &(Source, Kind)| match kind {
+            Kind::Comic(page) => comic::compose(page, source),
+            Kind::Sheet(page) => sheet::compose(page, source),
+        };
+        self.pages.iter().map(compose).collect()
+    }
+
+    /// Reads a file; `above` are those that name it.
+    fn add_file(&mut self, path: PathBuf, above: &mut Vec<PathBuf>) -> Result<(), Error> {
+        let bytes = fs::read(&path).map_err(|error| {
+            Error::io("cannot read the page file", error)
+                .in_file(&path)
+                .remedy("check the path; `ligne page --new comic OUT.toml` writes a page file to start from")
+        })?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            Error::new("is not UTF-8 text")
+                .in_file(&path)
+                .at(format!("byte {}", error.utf8_error().valid_up_to()))
+                .remedy("save the page file as UTF-8")
+        })?;
+        self.files.push(path.clone());
+        above.push(fs::canonicalize(&path).unwrap_or_else(|_| path.clone()));
+        self.add(Source { path, text, models: ModelReader::default() }, above)?;
+        above.pop();
+        Ok(())
+    }
+
+    fn add(&mut self, source: Source, above: &mut Vec<PathBuf>) -> Result<(), Error> {
+        let document = DeTable::parse(&source.text).map_err(|error| source.unread(&error.into()))?;
+        let mut pages = Vec::new();
+        let mut named = None;
+        for (key, value) in document.into_inner() {
+            match &**key.get_ref() {
+                "page" => pages = listed(value),
+                "pages" => named = Some(value),
+                other => {
+                    let word = Spanned::new(key.span(), other.to_owned());
+                    return Err(source.unknown(&word, "key", &KEYS));
+                }
+            }
+        }
+        for page in pages {
+            let kind = read_page(page, &source)?;
+            self.pages.push((source.clone(), kind));
+        }
+        let named: Vec<Spanned<String>> = match named {
+            Some(named) => read(named).map_err(|error| source.unread(&error))?,
+            None => Vec::new(),
+        };
+        for path in &named {
+            let found = source.existing(path, "page file")?;
+            if above.contains(&fs::canonicalize(&found).unwrap_or_else(|_| found.clone())) {
+                let message = format!("`{}` leads back to a page file that names it", path.get_ref());
+                return Err(source.fault(&path.span(), &message, "let no page file hold itself"));
+            }
+            self.add_file(found, above)?;
+            if self.pages.len() > MOST_PAGES {
+                let message = format!("these are more than {MOST_PAGES} pages");
+                return Err(source.fault(&path.span(), &message, "part them into several files"));
+            }
+        }
+        if self.pages.is_empty() {
+            let advice = "begin a page with the line [page], then kind = \"comic\" or kind = \"sheet\"";
+            return Err(Error::new("there is no page").in_file(&source.path).remedy(advice));
+        }
+        Ok(())
+    }
+}
+
+/// The pages under the key `page`: one, or several.
+fn listed(value: Spanned<DeValue>) -> Vec<Spanned<DeValue>> {
+    let span = value.span();
+    match value.into_inner() {
+        DeValue::Array(pages) => pages.into_iter().collect(),
+        one => vec![Spanned::new(span, one)],
+    }
+}
+
+fn read<T: DeserializeOwned>(value: Spanned<DeValue>) -> Result<T, Fault> {
+    toml_reader::from_value(value)
+}
+
+/// One page: `kind` says in which vocabulary the other keys are.
+fn read_page(mut page: Spanned<DeValue>, source: &Source) -> Result<Kind, Error> {
+    let span = page.span();
+    let advice = "write kind = \"comic\" or kind = \"sheet\"";
+    let DeValue::Table(table) = page.get_mut() else {
+        return Err(source.fault(&span, "a page is a table", "begin it with a line [page]"));
+    };
+    let kind = table
+        .remove("kind")
+        .ok_or_else(|| source.fault(&span, "the kind of this page is missing", advice))?;
+    let Some(name) = kind.get_ref().as_str() else {
+        return Err(source.fault(&kind.span(), "this does not fit here", advice));
+    };
+    let made = match name {
+        "comic" => read(page).map(|page| Kind::Comic(Box::new(page))),
+        "sheet" => read(page).map(|page| Kind::Sheet(Box::new(page))),
+        other => {
+            let word = Spanned::new(kind.span(), other.to_owned());
+            return Err(source.unknown(&word, "kind of page", &KINDS));
+        }
+    };
+    made.map_err(|error| source.unread(&error))
+}

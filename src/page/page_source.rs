@@ -1,0 +1,110 @@
+//! [`Source`]: the text of a page file, for errors that point into it and for paths beside it.
+
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use toml::Spanned;
+
+use super::model_reader::ModelReader;
+use crate::error::Error;
+use crate::style::sheet_errors;
+use crate::style::toml_reader::Fault;
+
+/// The text of a page file, and where it is.
+#[derive(Debug, Clone)]
+pub struct Source {
+    /// The path as the caller named it.
+    pub path: PathBuf,
+    /// The text.
+    pub text: String,
+    /// Reads the models that the file names and that are in other formats than ligne's own.
+    pub models: ModelReader,
+}
+
+impl Source {
+    /// An error about a place in the file: its line, with a caret below, and what to do.
+    #[must_use]
+    pub fn fault(&self, span: &Range<usize>, message: &str, advice: &str) -> Error {
+        sheet_errors::at_span(&self.text, span, message, Some(advice)).in_file(&self.path)
+    }
+
+    /// An error of reading the file.
+    pub(crate) fn unread(&self, error: &Fault) -> Error {
+        sheet_errors::in_sheet(&self.text, error).in_file(&self.path)
+    }
+
+    /// An error of something that a place in the file names, told of that place where it does not tell a file itself.
+    #[must_use]
+    pub fn about(&self, span: &Range<usize>, error: Error) -> Error {
+        match &error.file {
+            Some(_) => error,
+            None => {
+                let place = error.place.as_ref().map(|place| format!("{place}: ")).unwrap_or_default();
+                let advice = error.remedy.as_deref().unwrap_or("check this line");
+                self.fault(span, &format!("{place}{}", error.message), advice)
+            }
+        }
+    }
+
+    /// An error about texts that the file holds, told of the line of the first one that is found in it.
+    #[must_use]
+    pub fn about_text<'a>(&self, texts: impl IntoIterator<Item = &'a String>, error: Error) -> Error {
+        let lines = texts.into_iter().filter_map(|text| text.lines().find(|line| !line.trim().is_empty()));
+        let found = lines.filter_map(|line| Some((self.text.find(line)?, line))).next();
+        match found {
+            Some((at, line)) if error.file.is_none() => self.about(&(at..at + line.len()), error),
+            _ => error,
+        }
+    }
+
+    /// An error about a word that is none of those that are known: names the nearest one, or all.
+    #[must_use]
+    pub fn unknown(&self, word: &Spanned<String>, what: &str, known: &[&str]) -> Error {
+        let advice = match sheet_errors::nearest(word.get_ref(), known) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("there are {}", known.join(", ")),
+        };
+        self.fault(&word.span(), &format!("there is no {what} `{}`", word.get_ref()), &advice)
+    }
+
+    /// An error about a place within a text of the file, in bytes of that text.
+    #[must_use]
+    pub fn within(&self, text: &Spanned<String>, place: &Range<usize>, message: &str, advice: &str) -> Error {
+        let span = text.span();
+        // With escapes in it the text stands nowhere as it is.
+        let raw = self.text.get(span.clone()).unwrap_or_default();
+        let start = raw.find(text.get_ref().as_str()).map(|start| span.start + start);
+        let place = start.map_or(span, |start| start + place.start..start + place.end);
+        self.fault(&place, message, advice)
+    }
+
+    /// A path that the file names: relative to its folder.
+    #[must_use]
+    pub fn beside(&self, path: &str) -> PathBuf {
+        self.folder().join(path)
+    }
+
+    /// The folder of the file.
+    #[must_use]
+    pub fn folder(&self) -> &Path {
+        self.path.parent().unwrap_or(Path::new(""))
+    }
+
+    /// A file that the page names.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn existing(&self, path: &Spanned<String>, what: &str) -> Result<PathBuf, Error> {
+        let found = self.beside(path.get_ref());
+        if found.is_file() {
+            return Ok(found);
+        }
+        let message = format!("there is no {what} `{}`", path.get_ref());
+        let folder = match self.folder() {
+            folder if folder == Path::new("") => "the working folder".to_owned(),
+            folder => folder.display().to_string(),
+        };
+        let advice = format!("paths are relative to the folder of the page file, {folder}");
+        Err(self.fault(&path.span(), &message, &advice))
+    }
+}

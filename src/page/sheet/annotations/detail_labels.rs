@@ -1,0 +1,73 @@
+//! Letters of details, and titles of views.
+
+use kurbo::{Point, Rect, Vec2};
+
+use crate::error::Error;
+use crate::geometry::numbers::portable_math::{cos, sin};
+use crate::page::sheet::canvas::annotation_board::Board;
+use crate::page::sheet::canvas::paper_occupancy::{Clear, Kind, Shape};
+use crate::page::sheet::canvas::sheet_canvas::NARROW;
+
+/// Height of letters, mm.
+const LETTERS: f64 = 5.0;
+
+/// From a circle to the end of its leader, how much farther it is tried and how often, mm.
+const OUT: f64 = 4.0;
+const FARTHER: f64 = 2.0;
+const STEPS: u32 = 60;
+
+/// Directions that are tried, from the upper right on to both sides.
+const WAYS: u32 = 48;
+
+/// From a view to its title, and how far that is moved up at most, mm.
+const TITLE: f64 = 3.0;
+const HIGHEST: u32 = 400;
+
+/// Draws the circle around a detail.
+pub(crate) fn circle(centre: Point, radius: f64, board: &mut Board) {
+    let circle = kurbo::Circle::new(centre, radius);
+    board.take_path(&kurbo::Shape::to_path(&circle, 1e-3), NARROW, Kind::Line);
+    board.ink.circle(centre, radius, NARROW);
+}
+
+/// Writes the letter of a detail, with a line to its circle.
+pub(crate) fn of_detail(label: &str, centre: Point, radius: f64, board: &mut Board) -> Result<(), Error> {
+    let word = board.word(label, LETTERS)?;
+    for clear in [Clear::Leaders, Clear::Texts] {
+        for step in 0..STEPS {
+            for k in 0..WAYS {
+                let aside = if k % 2 == 0 { -f64::from(k / 2) } else { f64::from(k.div_ceil(2)) };
+                let turn = std::f64::consts::TAU * (0.125 + aside / f64::from(WAYS));
+                let out = Vec2::new(cos(turn), -sin(turn));
+                let from = centre + out * radius;
+                let to = from + out * (OUT + FARTHER * f64::from(step));
+                // The letter stands behind the end of the line.
+                let half = word.bounds.size().to_vec2() / 2.0;
+                let clearance = 0.8 + (out.x * half.x).abs() + (out.y * half.y).abs();
+                let place = word.centred(to + out * clearance);
+                let is_free = board.is_free(&word, place)
+                    && board.taken.is_free(&Shape::line(from + out * 0.5, to, NARROW).wider(0.3), clear);
+                if is_free {
+                    board.line(from, to, NARROW, Kind::Leader);
+                    board.write(&word, place);
+                    return Ok(());
+                }
+            }
+        }
+    }
+    board.unplaced.push(format!("the letter of the detail `{label}`"));
+    Ok(())
+}
+
+/// Writes the title of a view above it.
+pub(crate) fn title(words: &str, rect: Rect, board: &mut Board) -> Result<(), Error> {
+    let word = board.word(words, LETTERS)?;
+    let half = word.bounds.height() / 2.0;
+    let middle = |k: u32| Point::new(rect.center().x, rect.y0 - TITLE - half - f64::from(k));
+    let place = (0..HIGHEST).map(|k| word.centred(middle(k))).find(|place| board.is_free(&word, *place));
+    match place {
+        Some(place) => board.write(&word, place),
+        None => board.unplaced.push(format!("the title `{words}`")),
+    }
+    Ok(())
+}

@@ -1,0 +1,287 @@
+//! Lengths on a view: their lines, arrows and values (ISO 129-1).
+//!
+//! Lengths along a side stand in rows, from the shortest to the longest. Each takes the innermost row in which its value is on clear
+//! paper, away from where lines of longer ones will pass, and in which none that it overlaps stands as far out. A value that has no room
+//! between the arrows moves along its line, to the other end, and outwards. Other lengths take the nearest line, then the nearest place
+//! on it, where the value is clear.
+
+use kurbo::{Affine, Point, Rect, Vec2};
+
+use super::dimension_style::{ARROW, HIGH};
+use crate::error::Error;
+use crate::page::sheet::canvas::annotation_board::{Board, LINE_CLEAR, TEXT_CLEAR, Word};
+use crate::page::sheet::canvas::paper_occupancy::{Clear, Kind, Occupancy, Shape};
+use crate::page::sheet::canvas::sheet_canvas::NARROW;
+use crate::page::sheet::dimensions::dimension_set::Slanted;
+use crate::page::sheet::view::view_side::Told;
+
+/// From the view to the first row, and from row to row, mm.
+const FIRST: f64 = 9.0;
+const STEP: f64 = 7.5;
+
+/// Room between two lengths in a row, mm.
+const APART: f64 = 2.0;
+
+/// Rows that are tried.
+const ROWS: u32 = 40;
+
+/// From the shape to the line that leads from it, and how far that goes on past the dimension line, mm.
+const GAP: f64 = 0.8;
+const PAST: f64 = 2.0;
+
+/// From a line to the value above it, mm.
+const ABOVE: f64 = 1.0;
+
+/// How far a value is moved at a time, and how often, mm.
+const SHIFT: f64 = 2.0;
+const SHIFTS: u32 = 40;
+
+/// How far other lengths stand from their points, and by how much farther they are tried, mm.
+const BESIDE: f64 = 10.0;
+const FARTHER: f64 = 4.0;
+
+/// How far outside the view lines pass that lead to such lengths, mm.
+const PASSED: f64 = 40.0;
+
+/// A length on a line.
+struct DimensionLine {
+    points: [Point; 2],
+    /// On the line.
+    feet: [Point; 2],
+    /// From one to the other.
+    way: Vec2,
+    length: f64,
+    /// Whether the arrows have room between the feet.
+    is_inside: bool,
+    /// The direction in which the value is read.
+    reading: Vec2,
+}
+
+impl DimensionLine {
+    fn new(points: [Point; 2], along: Vec2, through: Point) -> Self {
+        let feet = points.map(|p| through + along * (p - through).dot(along));
+        let length = (feet[1] - feet[0]).hypot2().sqrt();
+        let way = if length > 0.0 { (feet[1] - feet[0]) / length } else { along };
+        // Values are read from below or from the right.
+        let mut reading = along;
+        if reading.x < -1e-9 || reading.x.abs() <= 1e-9 && reading.y > 0.0 {
+            reading = -reading;
+        }
+        Self { points, feet, way, length, is_inside: length >= 2.0 * ARROW + 1.0, reading }
+    }
+
+    /// Places of the middle of a value, from the middle of the line along its way: the best first.
+    fn spots(&self, wide: f64) -> Vec<f64> {
+        let mut spots = Vec::new();
+        let slack = self.length / 2.0 - ARROW - wide / 2.0;
+        if self.is_inside && slack > 0.0 {
+            spots.push(0.0);
+            let steps = (slack / SHIFT).floor().min(f64::from(SHIFTS)) as u32;
+            spots.extend((1..=steps).flat_map(|k| [SHIFT * f64::from(k), -SHIFT * f64::from(k)]));
+        }
+        let out = self.length / 2.0 + 2.0 * ARROW + wide / 2.0;
+        let outer = (0..SHIFTS).map(|k| out + SHIFT * f64::from(k));
+        spots.extend(outer.flat_map(|out| [out, -out]));
+        spots
+    }
+
+    /// The ends of the line where the value stands at a spot, from its middle along its way.
+    fn ends(&self, spot: f64, wide: f64) -> [f64; 2] {
+        let own = self.length / 2.0 + if self.is_inside { 0.0 } else { 2.0 * ARROW };
+        // It runs under a value that stands outside.
+        let reach = if spot.abs() < self.length / 2.0 { 0.0 } else { spot.abs() + wide / 2.0 };
+        if spot < 0.0 { [-own.max(reach), own] } else { [-own, own.max(reach)] }
+    }
+
+    fn at(&self, along: f64) -> Point {
+        self.feet[0].midpoint(self.feet[1]) + self.way * along
+    }
+
+    /// Where a value stands, above its line or below.
+    fn place(&self, word: &Word, spot: f64, is_above: bool) -> Affine {
+        let up = Vec2::new(self.reading.y, -self.reading.x);
+        // Commas and brackets reach below the line of writing.
+        let rise = if is_above { ABOVE + word.bounds.y1.max(0.0) } else { -ABOVE + word.bounds.y0 };
+        let at = self.at(spot) + up * rise;
+        let [c, s] = [self.reading.x, self.reading.y];
+        Affine::new([c, s, -s, c, at.x, at.y]) * Affine::translate((-word.bounds.center().x, 0.0))
+    }
+
+    /// The lines that lead to it.
+    fn leading(&self) -> impl Iterator<Item = [Point; 2]> + '_ {
+        self.points.iter().zip(self.feet).filter_map(|(p, foot)| {
+            let out = foot - *p;
+            let far = out.hypot2().sqrt();
+            (far > GAP).then(|| [*p + out * (GAP / far), foot + out * (PAST / far)])
+        })
+    }
+
+    /// The heads of its arrows: tips and where they point.
+    fn heads(&self) -> [(Point, Vec2); 2] {
+        let sign = if self.is_inside { 1.0 } else { -1.0 };
+        [(self.feet[0], -self.way * sign), (self.feet[1], self.way * sign)]
+    }
+
+    /// Whether its lines and arrows touch nothing solid.
+    fn is_free(&self, ends: [f64; 2], clear: Clear, board: &Board) -> bool {
+        let heads = self.heads().map(|(tip, towards)| Board::head(tip, towards, ARROW).wider(LINE_CLEAR));
+        board.is_line_free(self.at(ends[0]), self.at(ends[1]), clear)
+            // Lines that lead to rows farther out pass the arrows of others that begin at the same point.
+            && self.leading().all(|[a, b]| board.is_line_free(a, b, Clear::Texts))
+            && heads.iter().all(|head| board.taken.is_free(head, Clear::Texts))
+    }
+
+    fn draw(&self, word: &Word, (spot, is_above): (f64, bool), board: &mut Board) {
+        let [low, high] = self.ends(spot, word.bounds.width());
+        for [a, b] in self.leading() {
+            board.line(a, b, NARROW, Kind::Line);
+        }
+        board.line(self.at(low), self.at(high), NARROW, Kind::Line);
+        for (tip, towards) in self.heads() {
+            board.arrow(tip, towards, ARROW);
+        }
+        board.write(word, self.place(word, spot, is_above));
+    }
+}
+
+/// A length that has its place in a row.
+struct Rowed {
+    row: u32,
+    span: [f64; 2],
+}
+
+/// Draws lengths along one side of a view in rows; no value stands where lines will pass later, at `kept` along the side.
+pub(crate) fn rows(rect: Rect, told: &[&Told], kept: &[f64], board: &mut Board) -> Result<(), Error> {
+    let mut order: Vec<usize> = (0..told.len()).collect();
+    let long = |k: usize| told[k].span()[1] - told[k].span()[0];
+    order.sort_by(|a, b| {
+        let low = |k: usize| told[k].span()[0];
+        long(*a).total_cmp(&long(*b)).then(low(*a).total_cmp(&low(*b))).then(a.cmp(b))
+    });
+    let mut done: Vec<Rowed> = Vec::new();
+    for (n, k) in order.iter().enumerate() {
+        let own = told[*k];
+        let word = board.word(&own.text, HIGH)?;
+        let wide = word.bounds.width();
+        let later = order.iter().skip(n + 1).flat_map(|k| told[*k].span());
+        let passing: Vec<f64> = later.chain(kept.iter().copied()).collect();
+        let found = (0..ROWS).find_map(|row| {
+            let line = in_row(own, rect, row);
+            let spot = line.spots(wide).into_iter().find(|spot| {
+                let ends = line.ends(*spot, wide);
+                let span = along(own, [line.at(ends[0]), line.at(ends[1])]);
+                let is_outer = done.iter().all(|other| {
+                    other.row < row || other.span[0] - span[1] >= APART || span[0] - other.span[1] >= APART
+                });
+                let place = line.place(&word, *spot, true);
+                let text = word.shape(place).wider(TEXT_CLEAR).bounds();
+                let text = along(own, [Point::new(text.x0, text.y0), Point::new(text.x1, text.y1)]);
+                is_outer
+                    && !passing.iter().any(|x| text[0] <= *x && *x <= text[1])
+                    && board.is_free(&word, place)
+                    && line.is_free(ends, Clear::Solids, board)
+            })?;
+            Some((row, line, spot))
+        });
+        let Some((row, line, spot)) = found else {
+            board.unplaced.push(format!("the length `{}`", own.text));
+            continue;
+        };
+        let ends = line.ends(spot, wide);
+        done.push(Rowed { row, span: along(own, [line.at(ends[0]), line.at(ends[1])]) });
+        line.draw(&word, (spot, true), board);
+    }
+    Ok(())
+}
+
+/// Two places along the side of a length, rising.
+fn along(told: &Told, [a, b]: [Point; 2]) -> [f64; 2] {
+    let [a, b] = [a, b].map(|p| if told.side.is_across() { p.x } else { p.y });
+    [a.min(b), a.max(b)]
+}
+
+fn in_row(told: &Told, rect: Rect, row: u32) -> DimensionLine {
+    let away = FIRST + STEP * f64::from(row);
+    let out = told.side.outward();
+    let corner = if out.x + out.y < 0.0 { rect.origin() } else { Point::new(rect.x1, rect.y1) };
+    let along = if told.side.is_across() { Vec2::new(1.0, 0.0) } else { Vec2::new(0.0, 1.0) };
+    DimensionLine::new(told.ends, along, corner + out * away)
+}
+
+/// The paper where lines that lead to lengths in no row may pass.
+pub(crate) fn passing<'a>(rect: Rect, told: impl Iterator<Item = &'a Slanted>) -> Occupancy {
+    let mut kept = Occupancy::default();
+    let far = rect.size().to_vec2().hypot2().sqrt() + PASSED;
+    for told in told {
+        let out = outward(told.along);
+        for p in told.ends {
+            kept.take(Shape::line(p - out * far, p + out * far, NARROW).wider(LINE_CLEAR), Kind::Line);
+        }
+    }
+    kept
+}
+
+/// Across a length, to below or the right.
+fn outward(along: Vec2) -> Vec2 {
+    let out = Vec2::new(-along.y, along.x);
+    if out.y < -1e-9 || out.y.abs() <= 1e-9 && out.x < 0.0 { -out } else { out }
+}
+
+/// Draws a length that stands in no row.
+pub(crate) fn slanted(rect: Rect, told: &Slanted, board: &mut Board) -> Result<(), Error> {
+    let word = board.word(&told.text, HIGH)?;
+    let wide = word.bounds.width();
+    let out = outward(told.along);
+    let outer = told.ends.map(|p| p.to_vec2().dot(out));
+    let line = |offset: f64| {
+        let reach = if offset > 0.0 { outer[0].max(outer[1]) } else { outer[0].min(outer[1]) };
+        DimensionLine::new(told.ends, told.along, told.ends[0] + out * (reach - outer[0] + offset))
+    };
+    let offsets: Vec<f64> = told.offset.map_or_else(
+        || {
+            let most = (rect.size().to_vec2().hypot2().sqrt() / FARTHER).ceil().min(200.0) as u32 + 10;
+            let farther = (0..most).map(|k| BESIDE + FARTHER * f64::from(k));
+            farther.flat_map(|offset| [offset, -offset]).collect()
+        },
+        |offset| vec![offset],
+    );
+    for clear in [Clear::Solids, Clear::Texts] {
+        for offset in &offsets {
+            let line = line(*offset);
+            for spot in line.spots(wide) {
+                for is_above in [true, false] {
+                    let is_free = board.is_free(&word, line.place(&word, spot, is_above))
+                        && line.is_free(line.ends(spot, wide), clear, board);
+                    if is_free {
+                        line.draw(&word, (spot, is_above), board);
+                        return Ok(());
+                    }
+                }
+            }
+        }
+    }
+    board.unplaced.push(format!("the length `{}`", told.text));
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_move_along_their_line_and_then_outside() {
+        let line = DimensionLine::new(
+            [Point::new(0.0, 0.0), Point::new(30.0, 0.0)],
+            Vec2::new(1.0, 0.0),
+            Point::new(0.0, 10.0),
+        );
+        let spots = line.spots(10.0);
+        assert_eq!(spots[..3], [0.0, 2.0, -2.0]);
+        assert!(spots.contains(&26.0) && spots.contains(&-26.0));
+        assert_eq!(line.ends(0.0, 10.0), [-15.0, 15.0]);
+        assert_eq!(line.ends(26.0, 10.0), [-15.0, 31.0]);
+        let short = DimensionLine::new([Point::ZERO, Point::new(2.0, 0.0)], Vec2::new(1.0, 0.0), Point::ZERO);
+        assert!(!short.is_inside);
+        assert_eq!(short.spots(4.0)[0], 1.0 + 2.0 * ARROW + 2.0);
+    }
+}

@@ -1,0 +1,161 @@
+//! The annotations of a view: places for dimensions, section marks, letters, titles and balloons.
+//!
+//! Each view has an `AnnotationBoard` with the paper that is occupied, first by the lines of the view. The
+//! kinds take their places one after another, from the most to the least constrained, each the first free
+//! one of its candidates:
+//!
+//! 1. Centre lines, circles of details, section lines within the view.
+//! 2. Ends of section lines near the view, dimensions in rows, slanted dimensions, diameters, the other
+//!    ends.
+//! 3. Letters of details, the title of the view, balloons.
+//!
+//! Annotations reach outside the view. The sheet reserves that margin, so margins never overlap another
+//! view or a table.
+//!
+//! Files, in reading order: `view_drawings`, `centre_lines`, `section_marks`, `dimension_lines`,
+//! `dimension_style`, `diameter_leaders`, `detail_labels`, `balloon_rings`.
+
+mod balloon_rings;
+mod centre_lines;
+mod detail_labels;
+mod diameter_leaders;
+mod dimension_lines;
+mod dimension_style;
+mod section_marks;
+mod view_drawings;
+
+use glam::DVec2;
+use kurbo::{Point, Rect, Vec2};
+
+pub(crate) use crate::page::sheet::canvas::annotation_board::Board;
+pub(crate) use view_drawings::DrawnViews;
+
+use super::arrangement::titles_and_notes;
+use crate::error::Error;
+use crate::page::sheet::arrangement::view_arrangement::{AROUND, ELEMENTS_CLEAR};
+use crate::page::sheet::arrangement::view_plan::Plan;
+use crate::page::sheet::canvas::paper_occupancy::{Kind, Shape};
+use crate::page::sheet::dimensions::dimension_set::{Measures, Slanted};
+use crate::page::sheet::parts_list::parts_list_items::Item;
+use crate::page::sheet::view::view_side::{Side, Told};
+use crate::surface::Cylinder;
+use crate::text::Font;
+use section_marks::CutMark;
+
+/// Clear paper around the place where a leader begins, mm.
+const ANCHOR: f64 = 1.5;
+
+/// What is to be written on the views.
+pub(crate) struct Layout<'a> {
+    pub font: &'a Font,
+    pub measures: &'a Measures,
+    /// Whose centre lines are drawn.
+    pub cylinders: &'a [Cylinder],
+    /// What has balloons, and where it is seen, in units of the model to the right and down from the corner of the view.
+    pub items: &'a [Item],
+    pub anchors: &'a [Option<DVec2>],
+    /// The scale of the sheet.
+    pub scale: f64,
+}
+
+impl Layout<'_> {
+    /// Writes on a view.
+    ///
+    /// # Errors
+    /// If a text cannot be set.
+    pub fn board(&self, view: usize, plan: &Plan, drawn: &DrawnViews) -> Result<Board, Error> {
+        let mut board = Board::new(self.font);
+        let sight = &plan.views[view].sight;
+        let rect = sight.rect();
+        for ([a, b], width) in drawn.chords(view, plan) {
+            board.taken.take(Shape::line(a, b, width), Kind::Geometry);
+        }
+        let anchors: Vec<Option<Point>> = if plan.balloons == Some(view) {
+            let anchor = |at: &Option<DVec2>| at.map(|at| sight.corner + Vec2::new(at.x, at.y) * sight.unit);
+            self.anchors.iter().map(anchor).collect()
+        } else {
+            Vec::new()
+        };
+        // Leaders begin where no text is.
+        for anchor in anchors.iter().flatten() {
+            board.taken.take(Shape::disc(*anchor, ANCHOR), Kind::Geometry);
+        }
+        centre_lines::centre_lines(plan, view, self.cylinders, &mut board);
+        for circled in &plan.circled {
+            if circled.of == view && circled.meets(sight) {
+                detail_labels::circle(sight.page(circled.at), circled.radius * sight.unit, &mut board);
+            }
+            if circled.shown == view {
+                detail_labels::circle(rect.center(), rect.width() / 2.0, &mut board);
+            }
+        }
+        let mut marks = self.cut_marks(view, plan, &mut board);
+        let told: Vec<&Told> =
+            self.measures.lengths.iter().filter(|(of, _)| *of == view).map(|(_, told)| told).collect();
+        let kept = |out: Vec2| -> Vec<f64> {
+            told.iter()
+                .filter(|told| told.side.outward().dot(out) > 0.7)
+                .flat_map(|told| told.span())
+                .collect()
+        };
+        let slanted: Vec<&Slanted> =
+            self.measures.slanted.iter().filter(|(of, _)| *of == view).map(|(_, told)| told).collect();
+        board.kept = dimension_lines::passing(rect, slanted.iter().copied());
+        for mark in &mut marks {
+            mark.place_near(&kept, &mut board)?;
+        }
+        for side in Side::ALL {
+            let own: Vec<&Told> = told.iter().copied().filter(|told| told.side == side).collect();
+            let open: Vec<f64> =
+                marks.iter().filter_map(|mark| mark.open_at(side.is_across(), side.outward())).collect();
+            dimension_lines::rows(rect, &own, &open, &mut board)?;
+        }
+        for (k, own) in slanted.iter().enumerate() {
+            board.kept = dimension_lines::passing(rect, slanted.iter().skip(k + 1).copied());
+            dimension_lines::slanted(rect, own, &mut board)?;
+        }
+        for (_, led) in self.measures.led.iter().filter(|(of, _)| *of == view) {
+            diameter_leaders::draw(rect, led, &mut board)?;
+        }
+        for mark in marks {
+            mark.finish(&mut board)?;
+        }
+        for circled in plan.circled.iter().filter(|circled| circled.of == view && circled.meets(sight)) {
+            let (centre, radius) = (sight.page(circled.at), circled.radius * sight.unit);
+            detail_labels::of_detail(&circled.label, centre, radius, &mut board)?;
+        }
+        if let Some(title) = titles_and_notes::title(plan, view, self.scale) {
+            detail_labels::title(&title, rect, &mut board)?;
+        }
+        balloon_rings::draw(rect, self.items, &anchors, &mut board)?;
+        Ok(board)
+    }
+
+    /// The planes that are marked on a view, those first whose arrows lie on none of the others.
+    fn cut_marks(&self, view: usize, plan: &Plan, board: &mut Board) -> Vec<CutMark> {
+        let sight = &plan.views[view].sight;
+        let rect = sight.rect();
+        let mut marks: Vec<CutMark> = Vec::new();
+        for cut in plan.cuts.iter().filter(|cut| titles_and_notes::crossed(plan, cut) == Some(view)) {
+            let normal = cut.plane.normal();
+            // Towards the eye of the section, on the page.
+            let back = sight.page(plan.middle + normal) - sight.page(plan.middle);
+            let back = back / back.hypot2().sqrt();
+            let on = sight.page(plan.middle - normal * cut.plane.distance(plan.middle));
+            marks.push(CutMark::new(&cut.label, on, back, rect));
+        }
+        marks.sort_by(|a, b| b.depth().total_cmp(&a.depth()));
+        for mark in &marks {
+            mark.take_inside(board);
+        }
+        marks
+    }
+
+    /// The room that a view needs for what is written on it, more than it has anyway, mm: on the left, above, on the right, below.
+    pub fn room(board: &Board, rect: Rect) -> [f64; 4] {
+        let Some(extents) = board.extents() else { return [0.0; 4] };
+        let own = AROUND - ELEMENTS_CLEAR;
+        let past = [rect.x0 - extents.x0, rect.y0 - extents.y0, extents.x1 - rect.x1, extents.y1 - rect.y1];
+        past.map(|past| (past - own).max(0.0))
+    }
+}

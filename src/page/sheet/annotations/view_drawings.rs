@@ -1,0 +1,116 @@
+//! [`DrawnViews`]: the drawings of the views, and the lines that take paper.
+//!
+//! A view is drawn at one size. While the sheet is arranged its lines are scaled; it is drawn anew once its size is settled.
+
+use kurbo::{Point, Shape as _, Vec2};
+
+use crate::drawing::{Item, Paint};
+use crate::error::Error;
+use crate::page::sheet::arrangement::titles_and_notes::circle_of;
+use crate::page::sheet::arrangement::view_plan::Plan;
+use crate::page::sheet::canvas::annotation_board::flat_lines;
+use crate::page::sheet::view::sheet_view::RIM;
+use crate::pipeline::Prepared;
+
+/// How far polygons may be from curves that are cut off at a circle, mm.
+const TOLERANCE: f64 = 0.01;
+
+/// The drawing of a view.
+struct DrawnView {
+    item: Item,
+    warnings: Vec<String>,
+    /// Length on paper of a unit of the model when it was drawn.
+    unit: f64,
+    /// Its lines, from the corner of the view, and their widths.
+    chords: Vec<([Vec2; 2], f64)>,
+}
+
+/// The drawings of the views.
+pub(crate) struct DrawnViews<'a> {
+    prepared: Vec<Option<Prepared<'a>>>,
+    views: Vec<Option<DrawnView>>,
+}
+
+impl<'a> DrawnViews<'a> {
+    /// None yet, of scenes that are prepared.
+    pub fn new(prepared: Vec<Option<Prepared<'a>>>, views: usize) -> Self {
+        Self { prepared, views: (0..views).map(|_| None).collect() }
+    }
+
+    /// Draws the views that are not drawn at their size. Reports whether there were any.
+    ///
+    /// # Errors
+    /// If one cannot be drawn.
+    pub fn update(&mut self, plan: &Plan) -> Result<bool, Error> {
+        let mut any = false;
+        for view in 0..plan.views.len() {
+            let unit = plan.views[view].sight.unit;
+            if self.views[view].as_ref().is_none_or(|drawn| (drawn.unit / unit - 1.0).abs() > 1e-12) {
+                self.views[view] = self.drawn(view, plan)?;
+                any = true;
+            }
+        }
+        Ok(any)
+    }
+
+    fn drawn(&self, view: usize, plan: &Plan) -> Result<Option<DrawnView>, Error> {
+        let sight = &plan.views[view].sight;
+        let Some(prepared) = self.prepared.get(plan.set_of[view]).and_then(Option::as_ref) else {
+            return Ok(None);
+        };
+        let (mut item, mut warnings) = sight.item(prepared)?;
+        if let Some(circled) = plan.circled.iter().find(|circled| circled.shown == view) {
+            let circle = item.place.inverse() * circle_of(sight).to_path(1e-4);
+            item.drawing.cut(&circle, TOLERANCE);
+            if item.drawing.layers.iter().all(|layer| layer.marks.is_empty()) {
+                // Says more than that the drawing is empty.
+                warnings.clear();
+                warnings.push(format!(
+                    "the detail `{}` shows nothing: no line of the model is in its circle; move `at` or \
+                     make `radius` larger",
+                    circled.label
+                ));
+            }
+        }
+        let mut chords = Vec::new();
+        let corner = Vec2::new(RIM, RIM);
+        for mark in item.drawing.layers.iter().flat_map(|layer| &layer.marks) {
+            let width = if let Paint::Stroke(stroke) = &mark.paint { stroke.width } else { 0.0 };
+            flat_lines(&mark.path, |a, b| {
+                chords.push(([a, b].map(|p: Point| p.to_vec2() - corner), width));
+            });
+        }
+        Ok(Some(DrawnView { item, warnings, unit: sight.unit, chords }))
+    }
+
+    /// The lines of a view where it stands, and their widths.
+    pub fn chords(&self, view: usize, plan: &Plan) -> impl Iterator<Item = ([Point; 2], f64)> + '_ {
+        let sight = &plan.views[view].sight;
+        let (corner, unit) = (sight.corner, sight.unit);
+        let of = move |drawn: &'_ DrawnView| {
+            let larger = unit / drawn.unit;
+            drawn
+                .chords
+                .iter()
+                .map(move |(ends, width)| (ends.map(|p| corner + p * larger), *width))
+                .collect::<Vec<_>>()
+        };
+        self.views[view].as_ref().map(of).unwrap_or_default().into_iter()
+    }
+
+    /// The drawings where they stand, and their warnings, each once.
+    pub fn into_items(self, plan: &Plan) -> (Vec<Item>, Vec<String>) {
+        let (mut items, mut warnings) = (Vec::new(), Vec::new());
+        for (view, drawn) in self.views.into_iter().enumerate() {
+            let Some(drawn) = drawn else { continue };
+            items.push(Item { place: plan.views[view].sight.place(), ..drawn.item });
+            let scene = &plan.sets[plan.set_of[view]].scene;
+            for warning in scene.warnings.lines().into_iter().chain(drawn.warnings) {
+                if !warnings.contains(&warning) {
+                    warnings.push(warning);
+                }
+            }
+        }
+        (items, warnings)
+    }
+}

@@ -1,0 +1,75 @@
+//! [`Room`]: free places of a sheet, into which views are put one after the other.
+
+use kurbo::{Point, Rect};
+
+/// Rounding of places on a sheet, mm.
+const SLACK: f64 = 1e-6;
+
+/// Whether a rectangle lies in another one.
+fn holds(outer: Rect, rect: Rect) -> bool {
+    outer.inflate(SLACK, SLACK).contains_rect(rect)
+}
+
+/// The free places of a sheet: the largest rectangles that nothing is in.
+#[derive(Debug, Clone)]
+pub(crate) struct Room {
+    free: Vec<Rect>,
+}
+
+impl Room {
+    pub fn new(space: Rect) -> Self {
+        Self { free: vec![space] }
+    }
+
+    /// Puts a rectangle of that size where it fits best, upper left; `None` where it does not.
+    pub fn put(&mut self, width: f64, height: f64) -> Option<Rect> {
+        let fits = |rect: &&Rect| rect.width() >= width && rect.height() >= height;
+        let left = |rect: &Rect| (rect.width() - width).min(rect.height() - height);
+        let best = self.free.iter().filter(fits).min_by(|a, b| {
+            left(a).total_cmp(&left(b)).then(a.y0.total_cmp(&b.y0)).then(a.x0.total_cmp(&b.x0))
+        })?;
+        let place = Rect::from_origin_size(Point::new(best.x0, best.y0), (width, height));
+        self.take(place);
+        Some(place)
+    }
+
+    /// Whether nothing is in a rectangle.
+    pub fn has(&self, rect: Rect) -> bool {
+        self.free.iter().any(|own| holds(*own, rect))
+    }
+
+    /// The largest free place that a rectangle lies in.
+    pub fn around(&self, rect: Rect) -> Option<Rect> {
+        let places = self.free.iter().filter(|own| holds(**own, rect)).copied();
+        places.max_by(|a, b| a.area().total_cmp(&b.area()))
+    }
+
+    /// Takes a rectangle away.
+    pub fn take(&mut self, taken: Rect) {
+        let mut left = Vec::new();
+        for rect in std::mem::take(&mut self.free) {
+            let both = rect.intersect(taken);
+            if both.width() <= 0.0 || both.height() <= 0.0 {
+                left.push(rect);
+                continue;
+            }
+            left.extend([
+                Rect { x1: taken.x0, ..rect },
+                Rect { x0: taken.x1, ..rect },
+                Rect { y1: taken.y0, ..rect },
+                Rect { y0: taken.y1, ..rect },
+            ]);
+        }
+        left.retain(|rect| rect.width() > 1.0 && rect.height() > 1.0);
+        let inside = |k: usize, rect: &Rect| {
+            left.iter().enumerate().any(|(n, other)| {
+                let holds =
+                    other.x0 <= rect.x0 && other.y0 <= rect.y0 && other.x1 >= rect.x1 && other.y1 >= rect.y1;
+                n != k && holds && (other != rect || n < k)
+            })
+        };
+        let kept: Vec<Rect> =
+            left.iter().enumerate().filter(|(k, rect)| !inside(*k, rect)).map(|(_, rect)| *rect).collect();
+        self.free = kept;
+    }
+}

@@ -1,0 +1,324 @@
+//! [`Plan`]: the views of a sheet, and the scenes they show.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use toml::Spanned;
+
+use super::view_arrangement::{Placed, Stands};
+use crate::edit::explode::{explode, with_trails};
+use crate::edit::section::{CutPlane, Plane, cut};
+use crate::error::Error;
+use crate::geometry::names::glob::Glob;
+use crate::lines::HiddenLines;
+use crate::page::figure;
+use crate::page::page_source::Source;
+use crate::page::sheet::keys::explosion_keys;
+use crate::page::sheet::keys::sheet_keys::{DetailKeys, SheetPage};
+use crate::page::sheet::lengths::length_format::Values;
+use crate::page::sheet::lengths::true_length::Foreshortening;
+use crate::page::sheet::view::scale_series;
+use crate::page::sheet::view::sheet_view::Sight;
+use crate::pipeline::{hatched_for, trailed};
+use crate::scene::cameras::framing::world_points;
+use crate::scene::{Camera, NamedView, Scene};
+use crate::style::Style;
+use crate::surface::Cylinder;
+
+/// A scene, and the style it is drawn in.
+pub(crate) struct Set {
+    pub scene: Scene,
+    pub style: Style,
+}
+
+/// A plane that a section goes through, and the letter at both its ends.
+pub(crate) struct CutLine {
+    pub label: String,
+    pub plane: Plane,
+    /// The view that shows what it leaves, and parts that are not cut.
+    pub shown: usize,
+    pub uncut: Vec<Glob>,
+}
+
+/// A circle around what is shown larger, in a view.
+pub(crate) struct Circled {
+    pub label: String,
+    /// The view it is in, and the one that shows it.
+    pub of: usize,
+    pub shown: usize,
+    pub at: DVec3,
+    pub radius: f64,
+}
+
+impl Circled {
+    /// Whether the circle reaches into a view; one that does not is not drawn there.
+    pub fn meets(&self, sight: &Sight) -> bool {
+        let radius = self.radius * sight.unit;
+        sight.rect().inflate(radius, radius).contains(sight.page(self.at))
+    }
+}
+
+/// The views of a sheet, and the scenes they show.
+pub(crate) struct Plan {
+    /// The whole model first.
+    pub sets: Vec<Arc<Set>>,
+    pub views: Vec<Placed>,
+    /// For each view its set.
+    pub set_of: Vec<usize>,
+    pub cuts: Vec<CutLine>,
+    pub circled: Vec<Circled>,
+    /// How lengths are written.
+    pub values: Values,
+    /// The middle of the model.
+    pub middle: DVec3,
+    /// The view with balloons, if any.
+    pub balloons: Option<usize>,
+}
+
+/// Places nearer than this share of a radius are the same: what single precision leaves of cylinders.
+const SAME: f64 = 5e-3;
+
+/// Views in which a section is taken from, by preference.
+const SIDES: [NamedView; 6] =
+    [NamedView::Front, NamedView::Left, NamedView::Top, NamedView::Right, NamedView::Bottom, NamedView::Back];
+
+impl Plan {
+    /// Reads the model, cuts it and takes it apart.
+    ///
+    /// # Errors
+    /// Points to the key that is wrong.
+    pub fn new(sheet: &SheetPage, source: &Source) -> Result<Self, Error> {
+        let name = sheet.style.clone().unwrap_or_else(|| Spanned::new(0..0, "technical".to_owned()));
+        let mut style = figure::style(&name, &sheet.set, source)?.to_scale();
+        style.lines.hidden = if sheet.hidden { HiddenLines::Dashed } else { HiddenLines::None };
+        if sheet.model.0.is_empty() {
+            return Err(Error::new("this sheet has no model")
+                .in_file(&source.path)
+                .remedy("name one: model = \"part.glb\""));
+        }
+        let scene = figure::staged(&sheet.model, None, None, &style, source)?;
+        let values = Values::new(sheet, scene.format == "glTF", source)?;
+        let (low, high) = scene.bounds().ok_or_else(|| {
+            Error::new("the model has nothing to draw").in_file(&source.path).remedy("name another one")
+        })?;
+        let points = world_points(&scene);
+        let mut plan = Self {
+            sets: Vec::new(),
+            views: Vec::new(),
+            set_of: Vec::new(),
+            cuts: Vec::new(),
+            circled: Vec::new(),
+            values,
+            middle: (low + high) / 2.0,
+            balloons: None,
+        };
+        let mut pictorial = style.clone();
+        pictorial.lines.hidden = HiddenLines::None;
+        let names = |text: &str| Spanned::new(0..0, text.to_owned());
+        let views = sheet.views.clone().unwrap_or_else(|| ["front", "top", "left", "iso"].map(names).into());
+        let views = views.iter().map(|name| named(name, source)).collect::<Result<Vec<_>, _>>()?;
+        for view in &views {
+            let stands = if SIDES.contains(view) { Stands::Beside(*view) } else { Stands::Pictorial };
+            let camera = Camera::named(*view, scene.up);
+            plan.add(view.name(), camera, &points, (0, stands));
+        }
+        plan.sets.push(Arc::new(Set { scene, style: style.clone() }));
+        plan.add_sections(sheet, &views, (&points, &pictorial), source)?;
+        if sheet.hidden && views.iter().any(|view| !SIDES.contains(view)) {
+            let scene = plan.sets[0].scene.clone();
+            plan.sets.push(Arc::new(Set { scene, style: pictorial.clone() }));
+            for (placed, set) in plan.views.iter().zip(&mut plan.set_of) {
+                if *set == 0 && placed.stands == Stands::Pictorial {
+                    *set = plan.sets.len() - 1;
+                }
+            }
+        }
+        plan.add_exploded(sheet, &pictorial, source)?;
+        plan.choose_balloons(sheet, source)?;
+        let letters = plan.cuts.len();
+        for (k, detail) in sheet.detail.iter().enumerate() {
+            plan.add_detail(detail, letters + k, source)?;
+        }
+        Ok(plan)
+    }
+
+    fn add(&mut self, name: &str, camera: Camera, points: &[DVec3], (set, stands): (usize, Stands)) {
+        let known = self.views.iter().filter(|view| view.sight.name.starts_with(name)).count();
+        let name = if known == 0 { name.to_owned() } else { format!("{name}-{}", known + 1) };
+        let sight = Sight::new(&name, camera, self.middle, points);
+        self.views.push(Placed::new(sight, stands));
+        self.set_of.push(set);
+    }
+
+    fn add_sections(
+        &mut self,
+        sheet: &SheetPage,
+        views: &[NamedView],
+        (points, style): (&[DVec3], &Style),
+        source: &Source,
+    ) -> Result<(), Error> {
+        let mut taken: Vec<NamedView> = views.to_vec();
+        for (k, keys) in sheet.section.iter().enumerate() {
+            let whole = &self.sets[0].scene;
+            let span = keys.plane.span();
+            let wrong = |message: String| source.fault(&span, "this is not a plane", &message);
+            let told = CutPlane::parse(keys.plane.get_ref()).map_err(wrong)?;
+            let (normal, _) = told.normal();
+            let forward = |view: &NamedView| Camera::named(*view, whole.up).axes()[2];
+            let preferred = SIDES.iter().map(forward).find(|forward| forward.dot(normal).abs() > 1.0 - 1e-9);
+            let plane = told
+                .of(whole, self.unit_mm(), preferred.unwrap_or(-normal))
+                .map_err(|error| source.about(&span, error))?;
+            let side = SIDES.into_iter().find(|view| forward(view).dot(plane.normal()) < -1.0 + 1e-9);
+            let camera = side.map_or_else(|| looking_at(&plane, whole), |view| Camera::named(view, whole.up));
+            let uncut: Vec<Glob> = keys.uncut.iter().map(|glob| Glob::new(glob.as_str())).collect();
+            let mut section = cut(whole.clone(), &plane, &uncut);
+            let style = hatched_for(style, &mut section.scene, &mut section.faces, &[camera]);
+            self.sets.push(Arc::new(Set { scene: std::mem::take(&mut section.scene), style }));
+            let stands = match side.filter(|view| !taken.contains(view)) {
+                Some(view) => {
+                    taken.push(view);
+                    Stands::Beside(view)
+                }
+                None => Stands::Alone,
+            };
+            let label = keys.label.clone().unwrap_or_else(|| letter(k));
+            let set = self.sets.len() - 1;
+            self.add(&format!("section-{label}"), camera, points, (set, stands));
+            if let Some(placed) = self.views.last_mut() {
+                placed.sight.title = Some(format!("{label}-{label}"));
+            }
+            self.cuts.push(CutLine { label, plane, shown: self.views.len() - 1, uncut });
+        }
+        Ok(())
+    }
+
+    fn add_exploded(&mut self, sheet: &SheetPage, style: &Style, source: &Source) -> Result<(), Error> {
+        let Some(keys) = &sheet.exploded else { return Ok(()) };
+        let view = keys.view.as_ref().map_or(Ok(NamedView::Iso), |view| named(view, source))?;
+        let whole = &self.sets[0].scene;
+        let ways = explode(whole, &explosion_keys::explosion(keys, whole, source)?);
+        let scene = with_trails(whole.clone(), &ways);
+        let (points, camera) = (world_points(&scene), Camera::named(view, scene.up));
+        self.sets.push(Arc::new(Set { scene, style: trailed(style) }));
+        let set = self.sets.len() - 1;
+        self.add("exploded", camera, &points, (set, Stands::Free));
+        Ok(())
+    }
+
+    fn choose_balloons(&mut self, sheet: &SheetPage, source: &Source) -> Result<(), Error> {
+        if !sheet.has_parts_list() {
+            return Ok(());
+        }
+        let find = |name: &str| self.views.iter().position(|view| view.sight.name == name);
+        let chosen = match &sheet.balloons {
+            Some(name) if name.get_ref() == "none" => None,
+            Some(name) => Some(self.view(name, source)?),
+            None => find("exploded").or_else(|| find("iso")).or(Some(0)),
+        };
+        self.balloons = chosen;
+        Ok(())
+    }
+
+    fn add_detail(&mut self, keys: &DetailKeys, number: usize, source: &Source) -> Result<(), Error> {
+        let of = keys.of.as_ref().map_or(Ok(0), |of| self.view(of, source))?;
+        let radius = *keys.radius.get_ref();
+        if !(radius.is_finite() && radius > 0.0) {
+            return Err(source.fault(
+                &keys.radius.span(),
+                "this is not a radius",
+                "write units of the model above 0",
+            ));
+        }
+        let label = keys.label.clone().unwrap_or_else(|| letter(number));
+        let at = DVec3::from_array(keys.at);
+        let mut sight = self.views[of].sight.around(&format!("detail-{label}"), at, radius);
+        sight.title = Some(label.clone());
+        // Twice or two and a half times as large for each step of the series; two of them are about five times.
+        let stands = match &keys.scale {
+            None => Stands::Enlarged(5.0),
+            Some(told) => Stands::At(read_scale(told, source)?),
+        };
+        self.circled.push(Circled { label, of, shown: self.views.len(), at, radius });
+        self.views.push(Placed::new(sight, stands));
+        self.set_of.push(self.set_of[of]);
+        Ok(())
+    }
+
+    /// Millimetres in a unit of the model.
+    pub fn unit_mm(&self) -> f64 {
+        self.values.unit_mm()
+    }
+
+    /// How lengths in a view relate to those of the model.
+    pub fn foreshortening(&self, view: usize) -> Foreshortening {
+        let shown = self.circled.iter().find(|circled| circled.shown == view);
+        match (shown, self.views[view].stands) {
+            (Some(detail), _) => self.foreshortening(detail.of),
+            (None, Stands::Pictorial) => Foreshortening::Pictorial,
+            (None, Stands::Free) => Foreshortening::Moved,
+            (None, _) => Foreshortening::None,
+        }
+    }
+
+    /// What a section leaves of a cylinder; all of it where there is none.
+    pub fn left_of(&self, cylinder: &Cylinder, section: Option<&CutLine>) -> Option<Cylinder> {
+        let Some(section) = section else { return Some(*cylinder) };
+        let scene = &self.sets[0].scene;
+        let part = scene.parts.get(cylinder.part.index());
+        if let Some(part) = part.filter(|part| section.uncut.iter().any(|glob| glob.matches(&part.name))) {
+            let positions = scene.geometry_of(part).map(|geometry| &*geometry.positions).unwrap_or_default();
+            let is_behind = |p: &DVec3| section.plane.side(part.world_from_part.transform_point3(*p)) < 0;
+            return positions.iter().any(is_behind).then_some(*cylinder);
+        }
+        let away = cylinder.ends.map(|end| section.plane.distance(cylinder.point + cylinder.axis * end));
+        let near = SAME * cylinder.radius;
+        if (away[0] - away[1]).abs() <= near {
+            return (away[0] <= near).then_some(*cylinder);
+        }
+        // The end that lies in front of the plane comes to lie in it.
+        let share = away[0] / (away[0] - away[1]);
+        let at = cylinder.ends[0] + share * (cylinder.ends[1] - cylinder.ends[0]);
+        let ends = [0, 1].map(|k| if away[k] > 0.0 { at } else { cylinder.ends[k] });
+        ((ends[1] - ends[0]).abs() > near).then_some(Cylinder { ends, ..*cylinder })
+    }
+
+    /// The plane of a section that a view shows.
+    pub fn cut_of(&self, view: usize) -> Option<&CutLine> {
+        self.cuts.iter().find(|cut| cut.shown == view)
+    }
+
+    /// The number of a view by its name.
+    pub fn view(&self, name: &Spanned<String>, source: &Source) -> Result<usize, Error> {
+        let names: Vec<&str> = self.views.iter().map(|view| view.sight.name.as_str()).collect();
+        names
+            .iter()
+            .position(|known| known == name.get_ref())
+            .ok_or_else(|| source.unknown(name, "view on this sheet", &names))
+    }
+}
+
+/// Reads a scale.
+pub(crate) fn read_scale(told: &Spanned<String>, source: &Source) -> Result<f64, Error> {
+    scale_series::read(told.get_ref())
+        .ok_or_else(|| source.fault(&told.span(), "this is not a scale", "write such as 1:5 or 2:1"))
+}
+
+fn named(name: &Spanned<String>, source: &Source) -> Result<NamedView, Error> {
+    let known: Vec<&str> = NamedView::ALL.map(NamedView::name).into();
+    NamedView::parse(name.get_ref()).ok_or_else(|| source.unknown(name, "view", &known))
+}
+
+/// A, B, C and so on.
+fn letter(number: usize) -> String {
+    let letters: Vec<char> = ('A'..='Z').filter(|c| !matches!(c, 'I' | 'O' | 'Q')).collect();
+    letters.get(number).map_or_else(|| format!("S{number}"), char::to_string)
+}
+
+/// A camera that looks at a plane from the front.
+fn looking_at(plane: &Plane, scene: &Scene) -> Camera {
+    let up = Camera::named(NamedView::Front, scene.up).up;
+    let normal = plane.normal();
+    let up = if normal.cross(up).length() < 1e-6 { Camera::named(NamedView::Top, scene.up).up } else { up };
+    Camera { eye: normal, target: DVec3::ZERO, up, ..Camera::named(NamedView::Front, scene.up) }
+}

@@ -1,0 +1,255 @@
+//! [`Occupancy`]: the paper that is taken by what is drawn.
+//!
+//! Everything is a convex shape with a margin: a disc is a point, a line a segment, a text a box. Long lines are cut into pieces. A grid
+//! of square cells lists the shapes that reach into each cell, so that a query looks at the shapes near it alone. Two shapes are as far
+//! apart as the nearest two of their sides; shapes of which one holds the other touch.
+//!
+//! Each shape is of a [`Kind`]. Texts and balloons need clear paper; lines may cross lines, but nothing solid.
+
+use kurbo::{Point, Rect, Vec2};
+use rustc_hash::FxHashMap;
+
+use crate::geometry::plane::planar_distance::distance2;
+use crate::page::sheet::part_balloons::leader_assignment::cross;
+
+/// Side of a cell of the grid, mm.
+const CELL: f64 = 5.0;
+
+/// What takes paper.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Lines and areas of a view: edges, hatching, centre lines.
+    Geometry,
+    /// Lines that are written on a view: of dimensions, of cutting planes, around details.
+    Line,
+    /// Lines that lead to a text or a balloon.
+    Leader,
+    /// Heads of arrows.
+    Arrow,
+    /// Texts and balloons: nothing may touch them.
+    Solid,
+}
+
+/// What a shape must keep clear of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Clear {
+    /// Everything: texts, arrows, balloons.
+    All,
+    /// Texts, balloons and arrows: lines.
+    Solids,
+    /// Texts and balloons: lines that have no other place.
+    Texts,
+    /// Texts, balloons, arrows and leaders: leaders.
+    Leaders,
+}
+
+/// A convex shape on the page and a margin around it, mm.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Shape {
+    corners: [Point; 4],
+    count: usize,
+    margin: f64,
+}
+
+impl Shape {
+    /// A disc.
+    pub fn disc(centre: Point, radius: f64) -> Self {
+        Self { corners: [centre; 4], count: 1, margin: radius }
+    }
+
+    /// A line of a width.
+    pub fn line(a: Point, b: Point, width: f64) -> Self {
+        Self { corners: [a, b, b, b], count: 2, margin: width / 2.0 }
+    }
+
+    /// A rectangle.
+    #[cfg(test)]
+    fn rect(rect: Rect) -> Self {
+        Self::turned(rect.center(), Vec2::new(rect.width() / 2.0, 0.0), Vec2::new(0.0, rect.height() / 2.0))
+    }
+
+    /// A rectangle around a point, from there to the middles of its sides.
+    pub fn turned(middle: Point, along: Vec2, across: Vec2) -> Self {
+        let corners = [-along - across, along - across, along + across, across - along].map(|v| middle + v);
+        Self { corners, count: 4, margin: 0.0 }
+    }
+
+    /// A triangle.
+    pub fn triangle([a, b, c]: [Point; 3]) -> Self {
+        Self { corners: [a, b, c, c], count: 3, margin: 0.0 }
+    }
+
+    /// The same with a wider margin.
+    pub fn wider(self, by: f64) -> Self {
+        Self { margin: self.margin + by, ..self }
+    }
+
+    /// The box around it.
+    pub fn bounds(&self) -> Rect {
+        let corners = &self.corners[..self.count];
+        let first = Rect::from_points(corners[0], corners[0]);
+        corners.iter().fold(first, |rect, p| rect.union_pt(*p)).inflate(self.margin, self.margin)
+    }
+
+    fn sides(&self) -> impl Iterator<Item = [Point; 2]> + '_ {
+        let count = if self.count > 2 { self.count } else { 1 };
+        (0..count).map(|k| [self.corners[k], self.corners[(k + 1) % self.count]])
+    }
+
+    fn holds(&self, p: Point) -> bool {
+        let turn = |[a, b]: [Point; 2]| (b - a).cross(p - a);
+        self.count > 2
+            && (self.sides().all(|side| turn(side) >= 0.0) || self.sides().all(|side| turn(side) <= 0.0))
+    }
+
+    /// Whether two shapes are nearer than their margins.
+    pub fn touches(&self, other: &Self) -> bool {
+        let near = self.margin + other.margin;
+        self.holds(other.corners[0])
+            || other.holds(self.corners[0])
+            || self
+                .sides()
+                .any(|a| other.sides().any(|b| is_crossed(a, b) || squared_distance(a, b) < near * near))
+    }
+}
+
+/// Whether two segments cross; points cross nothing.
+fn is_crossed(one: [Point; 2], other: [Point; 2]) -> bool {
+    one[0] != one[1] && other[0] != other[1] && cross(one, other)
+}
+
+/// The square of the distance between two segments that do not cross.
+fn squared_distance(one: [Point; 2], other: [Point; 2]) -> f64 {
+    let from = |p: Point, [a, b]: [Point; 2]| distance2(p, a, b);
+    let ends = [from(one[0], other), from(one[1], other), from(other[0], one), from(other[1], one)];
+    ends.into_iter().fold(f64::INFINITY, f64::min)
+}
+
+/// Shapes by the cells of the grid that they reach into.
+#[derive(Debug, Clone, Default)]
+struct Cells {
+    shapes: Vec<(Shape, Rect, Kind)>,
+    cells: FxHashMap<[i32; 2], Vec<u32>>,
+}
+
+impl Cells {
+    fn add(&mut self, shape: Shape, kind: Kind) {
+        let bounds = shape.bounds();
+        if !bounds.is_finite() {
+            return;
+        }
+        let number = self.shapes.len() as u32;
+        self.shapes.push((shape, bounds, kind));
+        for cell in cells(bounds) {
+            self.cells.entry(cell).or_default().push(number);
+        }
+    }
+
+    fn any(&self, shape: &Shape, matters: impl Fn(Kind) -> bool) -> bool {
+        let bounds = shape.bounds();
+        for cell in cells(bounds) {
+            for number in self.cells.get(&cell).into_iter().flatten() {
+                let (other, its, kind) = &self.shapes[*number as usize];
+                if matters(*kind) && its.overlaps(bounds) && other.touches(shape) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+}
+
+/// The paper that is taken.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Occupancy {
+    /// The lines of the view, which are many.
+    geometry: Cells,
+    /// What is written on it.
+    written: Cells,
+}
+
+impl Occupancy {
+    /// Takes the paper of a shape.
+    pub fn take(&mut self, shape: Shape, kind: Kind) {
+        let own = if kind == Kind::Geometry { &mut self.geometry } else { &mut self.written };
+        for piece in pieces(shape) {
+            own.add(piece, kind);
+        }
+    }
+
+    /// Whether a shape may lie where it does.
+    pub fn is_free(&self, shape: &Shape, clear: Clear) -> bool {
+        let matters = |kind: Kind| match clear {
+            Clear::All => true,
+            Clear::Solids => matches!(kind, Kind::Solid | Kind::Arrow),
+            Clear::Texts => kind == Kind::Solid,
+            Clear::Leaders => matches!(kind, Kind::Solid | Kind::Arrow | Kind::Leader),
+        };
+        !pieces(*shape).any(|piece| {
+            self.written.any(&piece, matters) || clear == Clear::All && self.geometry.any(&piece, matters)
+        })
+    }
+}
+
+/// A line as pieces that reach into few cells; other shapes whole.
+fn pieces(shape: Shape) -> impl Iterator<Item = Shape> {
+    let [a, b] = [shape.corners[0], shape.corners[1]];
+    let count = if shape.count == 2 {
+        ((b - a).hypot2().sqrt() / (2.0 * CELL)).ceil().clamp(1.0, 1000.0) as u32
+    } else {
+        1
+    };
+    (0..count).map(move |k| {
+        let at = |k: u32| a.lerp(b, f64::from(k) / f64::from(count));
+        if count == 1 { shape } else { Shape::line(at(k), at(k + 1), 2.0 * shape.margin) }
+    })
+}
+
+/// The cells that a box reaches into.
+fn cells(bounds: Rect) -> impl Iterator<Item = [i32; 2]> {
+    const FAR: f64 = 1e4;
+    let cell = |x: f64| (x.clamp(-FAR, FAR) / CELL).floor() as i32;
+    let (columns, rows) = (cell(bounds.x0)..=cell(bounds.x1), cell(bounds.y0)..=cell(bounds.y1));
+    rows.flat_map(move |y| columns.clone().map(move |x| [x, y]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn shapes_touch_where_they_are_nearer_than_their_margins() {
+        let p = Point::new;
+        let text = Shape::rect(Rect::new(0.0, 0.0, 10.0, 4.0));
+        for (shape, touches) in [
+            (Shape::line(p(-5.0, 2.0), p(15.0, 2.0), 0.25), true),
+            (Shape::line(p(4.0, 2.0), p(6.0, 2.0), 0.25), true),
+            (Shape::line(p(-5.0, 5.0), p(15.0, 5.0), 0.25), false),
+            (Shape::line(p(-5.0, 5.0), p(15.0, 5.0), 0.25).wider(1.0), true),
+            (Shape::disc(p(5.0, 2.0), 0.1), true),
+            (Shape::disc(p(13.0, 8.0), 4.9), false),
+            (Shape::disc(p(13.0, 8.0), 5.1), true),
+            (Shape::triangle([p(12.0, -4.0), p(12.0, 8.0), p(11.0, 2.0)]), false),
+            (Shape::triangle([p(12.0, -4.0), p(12.0, 8.0), p(9.0, 2.0)]), true),
+            (Shape::rect(Rect::new(-9.0, -9.0, 30.0, 30.0)), true),
+        ] {
+            let mut taken = Occupancy::default();
+            taken.take(shape, Kind::Line);
+            assert_eq!(text.touches(&shape), touches, "{shape:?}");
+            assert_eq!(shape.touches(&text), touches, "{shape:?}");
+            assert_eq!(!taken.is_free(&text, Clear::All), touches, "{shape:?}");
+            assert!(taken.is_free(&text, Clear::Solids));
+        }
+    }
+
+    #[test]
+    fn long_lines_are_found_all_along() {
+        let mut taken = Occupancy::default();
+        taken.take(Shape::line(Point::new(-500.0, -250.0), Point::new(500.0, 250.0), 0.5), Kind::Leader);
+        for k in -49..50 {
+            let at = Point::new(10.0 * f64::from(k), 5.0 * f64::from(k));
+            assert!(!taken.is_free(&Shape::disc(at, 0.1), Clear::Leaders), "{k}");
+            assert!(taken.is_free(&Shape::disc(at + Vec2::new(0.0, 2.0), 1.0), Clear::Leaders), "{k}");
+        }
+    }
+}

@@ -1,5 +1,0 @@
-//! The size of letters and arrows of dimensions (ISO 129-1).
-
-/// Height of values, and length of arrows, mm.
-pub(super) const HIGH: f64 = 3.5;
-pub(super) const ARROW: f64 = 3.0;

@@ -1,0 +1,154 @@
+//! [`rounds`]: the diameters that views tell by themselves: of whole cylinders that are seen along their axes, with nothing before them.
+
+use glam::DVec3;
+
+use crate::mesh::{FaceId, Mesh};
+use crate::page::sheet::arrangement::view_arrangement::Stands;
+use crate::page::sheet::arrangement::view_plan::Plan;
+use crate::page::sheet::lengths::length_precision::Precision;
+use crate::page::sheet::view::sheet_view::Sight;
+use crate::surface::{Cylinder, cylinders};
+use crate::view::View;
+use crate::view::raster::{FaceBuffer, Screen};
+
+/// Cylinders of one radius along one axis in a view.
+#[derive(Debug, Clone)]
+pub(crate) struct Round {
+    /// The view they are told in.
+    pub view: usize,
+    pub radius: f64,
+    /// What the input carries of the radius and of the places.
+    pub precision: Precision,
+    pub hollow: bool,
+    /// Places of their axes.
+    pub centres: Vec<DVec3>,
+    /// The middle and the radius of the circle they stand on, if they are three or more that do.
+    pub pitch: Option<(DVec3, f64)>,
+}
+
+/// So much of a turn is a whole cylinder, radians.
+const WHOLE: f64 = 5.8;
+
+/// Places that differ by less than this share of the radius are the same.
+const SAME: f64 = 5e-3;
+
+/// Pixels along the longer side of a view in which is asked what stands before what.
+const PIXELS: f64 = 900.0;
+
+/// More of them are told in no view.
+const MOST: usize = 8;
+
+/// The whole cylinders of a mesh.
+pub(crate) fn whole(mesh: &Mesh) -> Vec<Cylinder> {
+    cylinders(mesh).into_iter().filter(|cylinder| cylinder.arc > WHOLE).collect()
+}
+
+/// The rounds of all views from the sides, each in the first view that shows it, the largest first.
+pub(crate) fn rounds(plan: &Plan) -> Vec<Round> {
+    let mesh = Mesh::build(plan.sets[0].scene.to_soup());
+    let mut left = whole(&mesh);
+    let mut found: Vec<Round> = Vec::new();
+    for (view, placed) in plan.views.iter().enumerate() {
+        let is_side = matches!(placed.stands, Stands::Beside(_)) && plan.set_of[view] == 0;
+        if !is_side {
+            continue;
+        }
+        let forward = placed.sight.axes()[2];
+        let (along, others): (Vec<Cylinder>, Vec<Cylinder>) =
+            left.into_iter().partition(|cylinder| cylinder.axis.dot(forward).abs() > 1.0 - 1e-6);
+        let (shown, hidden): (Vec<Cylinder>, Vec<Cylinder>) = seen(&mesh, &placed.sight, along);
+        left = others.into_iter().chain(hidden).collect();
+        let mut own: Vec<Round> = Vec::new();
+        for cylinder in shown {
+            let flat = cylinder.point - forward * cylinder.point.dot(forward);
+            let precision = Precision::of_cylinder(&cylinder);
+            let written = plan.values.written(2.0 * cylinder.radius, precision);
+            let is_same = |round: &&mut Round| {
+                round.hollow == cylinder.hollow
+                    && plan.values.written(2.0 * round.radius, round.precision) == written
+            };
+            match own.iter_mut().find(is_same) {
+                None => own.push(Round {
+                    view,
+                    radius: cylinder.radius,
+                    precision,
+                    hollow: cylinder.hollow,
+                    centres: vec![flat],
+                    pitch: None,
+                }),
+                Some(known) => {
+                    known.precision = known.precision.coarser(precision);
+                    if known.centres.iter().all(|at| at.distance(flat) > SAME * cylinder.radius) {
+                        known.centres.push(flat);
+                    }
+                }
+            }
+        }
+        own.sort_by(|a, b| b.radius.total_cmp(&a.radius));
+        own.truncate(MOST);
+        own.iter_mut().for_each(|round| round.pitch = pitch(&round.centres));
+        found.extend(own);
+    }
+    found
+}
+
+/// The circle on which points stand at even angles, if they are three or more that do.
+fn pitch(centres: &[DVec3]) -> Option<(DVec3, f64)> {
+    let count = centres.len();
+    if count < 3 {
+        return None;
+    }
+    let middle = centres.iter().sum::<DVec3>() / count as f64;
+    let radius = centres[0].distance(middle);
+    let even =
+        2.0 * radius * crate::geometry::numbers::portable_math::sin(std::f64::consts::PI / count as f64);
+    let stands = |at: &DVec3| {
+        let far = |other: &&DVec3| *other != at;
+        let nearest =
+            centres.iter().filter(far).map(|other| other.distance(*at)).fold(f64::INFINITY, f64::min);
+        (at.distance(middle) - radius).abs() < SAME * radius && (nearest - even).abs() < SAME * even
+    };
+    (radius > 0.0 && centres.iter().all(stands)).then_some((middle, radius))
+}
+
+/// Parts cylinders along the line of sight into those before which nothing stands, and others.
+fn seen(mesh: &Mesh, sight: &Sight, cylinders: Vec<Cylinder>) -> (Vec<Cylinder>, Vec<Cylinder>) {
+    if cylinders.is_empty() {
+        return (Vec::new(), Vec::new());
+    }
+    let camera = sight.taken();
+    let view = View::new(mesh, &camera);
+    let screen = Screen::of_side(mesh, &view, PIXELS);
+    let buffer = FaceBuffer::new(&screen);
+    let [right, up, forward] = sight.axes();
+    let inner = sight.place().inverse();
+    let size = (sight.high - sight.low).length();
+    let is_free = |p: DVec3, part: Option<crate::mesh::PartId>| {
+        let at = inner * sight.page(p);
+        let (x, y) = (at.x * screen.scale(), at.y * screen.scale());
+        if x < 0.0 || y < 0.0 || x as usize >= screen.columns || y as usize >= screen.rows {
+            return false;
+        }
+        let Some(face) = buffer.front(y as usize * screen.columns + x as usize) else {
+            return part.is_none();
+        };
+        let [a, b, c] = mesh.corners(FaceId(face)).map(|corner| corner + mesh.origin);
+        let normal = (b - a).cross(c - a);
+        let ahead = (a - p).dot(normal) / forward.dot(normal);
+        let is_own = part.is_none_or(|part| mesh.face_part[face as usize] == part);
+        is_own && (ahead.is_nan() || ahead > -2e-3 * size)
+    };
+    let is_seen = |cylinder: &Cylinder| {
+        let towards = if cylinder.axis.dot(forward) < 0.0 { cylinder.ends[1] } else { cylinder.ends[0] };
+        let end = cylinder.point + cylinder.axis * towards;
+        let part = (!cylinder.hollow).then_some(cylinder.part);
+        let free = (0..8).filter(|k| {
+            let turn = std::f64::consts::TAU * (f64::from(*k) + 0.37) / 8.0;
+            let out = right * crate::geometry::numbers::portable_math::cos(turn)
+                + up * crate::geometry::numbers::portable_math::sin(turn);
+            is_free(end + out * (0.94 * cylinder.radius), part)
+        });
+        free.count() >= 6
+    };
+    cylinders.into_iter().partition(is_seen)
+}

@@ -1,0 +1,182 @@
+//! [`add_told`]: the lengths and diameters that a page file asks for, between points, and sides and middles of parts.
+
+use glam::DVec3;
+use kurbo::{Point, Vec2};
+use toml::Spanned;
+
+use super::dimension_set::{Led, Measures, Slanted};
+use crate::error::Error;
+use crate::geometry::names::glob::Glob;
+use crate::mesh::Mesh;
+use crate::page::page_source::Source;
+use crate::page::sheet::arrangement::view_plan::Plan;
+use crate::page::sheet::keys::sheet_keys::{DimensionKeys, Measure, PlaceKeys, SheetPage};
+use crate::page::sheet::lengths::length_precision::{Measured, Precision};
+use crate::page::sheet::lengths::true_length::{Foreshortening, IN_EXPLODED, true_length};
+use crate::page::sheet::view::sheet_view::Sight;
+use crate::page::sheet::view::view_side::Side;
+use crate::scene::Scene;
+use crate::surface::{Cylinder, cylinders};
+
+/// What names of places end with.
+const ENDS: [&str; 5] = ["left", "right", "top", "bottom", "centre"];
+
+/// Adds what is asked for.
+pub(crate) fn add_told(
+    sheet: &SheetPage,
+    plan: &Plan,
+    measures: &mut Measures,
+    source: &Source,
+) -> Result<(), Error> {
+    let mut found: Option<Vec<Cylinder>> = None;
+    for keys in &sheet.dimension {
+        let (span, keys) = (keys.span(), keys.get_ref());
+        let view = match &keys.of {
+            Some(name) => plan.view(name, source)?,
+            None => plan.view(&Spanned::new(span.clone(), "front".to_owned()), source)?,
+        };
+        let sight = &plan.views[view].sight;
+        let scene = &plan.sets[0].scene;
+        let place = |told: &Option<Spanned<PlaceKeys>>, key: &str| match told {
+            Some(told) => point(told, sheet, scene, sight, source),
+            None => Err(source.fault(
+                &span,
+                &format!("this dimension has no `{key}`"),
+                "write a point such as [0, 0, 0]",
+            )),
+        };
+        let measure = keys.measure.unwrap_or_default();
+        if matches!(measure, Measure::Diameter | Measure::Radius) {
+            if plan.foreshortening(view) == Foreshortening::Moved {
+                return Err(source.fault(&span, IN_EXPLODED[0], IN_EXPLODED[1]));
+            }
+            let at = place(&keys.at, "at")?.at;
+            let own = found.get_or_insert_with(|| cylinders(&Mesh::build(scene.to_soup())));
+            let led = of_cylinder(own, at, (measure, keys), (plan, sight));
+            let told = keys.at.as_ref().map_or(span, Spanned::span);
+            let remedy = "name a point on a cylinder that is seen along its axis in this view";
+            let led = led.ok_or_else(|| source.fault(&told, "there is no cylinder in this view", remedy))?;
+            measures.led.push((view, led));
+            continue;
+        }
+        let (from, to) = (place(&keys.from, "from")?, place(&keys.to, "to")?);
+        let length = true_length([from, to], measure, sight, plan.foreshortening(view));
+        let (length, precision) = length.map_err(|[message, advice]| source.fault(&span, message, advice))?;
+        let text = keys.text.clone().unwrap_or_else(|| plan.values.written(length, precision));
+        let ends = [from, to].map(|p| sight.page(p.at));
+        add_length(ends, (measure, text), keys, view, measures);
+    }
+    Ok(())
+}
+
+/// The place on the model that is told.
+fn point(
+    told: &Spanned<PlaceKeys>,
+    sheet: &SheetPage,
+    scene: &Scene,
+    sight: &Sight,
+    source: &Source,
+) -> Result<Measured, Error> {
+    let finite = |p: &[f64; 3]| {
+        let advice = "write three numbers such as [0, 12.5, 3]";
+        let is_finite = p.iter().all(|x| x.is_finite());
+        let point = is_finite.then(|| Measured::exact(DVec3::from_array(*p)));
+        point.ok_or_else(|| source.fault(&told.span(), "this is not a point", advice))
+    };
+    let name = match told.get_ref() {
+        PlaceKeys::Point(p) => return finite(p),
+        PlaceKeys::Named(name) => name,
+    };
+    if let Some(p) = sheet.points.get(name) {
+        return finite(p);
+    }
+    let (part, end) = name.rsplit_once('.').unwrap_or(("*", name));
+    let end = if end == "center" { "centre" } else { end };
+    if !ENDS.contains(&end) {
+        let known: Vec<&str> = sheet.points.keys().map(String::as_str).chain(ENDS).collect();
+        return Err(source.unknown(&Spanned::new(told.span(), name.clone()), "place", &known));
+    }
+    let glob = Glob::new(part);
+    let points = Measured::of_parts(scene, |part| glob.matches(&part.name));
+    if points.is_empty() {
+        let message = format!("there is no part `{part}`");
+        return Err(source.fault(
+            &told.span(),
+            &message,
+            "`ligne info MODEL` lists them; * matches any text",
+        ));
+    }
+    let [right, up, _] = sight.axes();
+    let outermost =
+        |way: DVec3| points.iter().copied().max_by(|a, b| a.at.dot(way).total_cmp(&b.at.dot(way)));
+    let found = match end {
+        "left" => outermost(-right),
+        "right" => outermost(right),
+        "top" => outermost(up),
+        "bottom" => outermost(-up),
+        _ => Some(centre(&points)),
+    };
+    Ok(found.unwrap_or(Measured::exact(DVec3::ZERO)))
+}
+
+/// The middle of the box around points, with the coarsest of their steps.
+fn centre(points: &[Measured]) -> Measured {
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = points.iter().fold(nothing, |(l, h), p| (l.min(p.at), h.max(p.at)));
+    Measured { at: (low + high) / 2.0, step: points.iter().map(|p| p.step).fold(0.0, f64::max) }
+}
+
+/// The cylinder, seen along its axis, whose surface is nearest to a point.
+fn of_cylinder(
+    found: &[Cylinder],
+    at: DVec3,
+    (measure, keys): (Measure, &DimensionKeys),
+    (plan, sight): (&Plan, &Sight),
+) -> Option<Led> {
+    let forward = sight.axes()[2];
+    let beside = |cylinder: &Cylinder| {
+        let away = at - cylinder.point;
+        let along = away.dot(cylinder.axis);
+        let aside = (away - cylinder.axis * along).length() - cylinder.radius;
+        let beyond = (along - along.clamp(cylinder.ends[0], cylinder.ends[1])).abs();
+        aside * aside + beyond * beyond
+    };
+    let seen = found.iter().filter(|cylinder| cylinder.axis.dot(forward).abs() > 1.0 - 1e-6);
+    let nearest = seen.min_by(|a, b| beside(a).total_cmp(&beside(b)))?;
+    let is_radius = measure == Measure::Radius;
+    let (sign, length) = if is_radius { ("R", nearest.radius) } else { ("⌀", 2.0 * nearest.radius) };
+    let text = keys
+        .text
+        .clone()
+        .unwrap_or_else(|| format!("{sign}{}", plan.values.written(length, Precision::of_cylinder(nearest))));
+    let (centre, radius) = (sight.page(nearest.point), nearest.radius * sight.unit);
+    Some(Led { centre, radius, text, pitch: None })
+}
+
+/// Adds a length.
+fn add_length(
+    ends: [Point; 2],
+    (measure, text): (Measure, String),
+    keys: &DimensionKeys,
+    view: usize,
+    measures: &mut Measures,
+) {
+    let along = match measure {
+        Measure::Horizontal => Vec2::new(1.0, 0.0),
+        Measure::Vertical => Vec2::new(0.0, 1.0),
+        _ => ends[1] - ends[0],
+    };
+    let far = along.hypot2().sqrt();
+    if far.is_nan() || far <= 0.0 {
+        return;
+    }
+    let along = along / far;
+    let across = along.y.abs() < 1e-9;
+    if keys.offset.is_none() && (across || along.x.abs() < 1e-9) {
+        let side = keys.side.filter(|side| side.is_across() == across);
+        let side = side.unwrap_or(if across { Side::Below } else { Side::Left });
+        measures.add(view, ends, side, text);
+        return;
+    }
+    measures.slanted.push((view, Slanted { ends, along, offset: keys.offset, text }));
+}

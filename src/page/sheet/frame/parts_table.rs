@@ -1,0 +1,212 @@
+//! [`ItemTable`]: the parts list as a table above the title block.
+//!
+//! It has one column of rows or several, each with all headings: as few as keep it below a third of the sheet, else those that take least
+//! paper. Columns are as wide as the title block or half of that, or a third where all texts fit; more of them go on to the left. A text
+//! that is too long for its cell gets smaller letters, then several lines, and its row becomes higher. One column is read from below, as
+//! new items are added above (ISO 7573), several from above.
+
+use kurbo::{Point, Rect};
+
+use crate::error::Error;
+use crate::page::sheet::canvas::sheet_canvas::{Ink, NARROW, Stand, WIDE};
+use crate::page::sheet::parts_list::parts_list_items::Item;
+use crate::text::Font;
+
+/// Height of a row of one line, and of more lines, mm.
+const ROW: f64 = 6.0;
+const LINE: f64 = 2.9;
+
+/// Height of letters in the list, mm: as they are, and smallest.
+const LETTERS: [f64; 4] = [2.5, 2.2, 2.0, 1.8];
+
+/// Height of the words of headings, and clear paper at both sides of a cell, mm.
+const HEADING: f64 = 1.8;
+const ASIDE: f64 = 1.0;
+
+/// Width of the columns for numbers and counts, as narrow as they may be, mm.
+const NUMBER: f64 = 9.0;
+
+/// Width of a column that holds its heading, mm.
+const HEADED: f64 = 13.0;
+
+/// Shares of the height of the sheet that the list takes if it can, and at most.
+const LOW: f64 = 0.3;
+const HIGHEST: f64 = 0.6;
+
+const HEADINGS: [&str; 5] = ["Item", "Qty", "Name", "Material", "Remark"];
+
+/// A row: the lines of each cell, the height of their letters, and its own height.
+struct Row {
+    cells: [(f64, Vec<String>); 5],
+    height: f64,
+}
+
+/// A parts list whose place is known.
+pub(crate) struct ItemTable {
+    pub place: Rect,
+    /// Where cells end in a column.
+    ends: [f64; 6],
+    columns: Vec<Vec<Row>>,
+}
+
+impl ItemTable {
+    /// The list of items above a title block; none where there are none.
+    ///
+    /// # Errors
+    /// If a letter is in no font, or the list does not fit.
+    pub fn new(items: &[Item], block: Rect, space: Rect, font: &Font) -> Result<Option<Self>, Error> {
+        if items.is_empty() {
+            return Ok(None);
+        }
+        let ink = Ink::new(font, "parts-list");
+        let texts: Vec<[String; 5]> = items.iter().map(texts).collect();
+        let mut widest = [0.0_f64; 5];
+        for (item, texts) in items.iter().zip(&texts) {
+            for (widest, text) in widest.iter_mut().zip(texts) {
+                let about =
+                    |error: Error| error.within(format!("part `{}`, item {}", item.name, item.number));
+                *widest = widest.max(ink.width(text, LETTERS[0]).map_err(about)?);
+            }
+        }
+        let whole = block.width();
+        let across = (space.width() / (whole / 2.0)).floor().max(1.0) as usize;
+        let mut ways = vec![(1, whole)];
+        ways.extend((2..=across).map(|count| (count, whole / 2.0)));
+        // Thirds where everything fits.
+        let third = whole / 3.0;
+        let natural: f64 = widest.iter().skip(2).map(|wide| (wide + 2.0 * ASIDE).max(HEADED)).sum();
+        let narrow = natural + 2.0 * NUMBER <= third
+            && widest[0] + 2.0 * ASIDE <= NUMBER
+            && widest[1] + 2.0 * ASIDE <= NUMBER;
+        if narrow {
+            ways.insert(2.min(ways.len()), (3, third));
+        }
+        let mut best: Option<Self> = None;
+        let mut lowest = f64::INFINITY;
+        for (count, width) in ways {
+            let ends = ends(width, &widest, width < whole / 2.0);
+            let rows = texts.iter().map(|texts| row(texts, &ends, &ink)).collect::<Result<Vec<_>, _>>()?;
+            let columns = parted(rows, count);
+            let high = |column: &Vec<Row>| column.iter().map(|row| row.height).sum::<f64>() + ROW;
+            let height = columns.iter().map(high).fold(0.0, f64::max);
+            lowest = lowest.min(height);
+            let wide = width * columns.len() as f64;
+            let place = Rect::new(block.x1 - wide, block.y0 - height, block.x1, block.y0);
+            let own = Self { place, ends, columns };
+            if height <= LOW * space.height() {
+                return Ok(Some(own));
+            }
+            let is_better = best.as_ref().is_none_or(|best| own.place.area() < best.place.area() - 1e-9);
+            if height <= HIGHEST * space.height() && place.y0 > space.y0 && is_better {
+                best = Some(own);
+            }
+        }
+        best.map(Some).ok_or_else(|| {
+            let count = items.len();
+            let most = HIGHEST * space.height();
+            Error::new(format!(
+                "a parts list of {count} items with all its columns is {lowest:.0} mm high and does not fit on this sheet, where it may be {most:.0} mm high"
+            ))
+            .remedy("choose a larger size, hide parts with `hide`, or leave parts_list out")
+        })
+    }
+
+    /// Draws it.
+    ///
+    /// # Errors
+    /// If a letter is in no font.
+    pub fn draw(&self, ink: &mut Ink) -> Result<(), Error> {
+        let width = self.ends[5];
+        for (k, column) in self.columns.iter().enumerate() {
+            let left = self.place.x0 + k as f64 * width;
+            let heading = HEADINGS.map(|heading| (HEADING, vec![heading.to_owned()]));
+            let mut bottom = self.place.y1;
+            for row in std::iter::once(&Row { cells: heading, height: ROW }).chain(column) {
+                let top = bottom - row.height;
+                for (n, (high, lines)) in row.cells.iter().enumerate() {
+                    let cell = Rect::new(left + self.ends[n], top, left + self.ends[n + 1], bottom);
+                    if cell.width() <= 0.0 {
+                        continue;
+                    }
+                    ink.rect(cell, NARROW);
+                    let more = (lines.len().max(1) - 1) as f64 * LINE;
+                    let first = cell.center().y + (high - more) / 2.0;
+                    for (k, line) in lines.iter().enumerate() {
+                        let at = Point::new(cell.x0 + ASIDE, first + k as f64 * LINE);
+                        ink.word(line, at, *high, Stand::Left, 0.0)?;
+                    }
+                }
+                bottom = top;
+            }
+        }
+        ink.rect(self.place, WIDE);
+        Ok(())
+    }
+}
+
+fn texts(item: &Item) -> [String; 5] {
+    let count = item.count.to_string();
+    [item.number.clone(), count, item.name.clone(), item.material.clone(), item.remark.clone()]
+}
+
+/// Where the cells of a column of some width end.
+fn ends(width: f64, widest: &[f64; 5], natural: bool) -> [f64; 6] {
+    let own = |k: usize| widest[k] + 2.0 * ASIDE;
+    let [item, count] = [0, 1].map(|k| NUMBER.max(own(k)).min(0.2 * width));
+    let is_remarked = widest[4] > 0.0;
+    let [material, remark] = if natural {
+        // What is left over belongs to the name.
+        [own(3).max(HEADED), if is_remarked { own(4).max(HEADED) } else { 0.0 }]
+    } else if is_remarked {
+        [0.22 * width; 2]
+    } else {
+        [0.28 * width, 0.0]
+    };
+    [0.0, item, item + count, width - material - remark, width - remark, width]
+}
+
+/// A row whose texts are set in its cells.
+fn row(texts: &[String; 5], ends: &[f64; 6], ink: &Ink) -> Result<Row, Error> {
+    let mut height = ROW;
+    let mut cells = [const { (0.0, Vec::new()) }; 5];
+    for (k, cell) in cells.iter_mut().enumerate() {
+        let width = ends[k + 1] - ends[k] - 2.0 * ASIDE;
+        if width > 0.0 {
+            *cell = ink.fitted(&texts[k], &LETTERS, width, |_, lines| lines == 1)?;
+            height = height.max(ROW + (cell.1.len().max(1) - 1) as f64 * LINE);
+        }
+    }
+    Ok(Row { cells, height })
+}
+
+/// Rows parted into columns that are as low as they can be, at most so many.
+fn parted(rows: Vec<Row>, count: usize) -> Vec<Vec<Row>> {
+    let total: f64 = rows.iter().map(|row| row.height).sum();
+    let highest = rows.iter().map(|row| row.height).fold(0.0, f64::max);
+    let columns = |most: f64| {
+        let mut ends = Vec::new();
+        let mut high = 0.0;
+        for (k, row) in rows.iter().enumerate() {
+            if high + row.height > most + 1e-9 && high > 0.0 {
+                ends.push(k);
+                high = 0.0;
+            }
+            high += row.height;
+        }
+        ends.push(rows.len());
+        ends
+    };
+    let mut most = (total / count as f64).max(highest);
+    while columns(most).len() > count {
+        most += LINE / 4.0;
+    }
+    let ends = columns(most);
+    let mut rows = rows.into_iter();
+    let mut begin = 0;
+    let take = |end: usize| {
+        let own = rows.by_ref().take(end - begin).collect();
+        begin = end;
+        own
+    };
+    ends.into_iter().map(take).collect()
+}

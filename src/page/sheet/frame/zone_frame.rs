@@ -1,0 +1,137 @@
+//! The frame of a sheet with its zones, centring marks and trimming marks.
+//!
+//! Source: ISO 5457:1999, Technical product documentation, Sizes and layout of drawing sheets, 4.
+
+use kurbo::{Point, Rect, Shape};
+
+use crate::error::Error;
+use crate::page::page_size::Size;
+use crate::page::sheet::canvas::sheet_canvas::{Ink, Stand};
+
+/// From the edge of the trimmed sheet to the frame: on the left, where it is filed, and elsewhere; mm.
+const LEFT: f64 = 20.0;
+const OTHER: f64 = 10.0;
+
+/// Width of the frame and of centring marks, and of the border of the zones.
+const FRAME_WIDTH: f64 = 0.7;
+const ZONE_WIDTH: f64 = 0.35;
+
+/// From the frame to the border of the zones, the length of a zone, and the height of its letters.
+const BAND: f64 = 5.0;
+const ZONE: f64 = 50.0;
+const LETTERS: f64 = 3.5;
+
+/// What is left of a row of zones and shorter than this belongs to the last one.
+const SHORT: f64 = 20.0;
+
+/// How far centring marks reach into the drawing space.
+const CENTRING: f64 = 10.0;
+
+/// Trimming marks: two rectangles of these sides at each corner.
+const TRIMMING: [f64; 2] = [10.0, 5.0];
+
+/// The drawing space of a sheet, mm.
+#[must_use]
+pub fn space(size: Size) -> Rect {
+    Rect::new(LEFT, OTHER, size.width - OTHER, size.height - OTHER)
+}
+
+/// Where zones end along a side from `low` to `high` of the frame, both ends included: they are 50 mm long from the middle of the sheet
+/// on, and take up what is left at the ends.
+#[must_use]
+pub fn zones(low: f64, high: f64, middle: f64) -> Vec<f64> {
+    let count = |length: f64| {
+        let whole = (length / ZONE).floor();
+        if length - whole * ZONE >= SHORT || whole == 0.0 { whole } else { whole - 1.0 }
+    };
+    let (before, after) = (count(middle - low) as i64, count(high - middle) as i64);
+    let inner = (-before..=after).map(|k| middle + k as f64 * ZONE);
+    [low].into_iter().chain(inner).chain([high]).collect()
+}
+
+/// The centring marks of a sheet, from the border of the zones into the drawing space, but not into tables.
+pub(crate) fn centring_marks(size: Size, tables: &[Rect]) -> [[Point; 2]; 4] {
+    let frame = space(size);
+    let (middle, outer) = (Point::new(size.width / 2.0, size.height / 2.0), frame.inflate(BAND, BAND));
+    [
+        [Point::new(outer.x0, middle.y), Point::new(frame.x0 + CENTRING, middle.y)],
+        [Point::new(outer.x1, middle.y), Point::new(frame.x1 - CENTRING, middle.y)],
+        [Point::new(middle.x, outer.y0), Point::new(middle.x, frame.y0 + CENTRING)],
+        [Point::new(middle.x, outer.y1), Point::new(middle.x, frame.y1 - CENTRING)],
+    ]
+    .map(|[from, to]| {
+        let mark = Rect::from_points(from, to).inflate(FRAME_WIDTH, FRAME_WIDTH);
+        let is_in_table = tables.iter().any(|table| table.overlaps(mark));
+        let inward = (to - from).normalize();
+        [from, if is_in_table { from + inward * BAND } else { to }]
+    })
+}
+
+/// Draws all of it.
+pub(crate) fn draw(size: Size, marks: &[[Point; 2]], ink: &mut Ink) -> Result<(), Error> {
+    let frame = space(size);
+    let (middle, outer) = (Point::new(size.width / 2.0, size.height / 2.0), frame.inflate(BAND, BAND));
+    ink.rect(frame, FRAME_WIDTH);
+    ink.rect(outer, ZONE_WIDTH);
+    // A4 has letters and numbers above and on the right alone.
+    let small = size.width.max(size.height) <= 297.0;
+    let columns = zones(frame.x0, frame.x1, middle.x);
+    for (k, pair) in columns.windows(2).enumerate() {
+        let number = (k + 1).to_string();
+        for (from, to, named) in [(outer.y0, frame.y0, true), (frame.y1, outer.y1, !small)] {
+            if k > 0 {
+                ink.line(Point::new(pair[0], from), Point::new(pair[0], to), ZONE_WIDTH);
+            }
+            let at = Point::new((pair[0] + pair[1]) / 2.0, (from + to + LETTERS) / 2.0);
+            if named {
+                ink.word(&number, at, LETTERS, Stand::Middle, ZONE)?;
+            }
+        }
+    }
+    // I and O are left out.
+    let letters: Vec<char> = ('A'..='Z').filter(|c| !matches!(c, 'I' | 'O')).collect();
+    for (k, pair) in zones(frame.y0, frame.y1, middle.y).windows(2).enumerate() {
+        let letter = letters[k % letters.len()].to_string();
+        for (from, to, named) in [(outer.x0, frame.x0, !small), (frame.x1, outer.x1, true)] {
+            if k > 0 {
+                ink.line(Point::new(from, pair[0]), Point::new(to, pair[0]), ZONE_WIDTH);
+            }
+            let at = Point::new((from + to) / 2.0, (pair[0] + pair[1] + LETTERS) / 2.0);
+            if named {
+                ink.word(&letter, at, LETTERS, Stand::Middle, BAND)?;
+            }
+        }
+    }
+    for [from, to] in marks {
+        ink.line(*from, *to, FRAME_WIDTH);
+    }
+    for x in [0.0, 1.0] {
+        for y in [0.0, 1.0] {
+            for [w, h] in [TRIMMING, [TRIMMING[1], TRIMMING[0]]] {
+                let corner = Point::new(x * (size.width - w), y * (size.height - h));
+                ink.fill(Rect::from_origin_size(corner, (w, h)).to_path(0.1));
+            }
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sheets_have_as_many_zones_as_the_standard_says() {
+        // ISO 5457:1999, table 2: along the longer side, along the shorter side.
+        for (name, long, short) in [("A0", 24, 16), ("A1", 16, 12), ("A2", 12, 8), ("A3", 8, 6), ("A4", 6, 4)]
+        {
+            let size = Size::parse(name).unwrap();
+            let size = if name == "A4" { size } else { size.lying() };
+            let frame = space(size);
+            let across = zones(frame.x0, frame.x1, size.width / 2.0).len() - 1;
+            let down = zones(frame.y0, frame.y1, size.height / 2.0).len() - 1;
+            assert_eq!([across.max(down), across.min(down)], [long, short], "{name}");
+        }
+        assert_eq!(zones(20.0, 410.0, 210.0), [20.0, 60.0, 110.0, 160.0, 210.0, 260.0, 310.0, 360.0, 410.0]);
+    }
+}

@@ -1,0 +1,169 @@
+//! [`Precision`]: the decimal that the input carries of a length.
+//!
+//! Each point of the model has the step of its coordinates: the unit of the last decimal in a text, the distance of neighbouring numbers in
+//! single precision, the step of a lattice in quantised files; 0 in double precision. A point that a page file spells out has no step.
+//!
+//! - Decimals of a text are kept as they are.
+//! - Each coordinate of single precision or of a lattice is off by up to half a step. A length is rounded to the finest power of
+//!   ten whose half is at least the error of both ends together: then a length with few decimals is found again.
+//! - Circles are fitted to many corners. The distance of the corners from the circle is measured; the radius is rounded to the next
+//!   power of ten.
+
+use glam::DVec3;
+
+use crate::geometry::numbers::tolerance::{FITTED_OF_COORDINATE, ROUNDED_OF_COORDINATE};
+use crate::scene::extent::drawn_points::DrawnPoints;
+use crate::scene::triangle_soup::longest_axis;
+use crate::scene::{Geometry, Part, Scene};
+use crate::surface::Cylinder;
+
+/// A point of the model, or of a page file.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Measured {
+    /// Where it is, world.
+    pub at: DVec3,
+    /// The step of its coordinates, world; 0 for double precision.
+    pub step: f64,
+}
+
+impl Measured {
+    /// A point with exact coordinates.
+    pub fn exact(at: DVec3) -> Self {
+        Self { at, step: 0.0 }
+    }
+
+    /// The coarsest step of the parts of a scene.
+    pub fn coarsest(scene: &Scene) -> f64 {
+        scene.parts.iter().map(|part| step_of(scene, part)).fold(0.0, f64::max)
+    }
+
+    /// The drawn points of some of the parts of a scene.
+    pub fn of_parts(scene: &Scene, is_wanted: impl Fn(&Part) -> bool) -> Vec<Self> {
+        let drawn = DrawnPoints::of_parts(scene, is_wanted);
+        let mut found = Vec::with_capacity(drawn.points.len());
+        for own in &drawn.parts {
+            let step = scene.parts.get(own.part).map_or(0.0, |part| step_of(scene, part));
+            let points = drawn.points.get(own.points.clone()).unwrap_or_default();
+            found.extend(points.iter().map(|at| Self { at: *at, step }));
+        }
+        found
+    }
+}
+
+/// The step of the coordinates of a part, world.
+fn step_of(scene: &Scene, part: &Part) -> f64 {
+    let own = scene.geometry_of(part).map_or(0.0, Geometry::finest_step);
+    own * longest_axis(&part.world_from_part)
+}
+
+/// The decimal that the input carries of a length.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Precision {
+    /// The power of ten to which a length is rounded: minus its exponent.
+    decimals: i32,
+    /// Lengths up to this are 0, as far as the input tells.
+    noise: f64,
+}
+
+impl Precision {
+    /// That of a length between points along a direction.
+    pub fn between(ends: [Measured; 2], along: DVec3) -> Self {
+        let [a, b] = ends.map(|end| end.step);
+        let rounding = ROUNDED_OF_COORDINATE * largest(ends.map(|end| end.at));
+        // The sum of half a step at both ends, in all three coordinates.
+        let error = (a + b) / 2.0 * along.abs().element_sum() + rounding;
+        let step = a.max(b);
+        let is_decimal = step > rounding && power_above(1.000_001 * step) > power_above(step);
+        let decimals = if is_decimal { -power_above(step) } else { -power_above(2.0 * error) };
+        Self { decimals, noise: if is_decimal { rounding } else { error } }
+    }
+
+    /// That of a radius, a diameter or the place of an axis, which are fitted to the corners of a cylinder.
+    pub fn of_cylinder(cylinder: &Cylinder) -> Self {
+        let largest = cylinder.point.abs().max_element().max(cylinder.radius);
+        let error = cylinder.spread.max(FITTED_OF_COORDINATE * largest);
+        Self { decimals: -power_above(error), noise: error }
+    }
+
+    /// The coarser of two.
+    pub fn coarser(self, other: Self) -> Self {
+        Self { decimals: self.decimals.min(other.decimals), noise: self.noise.max(other.noise) }
+    }
+
+    /// A length above 0, rounded to what the input carries.
+    pub fn rounded(self, length: f64) -> f64 {
+        let power = power_of_ten(self.decimals.unsigned_abs() as usize);
+        let rounded = if self.decimals >= 0 {
+            (length * power).round() / power
+        } else {
+            (length / power).round() * power
+        };
+        if !rounded.is_finite() || (rounded == 0.0 && length > self.noise) { length } else { rounded }
+    }
+}
+
+fn largest(points: [DVec3; 2]) -> f64 {
+    points.into_iter().map(|p| p.abs().max_element()).fold(f64::MIN_POSITIVE, f64::max)
+}
+
+/// The exponent of the least power of ten that is not below a number, which may be off by a share of 1e-9.
+fn power_above(number: f64) -> i32 {
+    let text = format!("{number:.9e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap_or(("1", "0"));
+    let exponent: i32 = exponent.parse().unwrap_or(0);
+    let is_power =
+        mantissa.bytes().skip(1).all(|byte| matches!(byte, b'.' | b'0')) && mantissa.starts_with('1');
+    if is_power { exponent } else { exponent + 1 }
+}
+
+/// A power of ten: exact up to the 22nd, infinite from the 309th on.
+pub(crate) fn power_of_ten(exponent: usize) -> f64 {
+    (0..exponent).fold(1.0, |power, _| power * 10.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn rounded(length: f64, from: f64, step: f64) -> f64 {
+        let end = |x: f64| Measured { at: DVec3::new(x, 0.0, 0.0), step };
+        Precision::between([end(from), end(from + length)], DVec3::X).rounded(length)
+    }
+
+    #[test]
+    fn lengths_are_rounded_to_what_the_input_carries() {
+        for length in [53.975, 9.525, 20.125, 0.1, 1234.565, 7.0] {
+            for from in [0.0, 3.7, -812.35] {
+                // Single precision, decimals, and double precision.
+                let (a, b) = (from as f32, (from + length) as f32);
+                let step = f64::from(a.abs().max(b.abs()).next_up()) - f64::from(a.abs().max(b.abs()));
+                assert_eq!(rounded(f64::from(b) - f64::from(a), f64::from(a), step), length, "{from}");
+                assert_eq!(rounded(from + length - from, from, 0.0), length, "{from}");
+                assert_eq!(rounded(length + 1e-12, from, 1e-6), length, "{from}");
+            }
+        }
+        // The last decimal of a text is kept.
+        assert_eq!(rounded(0.053_4, 0.0, 1e-4), 0.053_4);
+        assert!((rounded(2.0_f64.sqrt(), 0.0, 0.0) - 2.0_f64.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn only_rounding_is_0() {
+        assert_eq!(rounded(1e-17, 0.3, 0.0), 0.0);
+        assert_eq!(rounded(0.004, 0.0, 0.0), 0.004);
+        assert_eq!(rounded(1e-6, 900.0, 1e-6), 1e-6);
+        // Neighbours in single precision may be one number, those farther apart are not.
+        let step = 1.0 / 16384.0;
+        assert_eq!(rounded(step, 900.0, step), 0.0);
+        assert_eq!(rounded(1.5 * step, 0.0, step), 1.5 * step);
+    }
+
+    #[test]
+    fn powers_of_ten_are_found() {
+        for (number, wanted) in
+            [(1e-6, -6), (1.1e-6, -5), (0.1 + 0.2 - 0.2, -1), (1.0, 0), (9.0, 1), (5e-324, -323)]
+        {
+            assert_eq!(power_above(number), wanted, "{number}");
+        }
+    }
+}

@@ -1,0 +1,61 @@
+//! [`anchors`]: a point of each item where it is seen in a view.
+
+use kurbo::Point;
+
+use crate::mesh::Mesh;
+use crate::page::sheet::parts_list::parts_list_items::Item;
+use crate::page::sheet::view::sheet_view::Sight;
+use crate::scene::Scene;
+use crate::view::View;
+use crate::view::raster::{FaceBuffer, Screen};
+
+/// Pixels along the longer side of a view in which items are sought.
+const PIXELS: f64 = 700.0;
+
+/// For each item a point on the page well within what is seen of one of its parts, the one of which most is seen; `None` where none is.
+pub(crate) fn anchors(sight: &Sight, scene: &Scene, items: &[Item]) -> Vec<Option<Point>> {
+    let mesh = Mesh::build(scene.to_soup());
+    let camera = sight.taken();
+    let view = View::new(&mesh, &camera);
+    let screen = Screen::of_side(&mesh, &view, PIXELS);
+    let buffer = FaceBuffer::new(&screen);
+    let (columns, rows) = (screen.columns, screen.rows);
+    let part = |pixel: usize| buffer.front(pixel).map(|face| mesh.face_part[face as usize].index());
+    let seen: Vec<Option<usize>> = (0..columns * rows).map(part).collect();
+    // How far each pixel is from the border of what is seen of its part, in steps to the side, up or down.
+    let mut depth = vec![0_u32; seen.len()];
+    let beside = |k: usize, back: bool| {
+        let (x, y) = (k % columns, k / columns);
+        match back {
+            false if x > 0 && y > 0 => Some([k - 1, k - columns]),
+            true if x + 1 < columns && y + 1 < rows => Some([k + 1, k + columns]),
+            _ => None,
+        }
+    };
+    for back in [false, true] {
+        for n in 0..seen.len() {
+            let k = if back { seen.len() - 1 - n } else { n };
+            let near = beside(k, back).map_or(0, |near| {
+                let own = near.iter().map(|near| if seen[*near] == seen[k] { depth[*near] + 1 } else { 1 });
+                own.min().unwrap_or(1)
+            });
+            depth[k] = if back { depth[k].min(near) } else { near };
+        }
+    }
+    let mut counts = vec![0_usize; scene.parts.len()];
+    let mut deepest: Vec<Option<usize>> = vec![None; scene.parts.len()];
+    for (k, part) in seen.iter().enumerate() {
+        let Some(part) = *part else { continue };
+        counts[part] += 1;
+        if deepest[part].is_none_or(|other| depth[other] < depth[k]) {
+            deepest[part] = Some(k);
+        }
+    }
+    let of = |item: &Item| {
+        let best = item.parts.iter().copied().max_by(|a, b| counts[*a].cmp(&counts[*b]).then(b.cmp(a)))?;
+        let pixel = deepest[best]?;
+        let at = Point::new((pixel % columns) as f64 + 0.5, (pixel / columns) as f64 + 0.5);
+        Some(sight.place() * (at.to_vec2() / screen.scale()).to_point())
+    };
+    items.iter().map(of).collect()
+}

@@ -1,0 +1,236 @@
+//! [`leaders`]: which balloon around a view each item gets, so that no two leaders cross.
+//!
+//! Leaders are straight. Exchanging the balloons of two leaders that cross makes both together shorter (triangle inequality), so that
+//! doing it as long as it can be done ends with none that cross. Those that then run through the circle of another balloon go to other
+//! places.
+
+use kurbo::{Point, Rect, Vec2};
+use robust::{Coord, orient2d};
+
+/// Radius of a balloon, and what leaders keep clear around it, mm.
+pub const RADIUS: f64 = 4.0;
+const CLEAR: f64 = 0.6;
+
+/// More places than this are on no border.
+const MOST_SLOTS: usize = 2000;
+
+/// Steps without a better arrangement after which no other is sought, and for how many a leader does not go back.
+const PATIENCE: usize = 60;
+const BARRED: usize = 8;
+
+/// Exchanges are made in sweeps over all pairs; more sweeps than this are needed by no sheet.
+const MOST_SWEEPS: usize = 1000;
+
+/// Places for balloons on the border of a rectangle, clockwise from a part of a place behind its upper left corner, each with so much
+/// room along the border.
+#[must_use]
+pub fn slots(border: Rect, room: f64, begin: f64) -> Vec<Point> {
+    let around = 2.0 * (border.width() + border.height());
+    let number = ((around / room).floor() as usize).clamp(1, MOST_SLOTS);
+    let step = around / number as f64;
+    let at = |along: f64| {
+        let (w, h) = (border.width(), border.height());
+        match along {
+            x if x < w => Point::new(border.x0 + x, border.y0),
+            x if x < w + h => Point::new(border.x1, border.y0 + x - w),
+            x if x < 2.0 * w + h => Point::new(border.x1 - (x - w - h), border.y1),
+            x => Point::new(border.x0, border.y1 - (x - 2.0 * w - h)),
+        }
+    };
+    (0..number).map(|k| at((k as f64 + begin) * step)).collect()
+}
+
+/// For each anchor the number of its slot: no two leaders cross or touch, but where more than two points lie on one line. Leaders that are
+/// blocked from an anchor to a slot are avoided where others are free.
+#[must_use]
+pub fn leaders(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool) -> Vec<usize> {
+    let length = |anchor: usize, slot: usize| (anchors[anchor] - slots[slot]).hypot2().sqrt();
+    let mut free = vec![true; slots.len()];
+    let mut of: Vec<usize> = Vec::with_capacity(anchors.len());
+    for anchor in 0..anchors.len() {
+        let nearest = (0..slots.len())
+            .filter(|slot| free[*slot])
+            .min_by(|a, b| length(anchor, *a).total_cmp(&length(anchor, *b)));
+        let Some(slot) = nearest else { return of };
+        free[slot] = false;
+        of.push(slot);
+    }
+    untangle(anchors, slots, is_blocked, &mut of);
+    of
+}
+
+/// The same, of which the leaders go out like the spokes of a wheel: for places in several rings, of which the outer ones are reached
+/// between the inner ones. There are as many slots as anchors, or more.
+#[must_use]
+pub fn spokes(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool) -> Vec<usize> {
+    let count = anchors.len();
+    let middle = anchors.iter().fold(Vec2::ZERO, |sum, p| sum + p.to_vec2()) / count.max(1) as f64;
+    let angle = |p: &Point| crate::geometry::numbers::portable_math::atan2(p.y - middle.y, p.x - middle.x);
+    let around = |points: &[Point]| {
+        let mut order: Vec<usize> = (0..points.len()).collect();
+        order.sort_by(|a, b| angle(&points[*a]).total_cmp(&angle(&points[*b])).then(a.cmp(b)));
+        order
+    };
+    let (order, places) = (around(anchors), around(slots));
+    let turned = |turn: usize| {
+        let mut of = vec![0; count];
+        for (k, anchor) in order.iter().enumerate() {
+            of[*anchor] = places[(k * places.len() / count + turn) % places.len()];
+        }
+        of
+    };
+    let long = |of: &[usize]| -> f64 {
+        anchors.iter().zip(of).map(|(p, slot)| (*p - slots[*slot]).hypot2().sqrt()).sum()
+    };
+    let shortest = (0..places.len()).map(turned).min_by(|a, b| long(a).total_cmp(&long(b)));
+    let mut of = shortest.unwrap_or_default();
+    clear(anchors, slots, is_blocked, &mut of);
+    of
+}
+
+/// Exchanges slots as long as leaders cross or both become shorter, and moves those that are left with faults.
+fn untangle(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool, of: &mut [usize]) {
+    let length = |anchor: usize, slot: usize| (anchors[anchor] - slots[slot]).hypot2().sqrt();
+    for _ in 0..MOST_SWEEPS {
+        let mut exchanged = false;
+        for a in 0..of.len() {
+            for b in 0..a {
+                let gain = length(a, of[a]) + length(b, of[b]) - length(a, of[b]) - length(b, of[a]);
+                let crosses = || cross([anchors[a], slots[of[a]]], [anchors[b], slots[of[b]]]);
+                if gain > 1e-9 || gain > 0.0 && crosses() {
+                    of.swap(a, b);
+                    exchanged = true;
+                }
+            }
+        }
+        if !exchanged {
+            break;
+        }
+    }
+    clear(anchors, slots, is_blocked, of);
+}
+
+/// Moves balloons whose leaders cross others or run through their circles, or others through theirs, to places where fewer do: one after
+/// the other, also where that leaves more for a while; no leader goes back to where it was before long.
+///
+/// Source: F. Glover, "Tabu search, part I", ORSA Journal on Computing 1(3), 1989.
+fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool, of: &mut [usize]) {
+    let line = |k: usize, slot: usize| [anchors[k], slots[slot]];
+    let long = |k: usize, slot: usize| (anchors[k] - slots[slot]).hypot2().sqrt();
+    let mut holder: Vec<Option<usize>> = vec![None; slots.len()];
+    for (k, slot) in of.iter().enumerate() {
+        holder[*slot] = Some(k);
+    }
+    // For each anchor and slot the faults that a leader between them has with those of others.
+    let faults_at = |k: usize, slot: usize, of: &[usize]| {
+        let others = (0..of.len()).filter(|other| *other != k);
+        others.map(|other| between(line(k, slot), line(other, of[other]))).sum::<usize>()
+            + usize::from(is_blocked(k, slot))
+    };
+    let row = |k: usize| (0..slots.len()).map(|slot| faults_at(k, slot, of)).collect::<Vec<usize>>();
+    let mut faults: Vec<Vec<usize>> = (0..of.len()).map(row).collect();
+    let total = |faults: &[Vec<usize>], of: &[usize]| {
+        of.iter().enumerate().map(|(k, slot)| faults[k][*slot]).sum::<usize>()
+    };
+    let mut best = (total(&faults, of), of.to_vec());
+    // Until which step a leader does not go back to a slot.
+    let mut barred = vec![vec![0_usize; slots.len()]; of.len()];
+    let (mut step, mut found) = (0, 0);
+    while best.0 > 0 && step < found + PATIENCE {
+        step += 1;
+        // The change that leaves fewest, of those the one by which leaders grow least.
+        let mut next: Option<(usize, usize, f64, usize, usize)> = None;
+        for k in (0..of.len()).filter(|k| faults[*k][of[*k]] > 0) {
+            let from = of[k];
+            for slot in (0..slots.len()).filter(|slot| *slot != from && barred[k][*slot] < step) {
+                let (mut old, mut new) = (faults[k][from], faults[k][slot]);
+                let mut longer = long(k, slot) - long(k, from);
+                if let Some(other) = holder[slot] {
+                    old += faults[other][slot] - between(line(k, from), line(other, slot));
+                    new -= between(line(k, slot), line(other, slot));
+                    new += faults[other][from] - between(line(other, from), line(k, from));
+                    new += between(line(k, slot), line(other, from));
+                    longer += long(other, from) - long(other, slot);
+                }
+                let is_better = next.is_none_or(|(its_new, its_old, length, ..)| {
+                    let order = (new + its_old).cmp(&(its_new + old));
+                    order.is_lt() || order.is_eq() && longer < length
+                });
+                if is_better {
+                    next = Some((new, old, longer, k, slot));
+                }
+            }
+        }
+        let Some((_, _, _, k, slot)) = next else { break };
+        let from = of[k];
+        let other = holder[slot].replace(k);
+        holder[from] = other;
+        for (moved, old, new) in
+            [Some((k, from, slot)), other.map(|other| (other, slot, from))].into_iter().flatten()
+        {
+            of[moved] = new;
+            barred[moved][old] = step + BARRED;
+            let [before, after] = [line(moved, old), line(moved, new)];
+            for (k, row) in faults.iter_mut().enumerate().filter(|(k, _)| *k != moved) {
+                for (slot, faults) in row.iter_mut().enumerate() {
+                    *faults += between(line(k, slot), after);
+                    *faults -= between(line(k, slot), before);
+                }
+            }
+        }
+        let now = total(&faults, of);
+        if now < best.0 {
+            (best, found) = ((now, of.to_vec()), step);
+        }
+    }
+    of.copy_from_slice(&best.1);
+}
+
+/// How many faults two leaders have with each other.
+fn between([a, b]: [Point; 2], [c, d]: [Point; 2]) -> usize {
+    const NEAR: f64 = RADIUS + CLEAR;
+    let is_apart = a.x.max(b.x) + NEAR < c.x.min(d.x)
+        || c.x.max(d.x) + NEAR < a.x.min(b.x)
+        || a.y.max(b.y) + NEAR < c.y.min(d.y)
+        || c.y.max(d.y) + NEAR < a.y.min(b.y);
+    if is_apart {
+        return 0;
+    }
+    usize::from(cross([a, b], [c, d]))
+        + usize::from(runs_through([a, b], d))
+        + usize::from(runs_through([c, d], b))
+}
+
+/// Whether a leader runs through the circle of a balloon that it does not lead to.
+#[must_use]
+pub fn runs_through([a, b]: [Point; 2], centre: Point) -> bool {
+    let way = b - a;
+    let share = ((centre - a).dot(way) / way.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (a + way * share - centre).hypot2().sqrt() < RADIUS + CLEAR
+}
+
+/// Whether two segments have a point in common, exactly.
+#[must_use]
+pub fn cross([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
+    let side = |p: Point, q: Point, r: Point| orient2d(coord(p), coord(q), coord(r));
+    let [c_side, d_side] = [side(a, b, c), side(a, b, d)];
+    if c_side > 0.0 && d_side > 0.0 || c_side < 0.0 && d_side < 0.0 {
+        return false;
+    }
+    let [a_side, b_side] = [side(c, d, a), side(c, d, b)];
+    let on = |turn: f64, p: Point, q: Point, r: Point| {
+        turn == 0.0
+            && (p.x.min(q.x)..=p.x.max(q.x)).contains(&r.x)
+            && (p.y.min(q.y)..=p.y.max(q.y)).contains(&r.y)
+    };
+    let opposite = |one: f64, other: f64| one > 0.0 && other < 0.0 || one < 0.0 && other > 0.0;
+    opposite(c_side, d_side) && opposite(a_side, b_side)
+        || on(c_side, a, b, c)
+        || on(d_side, a, b, d)
+        || on(a_side, c, d, a)
+        || on(b_side, c, d, b)
+}
+
+fn coord(p: Point) -> Coord<f64> {
+    Coord { x: p.x, y: p.y }
+}

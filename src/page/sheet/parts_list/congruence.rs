@@ -1,0 +1,351 @@
+//! [`Shape`]: the shape of a part, to be compared with those of others up to a rigid motion.
+//!
+//! Two shapes are equal if a rotation and a shift bring each corner of one to a corner of the other, and the faces between them cover the
+//! same surface. The candidates for the motion follow from two corners: the mean of all corners stays the mean, so the first corner may
+//! only come to one that is as far from the mean, and the second one to one that is also as far from the first. The first corner is chosen
+//! from the distance that the fewest corners have, so that there are few candidates. Faces may be parted along other diagonals: faces that
+//! are not between the same corners must lie in each other's.
+//!
+//! Distances are equal within what the file rounded its coordinates to.
+
+use glam::{DAffine3, DMat3, DVec3};
+use rustc_hash::FxHashMap;
+
+use crate::geometry::numbers::tolerance::{F32_STEP, ROUNDING_OF_LATTICE, ROUNDING_OF_SINGLE};
+use crate::scene::{Geometry, Part, Scene};
+
+/// Rounding in double precision, as a share of the largest coordinate: of a transformed corner, and of a mean of many.
+const ROUNDING_OF_DOUBLE: f64 = 1e-12;
+
+/// The first corner is at least this share of the farthest one away from the mean.
+const SHORT: f64 = 0.5;
+
+/// Corners that are compared at most, of all candidates together; shapes that need more count as different.
+const MOST_CHECKS: usize = 20_000_000;
+
+/// Faces that may be parted along other diagonals, at most.
+const MOST_FLIPPED: usize = 4000;
+
+/// The shape of a part.
+pub(crate) struct Shape {
+    /// Its geometry, and the lengths and angles of its axes: parts that share both, and are not mirrored, have one shape.
+    instance: (usize, DMat3),
+    is_mirrored: bool,
+    /// Distinct corners, and faces between them.
+    corners: Vec<DVec3>,
+    faces: Vec<[u32; 3]>,
+    mean: DVec3,
+    /// How far each corner is from the mean, and these numbers in rising order.
+    far: Vec<f64>,
+    sorted: Vec<f64>,
+    /// How far rounding moves a corner.
+    rounding: f64,
+}
+
+impl Shape {
+    /// The shape of a part; `None` where it has no faces.
+    pub fn of(scene: &Scene, part: &Part) -> Option<Self> {
+        let geometry = scene.geometry_of(part).filter(|geometry| !geometry.triangles.is_empty())?;
+        let place = part.world_from_part;
+        let rounding = rounding(geometry, &place);
+        let mut grid = Grid::new(4.0 * rounding);
+        let mut known: FxHashMap<u32, u32> = FxHashMap::default();
+        let mut number = |p: u32| {
+            *known.entry(p).or_insert_with(|| {
+                let at = place.transform_point3(geometry.positions[p as usize]);
+                grid.nearest(at, 2.0 * rounding, |_| true).unwrap_or_else(|| grid.add(at))
+            })
+        };
+        let mut faces: Vec<[u32; 3]> = geometry.triangles.iter().map(|face| face.map(&mut number)).collect();
+        faces.retain(|[a, b, c]| a != b && b != c && a != c);
+        let corners = grid.corners;
+        let mean = corners.iter().sum::<DVec3>() / corners.len().max(1) as f64;
+        let far: Vec<f64> = corners.iter().map(|p| p.distance(mean)).collect();
+        let mut sorted = far.clone();
+        sorted.sort_by(f64::total_cmp);
+        let m = place.matrix3;
+        let instance = (part.geometry, m.transpose() * m);
+        Some(Self {
+            instance,
+            is_mirrored: m.determinant() < 0.0,
+            corners,
+            faces,
+            mean,
+            far,
+            sorted,
+            rounding,
+        })
+    }
+
+    /// Whether a rigid motion brings one to the other.
+    pub fn equals(&self, other: &Self) -> bool {
+        let scale = self.instance.1.to_cols_array().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let same_axes = self.instance.1.abs_diff_eq(other.instance.1, F32_STEP * scale);
+        if self.instance.0 == other.instance.0 && self.is_mirrored == other.is_mirrored && same_axes {
+            return true;
+        }
+        // A corner and the mean of each may be moved.
+        let near = 2.0 * (self.rounding + other.rounding);
+        let alike = || self.sorted.iter().zip(&other.sorted).all(|(a, b)| (a - b).abs() <= near);
+        if self.corners.len() != other.corners.len() || !alike() {
+            return false;
+        }
+        let Some(first) = self.rarest(near) else { return true };
+        let arm = (self.corners[first] - self.mean).normalize_or_zero();
+        let aside = |p: &DVec3| (*p - self.mean).cross(arm).length();
+        let second = self.corners.iter().enumerate().max_by(|a, b| aside(a.1).total_cmp(&aside(b.1)));
+        let Some((second, p)) = second else { return true };
+        if aside(p) <= near {
+            // All corners on a line have no faces.
+            return true;
+        }
+        let mut grid = Grid::new(16.0 * near);
+        other.corners.iter().for_each(|p| {
+            grid.add(*p);
+        });
+        let apart = self.corners[first].distance(self.corners[second]);
+        // Corners farther away are turned farther by what rounding does to the first one.
+        let near_there = near * (2.0 + self.sorted.last().map_or(0.0, |most| most / self.far[first]));
+        let mut left = MOST_CHECKS;
+        for p in (0..other.corners.len()).filter(|p| (other.far[*p] - self.far[first]).abs() <= near) {
+            for q in 0..other.corners.len() {
+                left = left.saturating_sub(1);
+                let is_candidate = (other.far[q] - self.far[second]).abs() <= near
+                    && (other.corners[p].distance(other.corners[q]) - apart).abs() <= near;
+                if !is_candidate {
+                    continue;
+                }
+                if left == 0 {
+                    return false;
+                }
+                let [from, to] = [(self, first, second), (other, p, q)].map(|(shape, first, second)| {
+                    frame(shape.corners[first] - shape.mean, shape.corners[second] - shape.mean)
+                });
+                let turn = to * from.transpose();
+                let brought = self.corners.iter().map(|p| other.mean + turn * (*p - self.mean));
+                let onto = onto(brought, &grid, near_there, &mut left);
+                if onto.is_some_and(|onto| same_faces(self, other, &onto, near_there)) {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// The corner, not too near to the mean, whose distance fewest others have.
+    fn rarest(&self, near: f64) -> Option<usize> {
+        let most = self.sorted.last().copied().filter(|most| *most > near)?;
+        let far = &self.far;
+        let mut order: Vec<usize> = (0..far.len()).filter(|k| far[*k] >= SHORT * most).collect();
+        order.sort_by(|a, b| far[*a].total_cmp(&far[*b]).then(a.cmp(b)));
+        let groups = order.chunk_by(|a, b| far[*b] - far[*a] <= near);
+        groups.min_by(|a, b| a.len().cmp(&b.len()).then(far[b[0]].total_cmp(&far[a[0]])))?.first().copied()
+    }
+}
+
+/// For each of some points the corner that it lies on, each on another one; `None` where one lies on none.
+fn onto(points: impl Iterator<Item = DVec3>, grid: &Grid, near: f64, left: &mut usize) -> Option<Vec<u32>> {
+    let mut taken = vec![false; grid.corners.len()];
+    points
+        .map(|p| {
+            *left = left.saturating_sub(1);
+            let k = grid.nearest(p, near, |k| !taken[k as usize])?;
+            taken[k as usize] = true;
+            Some(k)
+        })
+        .collect()
+}
+
+/// How far the file has moved corners of a geometry by rounding, world units.
+fn rounding(geometry: &Geometry, place: &DAffine3) -> f64 {
+    let largest = geometry.positions.iter().fold(0.0_f64, |most, p| most.max(p.abs().max_element()));
+    let single = if geometry.single_precision { F32_STEP * largest * ROUNDING_OF_SINGLE } else { 0.0 };
+    let lattice = geometry.lattice_step * ROUNDING_OF_LATTICE;
+    let stretch =
+        place.matrix3.x_axis.length().max(place.matrix3.y_axis.length()).max(place.matrix3.z_axis.length());
+    let world = largest * stretch + place.translation.abs().max_element();
+    single.max(lattice) * stretch + ROUNDING_OF_DOUBLE * world
+}
+
+/// Axes along one direction and in the plane of another one.
+fn frame(first: DVec3, second: DVec3) -> DMat3 {
+    let x = first.normalize_or_zero();
+    let z = x.cross(second).normalize_or_zero();
+    DMat3::from_cols(x, z.cross(x), z)
+}
+
+/// Whether faces between corners that were brought to others cover the surface of those.
+fn same_faces(one: &Shape, other: &Shape, to: &[u32], near: f64) -> bool {
+    let key = |mut face: [u32; 3]| {
+        face.sort_unstable();
+        face
+    };
+    let mut left: FxHashMap<[u32; 3], usize> = FxHashMap::default();
+    for face in &other.faces {
+        *left.entry(key(*face)).or_default() += 1;
+    }
+    let mut mine = Vec::new();
+    for face in &one.faces {
+        let face = face.map(|corner| to[corner as usize]);
+        match left.get_mut(&key(face)).filter(|count| **count > 0) {
+            Some(count) => *count -= 1,
+            None => mine.push(face),
+        }
+    }
+    let its: Vec<[u32; 3]> = other
+        .faces
+        .iter()
+        .copied()
+        .filter(|face| left.get(&key(*face)).is_some_and(|count| *count > 0))
+        .collect();
+    if mine.len().max(its.len()) > MOST_FLIPPED {
+        return false;
+    }
+    let covered = |faces: &[[u32; 3]], by: &[[u32; 3]]| {
+        faces.iter().all(|face| {
+            let [a, b, c] = face.map(|k| other.corners[k as usize]);
+            let inner = [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, (a + b + c) / 3.0];
+            inner
+                .into_iter()
+                .all(|p| by.iter().any(|face| lies_in(p, face.map(|k| other.corners[k as usize]), near)))
+        })
+    };
+    covered(&mine, &its) && covered(&its, &mine)
+}
+
+/// Whether a point lies in a triangle.
+fn lies_in(p: DVec3, [a, b, c]: [DVec3; 3], near: f64) -> bool {
+    let normal = (b - a).cross(c - a);
+    let long = normal.length();
+    if long <= 0.0 || ((p - a).dot(normal) / long).abs() > near {
+        return false;
+    }
+    [[a, b], [b, c], [c, a]]
+        .into_iter()
+        .all(|[a, b]| (b - a).cross(p - a).dot(normal) >= -near * (b - a).length() * long)
+}
+
+/// Corners by the cells of a grid.
+struct Grid {
+    corners: Vec<DVec3>,
+    cell: f64,
+    cells: FxHashMap<[i64; 3], Vec<u32>>,
+}
+
+impl Grid {
+    fn new(cell: f64) -> Self {
+        Self { corners: Vec::new(), cell: cell.max(f64::MIN_POSITIVE), cells: FxHashMap::default() }
+    }
+
+    fn cell_of(&self, p: DVec3) -> [i64; 3] {
+        (p / self.cell).floor().to_array().map(|x| x as i64)
+    }
+
+    fn add(&mut self, p: DVec3) -> u32 {
+        let number = self.corners.len() as u32;
+        self.corners.push(p);
+        self.cells.entry(self.cell_of(p)).or_default().push(number);
+        number
+    }
+
+    /// The nearest corner that is allowed, within a distance of at most half a cell.
+    fn nearest(&self, p: DVec3, near: f64, allowed: impl Fn(u32) -> bool) -> Option<u32> {
+        let [low, high] = [p - near, p + near].map(|p| self.cell_of(p));
+        let mut best: Option<(f64, u32)> = None;
+        for x in low[0]..=high[0] {
+            for y in low[1]..=high[1] {
+                for z in low[2]..=high[2] {
+                    for k in self.cells.get(&[x, y, z]).into_iter().flatten() {
+                        let far = self.corners[*k as usize].distance(p);
+                        if far <= near && allowed(*k) && best.is_none_or(|(known, _)| far < known) {
+                            best = Some((far, *k));
+                        }
+                    }
+                }
+            }
+        }
+        best.map(|(_, k)| k)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DQuat;
+
+    use super::*;
+
+    /// A part of a wedge with a step, its corners moved, rounded to a number of decimals; faces may lie along other diagonals.
+    fn part(scene: &mut Scene, size: [f64; 3], place: DAffine3, decimals: i32, flipped: bool) -> Shape {
+        let [x, y, z] = size;
+        let round = |p: f64| {
+            let scale = 10.0_f64.powi(decimals);
+            (p * scale).round() / scale
+        };
+        let corners = [
+            [0.0, 0.0, 0.0],
+            [x, 0.0, 0.0],
+            [x, y, 0.0],
+            [0.0, y, 0.0],
+            [0.0, 0.0, z],
+            [0.4 * x, 0.0, z],
+            [0.4 * x, y, z],
+            [0.0, y, z],
+        ];
+        let positions = corners
+            .map(|p| DVec3::from_array(place.transform_point3(DVec3::from_array(p)).to_array().map(round)))
+            .to_vec();
+        let quads = [[3, 2, 1, 0], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
+        let of = |[a, b, c, d]: [u32; 4]| {
+            if flipped { [[b, c, d], [b, d, a]] } else { [[a, b, c], [a, c, d]] }
+        };
+        let triangles = quads.into_iter().flat_map(of).collect();
+        let step = 10.0_f64.powi(-decimals);
+        scene.geometries.push(Geometry { positions, triangles, lattice_step: step, ..Geometry::default() });
+        let geometry = scene.geometries.len() - 1;
+        let part = Part { name: String::new(), geometry, world_from_part: DAffine3::IDENTITY };
+        Shape::of(scene, &part).unwrap()
+    }
+
+    #[test]
+    fn shapes_are_equal_up_to_a_rigid_motion_in_the_precision_of_the_file() {
+        let mut scene = Scene::default();
+        let turn = DAffine3::from_rotation_translation(
+            DQuat::from_euler(glam::EulerRot::XYZ, 0.7, 1.9, -2.2),
+            DVec3::new(120.0, -44.0, 17.0),
+        );
+        let mirror = DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
+        let skew = DAffine3::from_scale(DVec3::new(1.0, 1.002, 1.0));
+        let size = [30.0, 20.0, 11.0];
+        for decimals in [3, 5, 8] {
+            let own = part(&mut scene, size, DAffine3::IDENTITY, decimals, false);
+            let mut equals = |size, place, flipped| {
+                let other = part(&mut scene, size, place, decimals, flipped);
+                assert_eq!(own.equals(&other), other.equals(&own));
+                own.equals(&other)
+            };
+            assert!(equals(size, DAffine3::IDENTITY, false) && equals(size, turn, false), "{decimals}");
+            assert!(equals(size, turn, true), "{decimals}: along other diagonals");
+            // It has a plane of symmetry, so that its mirror image is the same shape.
+            assert!(equals(size, turn * mirror, false), "{decimals}");
+            assert!(!equals([30.0, 20.0, 11.05], turn, false), "{decimals}");
+            assert!(!equals(size, turn * skew, false), "{decimals}");
+            assert!(!equals([20.0, 30.0, 11.0], turn, false), "{decimals}");
+        }
+    }
+
+    #[test]
+    fn a_mirror_image_is_another_shape() {
+        let mut scene = Scene::default();
+        let hand = [[0.0, 0.0, 0.0], [5.0, 0.0, 0.0], [0.0, 3.0, 0.0], [0.0, 0.0, 2.0]];
+        let mut shape = |sign: f64| {
+            let positions = hand.map(|[x, y, z]| DVec3::new(sign * x, y, z)).to_vec();
+            let triangles = vec![[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+            scene.geometries.push(Geometry { positions, triangles, ..Geometry::default() });
+            let geometry = scene.geometries.len() - 1;
+            Shape::of(&scene, &Part { name: String::new(), geometry, world_from_part: DAffine3::IDENTITY })
+                .unwrap()
+        };
+        let [left, right, other] = [shape(1.0), shape(-1.0), shape(1.0)];
+        assert!(left.equals(&other) && !left.equals(&right));
+    }
+}

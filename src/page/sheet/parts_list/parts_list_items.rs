@@ -1,0 +1,117 @@
+//! [`items`]: the parts list of a scene: what it is made of, by name, with counts.
+
+use std::collections::BTreeMap;
+
+use super::congruence::Shape;
+use crate::scene::Scene;
+
+/// An item of a parts list.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Item {
+    /// Its number.
+    pub number: String,
+    /// How many there are.
+    pub count: usize,
+    /// What it is called.
+    pub name: String,
+    /// What its parts are made of, by the name of the material of the first of them.
+    pub material: String,
+    /// What else there is to say.
+    pub remark: String,
+    /// Its parts, indices into [`Scene::parts`].
+    pub parts: Vec<usize>,
+}
+
+/// The items of a scene, in the order in which their first parts are in it: parts of equal shape and one material are one item if they
+/// show one geometry, or if their names are the same but for a number at the end (`bolt.001`, `bolt-2`, `bolt 3`). Shapes are equal if a
+/// rotation and a shift bring one to the other, in the precision of the file; mirror images are not.
+#[must_use]
+pub fn items(scene: &Scene) -> Vec<Item> {
+    // The items of each geometry and of each name, and the shapes of their first parts.
+    let mut of_geometry: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    let mut of_name: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    let mut shapes: Vec<Shape> = Vec::new();
+    let mut items: Vec<Item> = Vec::new();
+    for (number, part) in scene.parts.iter().enumerate() {
+        let Some(shape) = Shape::of(scene, part) else { continue };
+        let material = scene.geometry_of(part).and_then(|shape| shape.material_of(0));
+        let material = material.and_then(|material| scene.materials.get(material as usize));
+        let material = material.map(|material| material.name.clone()).unwrap_or_default();
+        let same_geometry = of_geometry.entry(part.geometry).or_default();
+        let same_name = of_name.entry(stem(&part.name)).or_default();
+        let known = same_geometry.iter().chain(same_name.iter()).copied();
+        let known =
+            known.into_iter().find(|item| items[*item].material == material && shapes[*item].equals(&shape));
+        let item = known.unwrap_or_else(|| {
+            items.push(Item {
+                number: (items.len() + 1).to_string(),
+                count: 0,
+                name: part.name.clone(),
+                material,
+                remark: String::new(),
+                parts: Vec::new(),
+            });
+            shapes.push(shape);
+            items.len() - 1
+        });
+        for list in [same_geometry, same_name] {
+            if !list.contains(&item) {
+                list.push(item);
+            }
+        }
+        items[item].parts.push(number);
+    }
+    for item in &mut items {
+        item.count = item.parts.len();
+        if item.parts.len() > 1 {
+            item.name = common(item.parts.iter().map(|part| &*scene.parts[*part].name));
+        }
+    }
+    items
+}
+
+/// What several parts are called: without numbers at the end, and without those in between by which alone they differ.
+fn common<'a>(mut names: impl Iterator<Item = &'a str> + Clone) -> String {
+    let first = names.clone().next().unwrap_or_default();
+    if names.clone().all(|name| stem(name) == stem(first)) {
+        return stem(first).to_owned();
+    }
+    let bare = without_numbers(first);
+    if names.all(|name| without_numbers(name) == bare) { bare } else { stem(first).to_owned() }
+}
+
+/// A name without its words that are numbers.
+fn without_numbers(name: &str) -> String {
+    let is_number = |word: &&str| !word.is_empty() && word.chars().all(|c| c.is_ascii_digit());
+    let words: Vec<&str> = name.split('_').filter(|word| !is_number(word)).collect();
+    words.join("_")
+}
+
+/// A name without a number at its end and what parts that from it.
+fn stem(name: &str) -> &str {
+    let bare = name.trim_end_matches(|c: char| c.is_ascii_digit());
+    let stem = bare.trim_end_matches(['.', '-', '_', ' ', '#']);
+    if bare.len() < name.len() && stem.len() < bare.len() && !stem.is_empty() { stem } else { name }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_at_the_end_are_no_names() {
+        for (name, own) in [
+            ("bolt.001", "bolt"),
+            ("bolt_M6x25_1", "bolt_M6x25"),
+            ("cover-bolt-12", "cover-bolt"),
+            ("link 3", "link"),
+            ("gear29", "gear29"),
+            ("gear_29t", "gear_29t"),
+            ("12", "12"),
+            ("-1", "-1"),
+            ("", ""),
+        ] {
+            assert_eq!(stem(name), own);
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! [`joined`]: lists one after the other.
+//!
+//! Memory that nobody has touched is cleared by the system when it first is: of long lists that takes longer than to copy
+//! them, and one thread that does it keeps all others waiting.
+
+use super::prelude::*;
+
+/// Values that one task copies at least.
+const LEAST: usize = 1 << 12;
+
+/// All values of some lists, in their order, copied by all threads.
+pub fn joined<T: Copy + Send + Sync>(lists: &[Vec<T>]) -> Vec<T> {
+    let mut starts = Vec::with_capacity(lists.len());
+    let mut total = 0;
+    for list in lists {
+        starts.push(total);
+        total += list.len();
+    }
+    // Neighbours mostly are of one list.
+    let value = |own: &mut usize, at: usize| match lists[*own].get(at.wrapping_sub(starts[*own])) {
+        Some(value) => *value,
+        None => {
+            *own = starts.partition_point(|start| *start <= at) - 1;
+            lists[*own][at - starts[*own]]
+        }
+    };
+    (0..total).into_par_iter().with_min_len(LEAST).map_init(|| 0, value).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_come_one_after_the_other() {
+        let lists: Vec<Vec<usize>> = (0..200)
+            .map(|k| (0..(k * 7919) % 301 * usize::from(k % 5 > 1)).map(|i| k * 1000 + i).collect())
+            .collect();
+        assert!(lists.concat().len() > 3 * LEAST && lists.iter().any(Vec::is_empty));
+        for some in [&lists[..], &lists[..3], &lists[..1], &[]] {
+            assert_eq!(joined(some), some.concat());
+        }
+    }
+}

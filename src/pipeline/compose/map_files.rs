@@ -1,0 +1,82 @@
+//! [`MapFiles`]: the maps in which lines are found, as pictures to keep.
+
+use crate::parallel::prelude::*;
+
+use crate::error::Error;
+use crate::lines::image::{self, ImageOptions};
+use crate::mesh::Mesh;
+use crate::view::raster::{Maps, NO_FRONT};
+
+/// The maps of a view as PNG files, all of one size: a px of the drawing is as many pixels as `lines.image.samples` says.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct MapFiles {
+    /// Unit normals on the side that is seen, from −1 to 1 as 0 to 255: red to the right, green up, blue towards the
+    /// eye. Black where nothing is.
+    pub normal: Vec<u8>,
+    /// Depth along the optical axis, 16 bits, linear: darker is nearer, white is where nothing is.
+    pub depth: Vec<u8>,
+    /// Black where the test of the style finds edges, widened by as many passes as it asks for.
+    pub edges: Vec<u8>,
+    /// A colour for each part of the model; white where none is.
+    pub parts: Vec<u8>,
+}
+
+impl MapFiles {
+    /// What the files are called.
+    pub const NAMES: [&'static str; 4] = ["normal.png", "depth.png", "edges.png", "parts.png"];
+
+    /// The files and their names.
+    #[must_use]
+    pub fn named(&self) -> [(&'static str, &[u8]); 4] {
+        let [normal, depth, edges, parts] = Self::NAMES;
+        [(normal, &self.normal), (depth, &self.depth), (edges, &self.edges), (parts, &self.parts)]
+    }
+
+    pub(crate) fn new(mesh: &Mesh, maps: &Maps, options: &ImageOptions) -> Result<Self, Error> {
+        let shown = |pixel: usize| maps.faces[pixel] != NO_FRONT;
+        let normal = |pixel: usize| {
+            let value = |x: f32| ((x * 0.5 + 0.5) * 255.0).round() as u8;
+            if shown(pixel) { maps.normals[pixel].map(value) } else { [0; 3] }
+        };
+        let depth = |pixel: usize| ((maps.depths[pixel] * 65_535.0).round() as u16).to_be_bytes();
+        let part = |pixel: usize| {
+            let part = mesh.face_part.get(maps.faces[pixel] as usize);
+            part.map_or([255; 3], |part| colour(part.0))
+        };
+        let ink = image::ink_dilation::inked(&image::edges(maps, options), maps.columns, options);
+        let grey = |pixel: usize| [255 - (ink[pixel] * 255.0).round() as u8];
+        Ok(Self {
+            normal: encode(maps, png::ColorType::Rgb, png::BitDepth::Eight, normal)?,
+            depth: encode(maps, png::ColorType::Grayscale, png::BitDepth::Sixteen, depth)?,
+            edges: encode(maps, png::ColorType::Grayscale, png::BitDepth::Eight, grey)?,
+            parts: encode(maps, png::ColorType::Rgb, png::BitDepth::Eight, part)?,
+        })
+    }
+}
+
+/// A colour of its own for a part: its number, its bits well mixed, neither near white nor near black.
+fn colour(part: u32) -> [u8; 3] {
+    let mixed = part.wrapping_add(1).wrapping_mul(0x9E37_79B1);
+    [24, 16, 8].map(|shift| 40 + ((mixed >> shift) & 0xFF) as u8 / 4 * 3)
+}
+
+fn encode<const N: usize>(
+    maps: &Maps,
+    colours: png::ColorType,
+    bits: png::BitDepth,
+    pixel: impl Fn(usize) -> [u8; N] + Sync + Send,
+) -> Result<Vec<u8>, Error> {
+    let pixels: Vec<[u8; N]> = (0..maps.faces.len()).into_par_iter().map(pixel).collect();
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, maps.columns as u32, maps.rows as u32);
+    encoder.set_color(colours);
+    encoder.set_depth(bits);
+    encoder.set_compression(png::Compression::Fast);
+    let written = encoder.write_header().and_then(|mut writer| {
+        writer.write_image_data(pixels.as_flattened())?;
+        writer.finish()
+    });
+    written.map_err(|error| Error::new(format!("cannot write PNG: {error}")))?;
+    Ok(file)
+}

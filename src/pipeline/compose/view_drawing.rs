@@ -1,0 +1,223 @@
+//! From what is known of a view to its drawing: what lies under the lines beside the lines, one layer over the other.
+
+use std::sync::Arc;
+
+use super::map_files::MapFiles;
+use crate::colour::srgb::Colour;
+use crate::drawing::{Drawing, Layer, Page, Unit};
+use crate::error::Error;
+use crate::hatching::{self, Hatched};
+use crate::pipeline::fills::fill_pass::{Painted, Unpainted};
+use crate::pipeline::fills::glass::Behind;
+use crate::pipeline::fills::surface_fills::{self, Colours};
+use crate::pipeline::fills::view_hatching;
+use crate::pipeline::fills::view_hatching::Hatching;
+use crate::pipeline::lines::chain_samples::{self, Beside};
+use crate::pipeline::lines::motion_trails::{self, Trails};
+use crate::pipeline::lines::{chain_colours, image_lines, view_chains};
+use crate::pipeline::prepare::prepared_scene::Prepared;
+use crate::pipeline::report::drawing_report::{self, Report, Stopwatch};
+use crate::pipeline::report::{empty_drawing, mesh_defects};
+use crate::pipeline::stages::stage::Stage;
+use crate::pipeline::stages::{self, Made};
+use crate::pipeline::thread_pool::on_threads;
+use crate::pipeline::view::page_transform::{centre_on_page, frame_on_page, margin};
+use crate::pipeline::view::visibility_pass::OnView;
+use crate::regions::{Ground, PageBorders};
+use crate::scene::{Camera, Scene};
+use crate::strokes::{self, InkContext, InkWidths, Parting};
+use crate::view::View;
+use crate::visibility::{Ahead, ViewMap};
+
+impl Prepared<'_> {
+    /// Draws a view as [`render_reported`](crate::pipeline::render_reported) does; the report has only the times of what was done for
+    /// this view.
+    ///
+    /// # Errors
+    /// If the camera can take no picture: see [`Camera::validate`].
+    pub fn draw(
+        &self,
+        camera: &Camera,
+        page: Page,
+        stage: Option<Stage>,
+    ) -> Result<(Drawing, Report), Error> {
+        camera.validate()?;
+        Ok(self.on_view(camera, page.unit, |on_view| self.drawn(on_view, camera, page, stage)))
+    }
+
+    /// The maps of a view that lines in the image are found in, whether the style seeks any or not. `unit` is that of the page.
+    ///
+    /// # Errors
+    /// If the camera can take no picture: see [`Camera::validate`].
+    pub fn maps(&self, camera: &Camera, unit: Unit) -> Result<MapFiles, Error> {
+        camera.validate()?;
+        on_threads(|| {
+            let refined = self.surface.refined_for(camera, None);
+            let surface = refined.as_ref().map_or(&self.surface, |finer| &finer.surface);
+            let view = View::new(&surface.mesh, camera);
+            let maps = image_lines::maps(surface, &view, self.style, unit);
+            MapFiles::new(&surface.mesh, &maps, &self.style.lines.image)
+        })
+    }
+
+    /// What a view is hatched on, and the strokes of each layer of its hatching, each with what it is
+    /// known by. `None` if the style hatches nothing, or the camera can take no picture.
+    #[must_use]
+    pub fn hatch_strokes(&self, camera: &Camera, page: Page) -> Option<(Ground, Vec<Hatched>)> {
+        camera.validate().ok()?;
+        self.on_view(camera, page.unit, |on_view| {
+            let OnView { fills, map, behind, .. } = on_view;
+            let fills = fills.filter(|_| self.style.hatch.enabled)?;
+            let (scene, style) = (self.scene.as_ref(), self.style);
+            let hatching = Hatching { fills, scene, page: &page, camera, style };
+            let see = || fills.see(&PageBorders::of(&map, &on_view.view.frame), &page);
+            let seen = behind.map_or_else(see, |behind| behind.see(fills, &page));
+            Some(hatching.strokes(&seen))
+        })
+    }
+
+    /// A drawing of a view, and what it took; of a stage, where one is named.
+    pub(crate) fn drawn(
+        &self,
+        on_view: OnView,
+        camera: &Camera,
+        page: Page,
+        stage: Option<Stage>,
+    ) -> (Drawing, Report) {
+        let Self { scene, style, paints, .. } = self;
+        let OnView { surface, view, lines, unchanged, textures, fills, mut map, .. } = on_view;
+        let OnView { mut behind, mut report, mut watch, mut warnings, .. } = on_view;
+        let mut layers: Vec<Layer> = hatching::paper(&page, &style.paper, style.seed).into_iter().collect();
+        let lit = fills.filter(|_| surface_fills::is_lit(style));
+        let borders = lit.map(|_| PageBorders::of(&map, &view.frame));
+        let (whole, margin) = ((&surface.mesh, surface.pieces.as_slice()), margin(&view.frame, &page));
+        let parts: Vec<Arc<str>> = scene.parts.iter().map(|p| Arc::from(p.name.as_str())).collect();
+        let materials: Vec<(Arc<str>, Colour)> =
+            scene.materials.iter().map(|m| (Arc::from(m.name.as_str()), m.colour)).collect();
+        let widths = InkWidths::new(&style.stroke, &parts, &materials, page.unit);
+        // Both have parts that one thread does alone.
+        let paint = || {
+            let (fills, borders) = lit.zip(borders.as_ref())?;
+            let (paints, behind) = (paints.as_deref(), behind.as_ref());
+            let on = Unpainted { scene, style, paints, fills, surface, lines, borders, behind };
+            Some(Painted::of(&on, &page, camera))
+        };
+        let link = || {
+            let mut watch = Stopwatch::start();
+            if fills.is_some() {
+                surface_fills::keep_inked(&mut map, style, &unchanged);
+            }
+            let lines = image_lines::joined(&mut map, lines, surface, view, style, page.unit);
+            let joining = watch.lap_ms();
+            centre_on_page(&mut map, &view.frame, &page);
+            let ahead = Ahead::new(whole, view, &lines, &map.seen_contours, margin);
+            let of_view = (scene.as_ref(), &surface.mesh.extents, &view.frame);
+            let chains = view_chains::chains(&ahead, &map, (style, &widths), page.unit, of_view);
+            (lines, chains, [joining, watch.lap_ms()])
+        };
+        let (painted, (lines, mut chains, [joining, linking])) = crate::parallel::join(paint, link);
+        let Painted { layers: painted, blacks, warnings: more, regions, leaks, regions_ms, hatching_ms } =
+            painted.unwrap_or_default();
+        layers.extend(painted);
+        warnings.extend(more);
+        (report.counts.regions, report.counts.leaks) = (regions, leaks);
+        report.stages_ms.regions = regions_ms;
+        report.stages_ms.hatching = hatching_ms;
+        report.stages_ms.features += joining;
+        let lines = &*lines;
+        // Each of both has told its own time.
+        watch.lap_ms();
+        if let Some(behind) = &mut behind {
+            chains.extend(behind.chains(style, page.unit, |veiled| {
+                surface_fills::keep_inked(veiled, style, &unchanged);
+                centre_on_page(veiled, &view.frame, &page);
+            }));
+        }
+        report.stages_ms.chains = linking + watch.lap_ms();
+
+        let beside = Beside { scene, surface, view, style, margin, unit: page.unit };
+        chain_samples::ask(&mut chains, &beside);
+        let paints = paints.as_deref();
+        let colours = paints.zip(textures).map(|(paints, textures)| Colours { paints, textures });
+        chain_colours::ask(&mut chains, &beside, lines, colours, blacks.as_ref());
+        if let Some(anchors) = &self.anchors {
+            anchors.ask(&mut chains, camera, margin);
+        }
+        let names = chain_samples::names(lines, surface, &style.stroke);
+        let context = InkContext {
+            unit: page.unit,
+            parts: &parts,
+            materials: &materials,
+            hidden: style.lines.hidden,
+            behind_glass: style.glass.width,
+            seed: style.seed,
+            painted: style.region.enabled,
+            depths: view.frame.depths(),
+            names: &names,
+            parting: blacks.map(|_| Parting {
+                colour: style.background.unwrap_or(Colour::WHITE),
+                width: style.hatch.parting,
+            }),
+            frame: Some(frame_on_page(&view.frame, &page)),
+        };
+        match stage {
+            None => {
+                let clear = behind.as_ref().map_or(&surface.mesh, Behind::clear);
+                let centre = |map: &mut ViewMap| centre_on_page(map, &view.frame, &page);
+                let trails = Trails::of((clear, view, camera), scene, style, page.unit, centre);
+                let before = layers.len();
+                layers.extend(trails.iter().flat_map(|trails| trails.ink(&context)));
+                let moves = scene.movers.as_ref().is_some_and(|movers| !movers.is_empty());
+                if style.motion.enabled && moves && layers.len() == before {
+                    warnings.push(motion_trails::NONE_SEEN.to_owned());
+                }
+                layers.extend(strokes::ink(&chains, &context, &style.stroke));
+                layers.extend(hatching::tooth(&page, &style.paper, style.seed));
+            }
+            Some(stage) => {
+                let ahead = Ahead::new(whole, view, lines, &map.seen_contours, margin);
+                let made = Made {
+                    surface,
+                    view,
+                    lines,
+                    ahead: &ahead,
+                    map: &map,
+                    chains: &chains,
+                    style,
+                    page: &page,
+                };
+                layers = stages::draw(stage, &made);
+            }
+        }
+        report.stages_ms.strokes = watch.lap_ms();
+
+        report.counts.feature_edges = lines.segments.len() as u64;
+        report.counts.ray_tests = map.tests;
+        report.counts.contour_curves = map.contours.curves;
+        report.counts.contour_bare = map.contours.bare;
+        report.counts.contour_folds = map.contours.folds;
+        report.counts.chains = chains.len() as u64;
+        report.counts.points =
+            layers.iter().flat_map(|l| &l.marks).map(|m| drawing_report::points(&m.path)).sum();
+        report.warnings = mesh_defects::of_mesh(&surface.mesh, scene).lines();
+        report.warnings.extend(self.warnings.lines());
+        report.warnings.extend(paints.iter().flat_map(|paints| paints.warnings.lines()));
+        report.warnings.extend(warnings);
+        report.warnings.extend(view_hatching::too_dark(style, page.unit));
+        if style.motion.enabled && scene.movers.is_none() {
+            report.warnings.push(motion_trails::NO_MOMENT.to_owned());
+        }
+        if stage.is_none() && empty_drawing::shows_nothing(&layers) {
+            let seen = (&surface.mesh, view);
+            report.warnings.push(empty_drawing::reason(scene, seen, style, !chains.is_empty()));
+        }
+        let warnings = report.warnings.clone();
+        (Drawing { title: title(scene), page, layers, hotspots: Vec::new(), warnings }, report)
+    }
+}
+
+/// The model's name: its file without folder and ending.
+fn title(scene: &Scene) -> String {
+    let stem = scene.file.as_ref().and_then(|file| file.file_stem());
+    stem.map_or_else(|| "drawing".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}

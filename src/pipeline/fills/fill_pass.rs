@@ -1,0 +1,85 @@
+//! [`Painted`]: what lies under the lines of a drawing, colours and hatching.
+
+use super::glass::Behind;
+use super::surface_fills::Fills;
+use super::view_hatching::Hatching;
+use super::{pattern_pass, picture_pass};
+use crate::drawing::{Layer, LayerKind, Page};
+use crate::lines::{FeatureLines, Surface};
+use crate::pipeline::report::drawing_report::Stopwatch;
+use crate::regions::{Ground, PageBorders};
+use crate::scene::paints::triangle_paints::Paints;
+use crate::scene::{Camera, Scene};
+use crate::strokes::{self, Order};
+use crate::style::Style;
+
+/// What lies under the lines of a drawing.
+#[derive(Default)]
+pub(crate) struct Painted {
+    /// From the lowest up.
+    pub layers: Vec<Layer>,
+    /// Where hatching is all black.
+    pub blacks: Option<Ground>,
+    pub warnings: Vec<String>,
+    /// How many regions there are.
+    pub regions: u64,
+    /// Cells in which different looks were seen.
+    pub leaks: u64,
+    /// How long regions took, milliseconds.
+    pub regions_ms: f64,
+    /// How long hatching took, milliseconds.
+    pub hatching_ms: f64,
+}
+
+/// A lit surface, cut by the lines that are seen, to be painted and hatched.
+pub(crate) struct Unpainted<'a> {
+    pub scene: &'a Scene,
+    pub style: &'a Style,
+    pub paints: Option<&'a Paints>,
+    pub fills: &'a Fills<'a>,
+    pub surface: &'a Surface,
+    pub lines: &'a FeatureLines,
+    pub borders: &'a PageBorders,
+    pub behind: Option<&'a Behind<'a>>,
+}
+
+impl Painted {
+    /// Paints and hatches a surface.
+    pub fn of(on: &Unpainted, page: &Page, camera: &Camera) -> Self {
+        let Unpainted { scene, style, paints, fills, surface, lines, borders, behind } = *on;
+        let mut watch = Stopwatch::start();
+        let mut painted = Self::default();
+        let seen = behind.map_or_else(|| fills.see(borders, page), |behind| behind.see(fills, page));
+        if style.region.enabled {
+            let (mut layers, regions) = fills.paint(&seen, page, camera, style);
+            painted.regions = regions.regions.len() as u64;
+            if let Some(paints) = paints {
+                let clear = behind.map_or(&surface.mesh, Behind::clear);
+                let (on, asked) = ((clear, lines), (page, camera, style));
+                picture_pass::add(fills, on, (paints, &regions), asked, &mut layers, &mut painted.warnings);
+            }
+            if let Some(behind) = behind {
+                behind.paint(fills, borders, (page, camera, style), &mut layers);
+            }
+            painted.layers.extend(layers);
+        }
+        let mut patterned = pattern_pass::marks(fills, &seen, scene, (page, camera, style));
+        painted.leaks = seen.leaks;
+        painted.regions_ms = watch.lap_ms();
+        let hatching = Hatching { fills, scene, page, camera, style };
+        let mut hatched = if style.hatch.enabled { hatching.layer(&seen) } else { None };
+        if !patterned.is_empty() {
+            patterned.extend(hatched.take().into_iter().flat_map(|layer| layer.marks));
+            hatched = Some(Layer { kind: LayerKind::Hatching, pen: None, ordered: false, marks: patterned });
+        }
+        if style.stroke.layers.order == Order::Travel {
+            hatched = hatched.map(strokes::travel_order::along);
+        }
+        painted.layers.extend(hatched);
+        if style.hatch.enabled {
+            painted.hatching_ms = watch.lap_ms();
+        }
+        painted.blacks = hatching.black_ground(&seen);
+        painted
+    }
+}

@@ -1,0 +1,128 @@
+//! Materials that one sees through: left out, or drawn over what is behind them.
+
+use std::borrow::Cow;
+
+use super::surface_fills::Fills;
+use crate::chains::{self, Chain};
+use crate::colour::srgb::Colour;
+use crate::drawing::{Layer, LayerKind, Mark, Page, Paint, Unit};
+use crate::lines::{FeatureLines, HiddenLines, LineOptions, Surface};
+use crate::mesh::{MaterialId, Mesh};
+use crate::regions::{self, PageBorders};
+use crate::scene::textures::cutouts;
+use crate::scene::textures::cutouts::Cut;
+use crate::scene::{Camera, GlassDraw, Scene, glass};
+use crate::style::Style;
+use crate::view::View;
+use crate::visibility::{self, ViewMap};
+
+/// A scene without the materials that a style leaves out.
+pub(crate) fn left<'a>(scene: &'a Scene, style: &Style) -> Cow<'a, Scene> {
+    let absent = style.glass.opacities(scene, GlassDraw::Absent);
+    if absent.is_empty() {
+        return Cow::Borrowed(scene);
+    }
+    Cow::Owned(glass::without(scene, |material| absent.get(material).copied().flatten().is_some()))
+}
+
+/// What pictures leave of a scene, as [`cutouts::cut`] has it.
+pub(crate) fn cut<'a>(scene: &'a Scene, left: &Cow<'a, Scene>) -> Cut<'a> {
+    match left {
+        Cow::Borrowed(_) => cutouts::cut(scene),
+        Cow::Owned(left) => {
+            let Cut { scene, origins, warnings } = cutouts::cut(left);
+            Cut { scene: Cow::Owned(scene.into_owned()), origins, warnings }
+        }
+    }
+}
+
+/// A mesh some of whose faces one sees through.
+pub(crate) struct Panes {
+    /// The mesh, but that these faces hide nothing.
+    clear: Mesh,
+    /// How opaque materials are that one sees through.
+    opacities: Vec<Option<f64>>,
+}
+
+/// What is seen through panes.
+pub(crate) struct Behind<'a> {
+    panes: &'a Panes,
+    /// All lines that the mesh without panes leaves seen.
+    map: ViewMap,
+    /// Those of them that are seen through panes alone.
+    veiled: ViewMap,
+}
+
+impl Panes {
+    /// The panes of a surface; none if it has none, or the style draws them like all else.
+    pub fn of(surface: &Surface, scene: &Scene, style: &Style) -> Option<Self> {
+        let opacities = style.glass.opacities(scene, GlassDraw::Glass);
+        let is_pane = |material: MaterialId| opacities.get(material.index()).copied().flatten().is_some();
+        let mesh = &surface.mesh;
+        if !mesh.face_material.iter().any(|material| is_pane(*material)) {
+            return None;
+        }
+        let clear = mesh.seen_through(|face| is_pane(mesh.face_material[face.index()]));
+        Some(Self { clear, opacities })
+    }
+
+    /// The mesh, but that panes hide nothing.
+    pub fn clear(&self) -> &Mesh {
+        &self.clear
+    }
+
+    /// Decides what is seen through them.
+    pub fn look_behind(
+        &self,
+        mesh: &Mesh,
+        view: &View,
+        lines: &FeatureLines,
+        options: &LineOptions,
+    ) -> Behind<'_> {
+        let [map, veiled] = visibility::build_through(mesh, &self.clear, view, lines, options);
+        Behind { panes: self, map, veiled }
+    }
+}
+
+impl Behind<'_> {
+    /// The mesh, but that panes hide nothing.
+    pub fn clear(&self) -> &Mesh {
+        self.panes.clear()
+    }
+
+    /// What the eye sees where there are no panes.
+    pub fn see(&self, fills: &Fills, page: &Page) -> regions::Seen {
+        fills.see_behind(&self.panes.clear, &self.map, page)
+    }
+
+    /// Paints the panes over the layers of what is behind them: each region in the colour of its tone, as opaque as its
+    /// material.
+    pub fn paint(
+        &self,
+        fills: &Fills,
+        borders: &PageBorders,
+        (page, camera, style): (&Page, &Camera, &Style),
+        layers: &mut Vec<Layer>,
+    ) {
+        let opacity = |material: MaterialId| self.panes.opacities.get(material.index()).copied().flatten();
+        let seen = fills.see(borders, page);
+        let panes = fills.outlines(&seen, page, camera, style, |look| opacity(look.material).is_some());
+        if layers.is_empty() {
+            layers.push(Layer { kind: LayerKind::Fills, pen: None, ordered: false, marks: Vec::new() });
+        }
+        let Some(over) = layers.last_mut() else { return };
+        over.marks.extend(panes.into_iter().map(|(path, colour, look, provenance)| {
+            let opacity = opacity(look.material).unwrap_or(1.0);
+            let colour = Colour { a: (255.0 * opacity).round() as u8, ..colour };
+            Mark { path, paint: Paint::Fill(colour), provenance }
+        }));
+    }
+
+    /// The lines that are seen through panes alone, before they are moved on the page.
+    pub fn chains(&mut self, style: &Style, unit: Unit, prepare: impl FnOnce(&mut ViewMap)) -> Vec<Chain> {
+        prepare(&mut self.veiled);
+        let mut chains = chains::link(&self.veiled, &style.chain, unit, HiddenLines::None);
+        chains.iter_mut().for_each(|chain| chain.veiled = true);
+        chains
+    }
+}

@@ -1,0 +1,89 @@
+//! Patterns over the tones of a view.
+
+use std::sync::Arc;
+
+use kurbo::Vec2;
+
+use super::surface_fills::Fills;
+use super::surface_patterns;
+use super::view_hatching::cut_of;
+use crate::colour::srgb::Colour;
+use crate::drawing::{Mark, Page};
+use crate::hatching::guides::section_guides;
+use crate::hatching::{self, Guide, HatchContext, OnSurface, Pattern, PatternFixed, PatternKind};
+use crate::regions::surface_curves::level_curves::{are_seen, level_curves};
+use crate::regions::{Ground, Seen};
+use crate::scene::{Camera, Scene};
+use crate::style::Style;
+
+/// Lines of a pattern that cover more of the surface than this are left out: where it turns from the eye they would fill it.
+const DENSEST: f64 = 0.7;
+
+/// The marks of all patterns of a style.
+pub(crate) fn marks(
+    fills: &Fills,
+    seen: &Seen,
+    scene: &Scene,
+    (page, camera, style): (&Page, &Camera, &Style),
+) -> Vec<Mark> {
+    let asked = |own: &&Pattern| style.region.enabled || own.unpainted;
+    if !style.patterns.iter().any(|own| asked(&own)) {
+        return Vec::new();
+    }
+    let offset = Vec2::new(page.width - camera.width, page.height - camera.height) / 2.0;
+    let ground = Ground::toned(seen, style.region.crumb, page.unit, offset);
+    let parts: Vec<Arc<str>> = scene.parts.iter().map(|part| Arc::from(part.name.as_str())).collect();
+    let materials: Vec<(Arc<str>, Colour)> =
+        scene.materials.iter().map(|own| (Arc::from(own.name.as_str()), own.colour)).collect();
+    let context = HatchContext {
+        unit: page.unit,
+        seed: style.seed,
+        parts: &parts,
+        materials: &materials,
+        paints: &fills.paint_colours(scene, style),
+        tones: &[],
+        samples: None,
+        paper: style.background.unwrap_or(Colour::WHITE),
+        flows: &[],
+        fixed: &[],
+        frame: None,
+    };
+    let of = |own: &Pattern| {
+        let fixed = match (own.fixed, own.kind) {
+            (PatternFixed::Page, _) => None,
+            (PatternFixed::Surface, PatternKind::Lines | PatternKind::Crosses) => {
+                Some(OnSurface::Guides(guides(fills, &ground, scene, own, page, offset)))
+            }
+            (PatternFixed::Surface, PatternKind::Dots | PatternKind::Tile) => {
+                Some(surface_patterns::laid(&fills.lit(), &ground, scene, own, page, offset))
+            }
+        };
+        let tones = |look: &crate::regions::Look| fills.tone_count(look.paint);
+        hatching::pattern(&ground, &context, own, tones, fixed.as_ref())
+    };
+    style.patterns.iter().filter(asked).flat_map(of).collect()
+}
+
+/// The lines of a pattern that is fixed to the surface: cuts through the model as far apart as they are on the page where the camera
+/// looks.
+fn guides(
+    fills: &Fills,
+    ground: &Ground,
+    scene: &Scene,
+    own: &Pattern,
+    page: &Page,
+    offset: Vec2,
+) -> Vec<Guide> {
+    let lit = fills.lit();
+    let frame = &lit.view.frame;
+    let [size, width] = [own.size, own.width].map(|length| length.in_unit(page.unit));
+    let spacing = surface_patterns::in_model(size, frame);
+    let turns = if own.kind == PatternKind::Crosses { &[0.0, 90.0][..] } else { &[0.0] };
+    let of = |turn: &f64| {
+        let across = cut_of(scene, (own.angle + turn).to_radians());
+        let cut = |face: u32| Some(fills.resting_corners(face).map(|p| p.dot(across) / spacing));
+        let curves = level_curves(&lit, offset, cut, |_, density| density * width < DENSEST);
+        section_guides::guides(ground, &curves, |points| are_seen(&lit, offset, points), |_, _| 0, size, 0)
+    };
+    turns.iter().flat_map(of).collect()
+}

@@ -1,0 +1,146 @@
+//! What lines know of the colours beside them: of the surface that they belong to, and of spot blacks.
+//!
+//! Asked only where a pen takes the colour of the material, or where blacks are to be parted.
+
+use glam::DVec2;
+
+use super::chain_samples::{BESIDE_PX, Beside, NEARER_OF_FRAME, STEP_PX, across, fill};
+use crate::chains::Chain;
+use crate::colour::srgb::Colour;
+use crate::drawing::Length;
+use crate::lines::FeatureLines;
+use crate::mesh::FaceId;
+use crate::pipeline::fills::surface_fills::{Colours, paint_colours};
+use crate::regions::Ground;
+use crate::strokes::{Ink, Pen};
+use crate::style::Style;
+use crate::visibility::{Front, front_faces};
+
+/// Blacks are asked for at places of a line that lie no farther apart than this, px.
+const BLACK_STEP_PX: f64 = 1.0;
+
+/// Blacks are followed no farther than this to either side, px.
+const BLACK_PX: f64 = 12.0;
+
+/// Whether any line takes the colour of its material.
+pub(crate) fn asks_colours(style: &Style) -> bool {
+    let shades = |colour: Ink| matches!(colour, Ink::Shade(_));
+    let options = &style.stroke;
+    shades(options.pen.colour) || options.rules.iter().any(|rule| rule.pen.colour.is_some_and(shades))
+}
+
+/// Tells the chains what is seen beside them.
+pub(crate) fn ask(
+    chains: &mut [Chain],
+    beside: &Beside,
+    lines: &FeatureLines,
+    colours: Option<Colours>,
+    blacks: Option<&Ground>,
+) {
+    let px = Length::px(1.0).in_unit(beside.unit);
+    let colours = colours.filter(|_| asks_colours(beside.style));
+    let asks = colours.is_some();
+    if asks || blacks.is_some() {
+        let step = if blacks.is_some() { BLACK_STEP_PX } else { STEP_PX };
+        for chain in chains.iter_mut() {
+            fill(chain, step * px, beside.view.frame.perspective);
+        }
+    }
+    if let Some(colours) = colours {
+        ask_colours(chains, beside, lines, colours, px);
+    }
+    if let Some(blacks) = blacks {
+        let most = widest(beside) * beside.style.hatch.parting;
+        let rings = (most.min(BLACK_PX * px) / px).ceil().max(1.0) as u32 + 1;
+        ask_blacks(chains, blacks, rings, px);
+    }
+}
+
+/// The width of the widest pen.
+fn widest(beside: &Beside) -> f64 {
+    let options = &beside.style.stroke;
+    let width = |pen: &Pen| pen.width.in_unit(beside.unit);
+    let rules = options.rules.iter().filter_map(|rule| rule.pen.width);
+    rules.map(|width| width.in_unit(beside.unit)).fold(width(&options.pen), f64::max)
+}
+
+/// Tells visible chains, point by point, how far blacks reach on both sides of them.
+fn ask_blacks(chains: &mut [Chain], blacks: &Ground, rings: u32, px: f64) {
+    use crate::parallel::prelude::*;
+    let is_black = |p| {
+        let cell = blacks.cells.get(blacks.cell_at(p) as usize);
+        cell.is_some_and(|cell| cell.facet != 0 && cell.look.bin == 0)
+    };
+    chains.par_iter_mut().filter(|chain| chain.invisibility == 0).for_each(|chain| {
+        for i in 0..chain.points.len() {
+            let (p, across) = (chain.points[i], across(chain, i) * px);
+            let both = |ring: &u32| {
+                let away = across * f64::from(*ring);
+                is_black(p + away) && is_black(p - away)
+            };
+            let reach = (1..=rings).take_while(both).count();
+            chain.samples[i].under.black = reach as f64 * px;
+        }
+    });
+}
+
+/// Tells chains, point by point, the colour of the surface that they belong to.
+fn ask_colours(chains: &mut [Chain], beside: &Beside, lines: &FeatureLines, painted: Colours, px: f64) {
+    let mesh = &beside.surface.mesh;
+    let colours = paint_colours(&painted.paints.list, beside.scene, beside.style);
+    let colour_of = |face: u32| colours.get(mesh.paint(FaceId(face)).index()).copied();
+    let colour_at = |(front, p): (Front, DVec2)| {
+        let at = beside.view.frame.local_from_image(p.extend(front.nearness));
+        colours.get(painted.textures.paint(mesh, front.face, at).index()).copied()
+    };
+    let mut places: Vec<DVec2> = Vec::new();
+    for chain in chains.iter().filter(|chain| chain.invisibility == 0) {
+        for i in 0..chain.points.len() {
+            let across = across(chain, i) * (BESIDE_PX * px);
+            for p in [chain.points[i] + across, chain.points[i] - across] {
+                let p = p - beside.margin;
+                places.push(DVec2::new(p.x, p.y));
+            }
+        }
+    }
+    let fronts = front_faces(mesh, beside.view, &places);
+    let mut pairs = fronts.chunks_exact(2).zip(places.chunks_exact(2));
+    for chain in chains.iter_mut() {
+        // What is hidden, or belongs to no surface that is seen beside it, has the colour of a face that meets in it.
+        let hosts = lines.segments.get(chain.segment as usize).map_or([u32::MAX; 2], |s| s.hosts);
+        let is_own = |face: &u32| mesh.face_material.get(*face as usize) == Some(&chain.material);
+        let own = hosts.into_iter().find(is_own).and_then(colour_of);
+        for sample in &mut chain.samples {
+            let seen = if chain.invisibility == 0 { pairs.next() } else { None };
+            let side = |k: usize| seen.and_then(|(fronts, places)| Some((fronts[k]?, places[k])));
+            let sides = [0, 1].map(|k| side(k).filter(|(front, _)| is_own(&front.face)));
+            let nearer = nearer(sides, |(front, _)| {
+                let depth = beside.view.frame.depth_of(front.nearness);
+                depth
+                    / (beside.view.frame.side_at(beside.view.frame.focus) * NEARER_OF_FRAME)
+                        .max(f64::MIN_POSITIVE)
+            });
+            let faces = nearer.into_iter().flatten();
+            let darkest = faces.filter_map(colour_at).min_by_key(|c| (weight(*c), *c));
+            sample.under.colour = darkest.or(own);
+        }
+    }
+}
+
+/// Of what is seen on both sides that which is clearly nearer, or both.
+fn nearer<T: Copy>(sides: [Option<T>; 2], depth: impl Fn(T) -> f64) -> [Option<T>; 2] {
+    let [Some(left), Some(right)] = sides else { return sides };
+    let apart = depth(right) - depth(left);
+    if apart > 1.0 {
+        [Some(left), None]
+    } else if apart < -1.0 {
+        [None, Some(right)]
+    } else {
+        sides
+    }
+}
+
+/// How light a colour is.
+fn weight(colour: Colour) -> u32 {
+    299 * u32::from(colour.r) + 587 * u32::from(colour.g) + 114 * u32::from(colour.b)
+}

@@ -1,0 +1,281 @@
+//! What lines with a hand know of the world beside them: the light on the surface, and how far what lies
+//! behind is from them.
+//!
+//! The eye is asked what it sees at points of the page a little to the left and to the right of each visible
+//! line. Nothing is asked but for pens that want to know.
+
+use glam::{DVec2, DVec3};
+use kurbo::{Point, Vec2};
+
+use crate::chains::{Chain, Sample};
+use crate::drawing::{Length, Unit};
+use crate::geometry::numbers::noise::hash;
+use crate::light::{ShadedNormals, Shading};
+use crate::lines::{FeatureLines, Lit, Surface, Textures};
+use crate::mesh::FaceId;
+use crate::scene::Scene;
+use crate::strokes::{Pen, StrokeOptions};
+use crate::style::Style;
+use crate::view::View;
+use crate::visibility::front_faces;
+
+/// How far beside a line the eye is asked, px.
+pub(crate) const BESIDE_PX: f64 = 1.5;
+
+/// Places of a line at which it is asked lie no farther apart than this, px.
+pub(crate) const STEP_PX: f64 = 3.0;
+
+/// What lies this much farther (part of the frame's longer side, as it is at the line's depth) is as far as
+/// background.
+const FAR_OF_FRAME: f64 = 0.2;
+
+/// Of two surfaces beside a line the nearer one is the line's own if it is so much nearer, in
+/// the same measure.
+pub(crate) const NEARER_OF_FRAME: f64 = 0.01;
+
+/// A view, and where it lies on the page.
+pub(crate) struct Beside<'a> {
+    pub scene: &'a Scene,
+    pub surface: &'a Surface,
+    pub view: &'a View,
+    pub style: &'a Style,
+    /// From the camera's frame to the page.
+    pub margin: Vec2,
+    pub unit: Unit,
+}
+
+/// What the pens of a style want to know.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+struct Wanted {
+    /// Depth all along the lines.
+    depth: bool,
+    /// What lies to both sides.
+    sides: bool,
+    /// The light there.
+    light: bool,
+}
+
+impl Wanted {
+    fn of(options: &StrokeOptions) -> Self {
+        let mut wanted = Self::default();
+        let mut add = |pen: &Pen| {
+            wanted.depth |= pen.halo.value > 0.0 || pen.swell.near > 0.0;
+            wanted.sides |= pen.swell.asks();
+            wanted.light |= pen.swell.lit > 0.0;
+        };
+        add(&options.pen);
+        for rule in &options.rules {
+            // Whatever else a rule's pen starts from, what it adds is known from the rule alone.
+            let mut pen = Pen::default();
+            rule.pen.apply(&mut pen);
+            add(&pen);
+        }
+        wanted
+    }
+}
+
+/// Numbers of feature segments that last while the eye moves, where there are any: of segments on edges of
+/// the mesh, from the places of their vertices. 0 for all others. None if no pen has a hand.
+pub(crate) fn names(lines: &FeatureLines, surface: &Surface, options: &StrokeOptions) -> Vec<u64> {
+    let has_hand = |pen: &Pen| pen.hand.is_on() || pen.swell.chance > 0.0;
+    let changed = options.rules.iter().any(|rule| {
+        let mut pen = Pen::default();
+        rule.pen.apply(&mut pen);
+        has_hand(&pen)
+    });
+    if !changed && !has_hand(&options.pen) {
+        return Vec::new();
+    }
+    let mesh = &surface.mesh;
+    let name = |ends: [u32; 2]| {
+        let [a, b] = [ends[0].min(ends[1]), ends[0].max(ends[1])].map(|end| mesh.positions.get(end as usize));
+        let (Some(a), Some(b)) = (a, b) else { return 0 };
+        let [a, b] = [a, b].map(|p| hash(0, &(*p + mesh.origin).to_array().map(f64::to_bits)));
+        hash(a, &[b]).max(1)
+    };
+    lines.segments.iter().map(|segment| name(segment.ends)).collect()
+}
+
+/// Tells the chains what their pens want to know.
+pub(crate) fn ask(chains: &mut [Chain], beside: &Beside) {
+    let wanted = Wanted::of(&beside.style.stroke);
+    if wanted == Wanted::default() {
+        return;
+    }
+    let px = Length::px(1.0).in_unit(beside.unit);
+    for chain in chains.iter_mut() {
+        fill(chain, STEP_PX * px, beside.view.frame.perspective);
+    }
+    if wanted.sides {
+        beside.ask_sides(chains, px, wanted.light);
+    }
+}
+
+/// Puts points on a chain until none is farther than a step from the next.
+pub(crate) fn fill(chain: &mut Chain, step: f64, perspective: bool) {
+    let n = chain.points.len();
+    let sides = if chain.closed { n } else { n.saturating_sub(1) };
+    let (mut points, mut samples) = (Vec::with_capacity(n), Vec::with_capacity(n));
+    for i in 0..sides {
+        let j = (i + 1) % n;
+        let (a, b) = (chain.points[i], chain.points[j]);
+        let (from, to) = (chain.samples[i], chain.samples[j]);
+        let count = ((b - a).hypot2().sqrt() / step).ceil().clamp(1.0, 1e5) as usize;
+        for k in 0..count {
+            let t = k as f64 / count as f64;
+            points.push(a.lerp(b, t));
+            samples.push(if perspective { foreshortened(from, to, t) } else { from.lerp(to, t) });
+        }
+    }
+    if !chain.closed {
+        points.extend(chain.points.last());
+        samples.extend(chain.samples.last());
+    }
+    (chain.points, chain.samples) = (points, samples);
+}
+
+/// Between two samples in perspective, 1/depth is linear along the image of a line.
+fn foreshortened(from: Sample, to: Sample, t: f64) -> Sample {
+    let mut sample = from.lerp(to, t);
+    if from.depth > 0.0 && to.depth > 0.0 {
+        sample.depth = 1.0 / ((1.0 - t) / from.depth + t / to.depth);
+    }
+    sample
+}
+
+/// What is seen at a point beside a line: its depth, and the light there.
+#[derive(Debug, Clone, Copy)]
+struct Seen {
+    depth: f64,
+    light: f64,
+}
+
+impl Beside<'_> {
+    fn ask_sides(&self, chains: &mut [Chain], px: f64, light: bool) {
+        let mut places: Vec<DVec2> = Vec::new();
+        for chain in chains.iter().filter(|chain| chain.invisibility == 0) {
+            for i in 0..chain.points.len() {
+                let across = across(chain, i) * (BESIDE_PX * px);
+                for p in [chain.points[i] + across, chain.points[i] - across] {
+                    let p = p - self.margin;
+                    places.push(DVec2::new(p.x, p.y));
+                }
+            }
+        }
+        let seen = self.seen(&places, light);
+        let mut pairs = seen.chunks_exact(2);
+        let frame = &self.view.frame;
+        for chain in chains.iter_mut().filter(|chain| chain.invisibility == 0) {
+            for sample in &mut chain.samples {
+                if let Some([left, right]) = pairs.next() {
+                    learn(sample, *left, *right, frame.side_at(sample.depth));
+                }
+            }
+        }
+    }
+
+    /// What is seen at places of the frame; `None` is background.
+    fn seen(&self, places: &[DVec2], light: bool) -> Vec<Option<Seen>> {
+        let (mesh, view) = (&self.surface.mesh, self.view);
+        let frame = &view.frame;
+        let fronts = front_faces(mesh, view, places);
+        let dark = |nearness: f64| Seen { depth: frame.depth_of(nearness), light: 1.0 };
+        if !light {
+            return fronts.into_iter().map(|front| front.map(|front| dark(front.nearness))).collect();
+        }
+        let normals = ShadedNormals::new(mesh, &self.surface.hard, &self.surface.smooth);
+        // What had to be mended is said where surfaces are painted.
+        let style = self.style;
+        let shading = Shading::new(self.scene, &[], mesh, frame, &style.light, &style.tones, &mut Vec::new());
+        let textures = Textures::default();
+        let lit = Lit {
+            mesh,
+            view,
+            normals: &normals,
+            shading: &shading,
+            openness: &[],
+            textures: &textures,
+            solid: &[],
+        };
+        let of = |(front, place): (Option<crate::visibility::Front>, &DVec2)| {
+            let front = front?;
+            let at = frame.local_from_image(place.extend(front.nearness));
+            let point = lit.point(front.face, weights(mesh.corners(FaceId(front.face)), at));
+            let light = shading.value(0, mesh.paint(FaceId(front.face)), &point, 0);
+            Some(Seen { light: light.clamp(0.0, 1.0), ..dark(front.nearness) })
+        };
+        fronts.into_iter().zip(places).map(of).collect()
+    }
+}
+
+/// Unit vector to the left of a chain at a point, as it runs.
+pub(crate) fn across(chain: &Chain, i: usize) -> Vec2 {
+    let n = chain.points.len();
+    let at = |k: usize| -> Point { chain.points[k] };
+    let (before, after) = if chain.closed {
+        (at((i + n - 1) % n), at((i + 1) % n))
+    } else {
+        (at(i.saturating_sub(1)), at((i + 1).min(n - 1)))
+    };
+    let way = after - before;
+    let length = way.hypot2().sqrt();
+    if length > 0.0 { Vec2::new(way.y, -way.x) / length } else { Vec2::ZERO }
+}
+
+/// What a point of a line learns from what is seen on both sides of it.
+fn learn(sample: &mut Sample, left: Option<Seen>, right: Option<Seen>, size: f64) {
+    let depth = |seen: Option<Seen>| seen.map_or(f64::INFINITY, |seen| seen.depth);
+    let apart = (depth(right) - depth(left)) / (size * NEARER_OF_FRAME).max(f64::MIN_POSITIVE);
+    // Between two backgrounds nothing is nearer.
+    sample.side = if apart.is_nan() { 0.0 } else { apart.clamp(-1.0, 1.0) };
+    let farther = depth(left).max(depth(right)) - sample.depth;
+    sample.gap = (farther / (size * FAR_OF_FRAME).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let light = |seen: Option<Seen>| seen.map_or(0.0, |seen| seen.light);
+    let share = (1.0 + sample.side) / 2.0;
+    sample.light = match (left, right) {
+        (None, None) => 1.0,
+        _ => light(left) * share + light(right) * (1.0 - share),
+    };
+}
+
+/// Barycentric weights of a point in the plane of a triangle.
+fn weights([a, b, c]: [DVec3; 3], at: DVec3) -> [f64; 3] {
+    let normal = (b - a).cross(c - a);
+    let whole = normal.length_squared();
+    let part = |p: DVec3, q: DVec3| (p - at).cross(q - at).dot(normal) / whole;
+    if whole > 0.0 { [part(b, c), part(c, a), part(a, b)] } else { [1.0, 0.0, 0.0] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_learns_which_side_is_its_own() {
+        let mut sample = Sample::new(10.0, 1.0);
+        let near = Seen { depth: 10.0, light: 0.25 };
+        learn(&mut sample, Some(near), None, 1.0);
+        assert_eq!((sample.side, sample.gap, sample.light), (1.0, 1.0, 0.25));
+        learn(&mut sample, Some(Seen { depth: 10.1, light: 0.75 }), Some(near), 1.0);
+        assert_eq!((sample.side, sample.light), (-1.0, 0.25));
+        assert!((sample.gap - 0.5).abs() < 1e-12);
+        // A crease: both sides as near, so the light is the mean of both.
+        learn(&mut sample, Some(Seen { light: 0.75, ..near }), Some(near), 1.0);
+        assert_eq!((sample.side, sample.gap, sample.light), (0.0, 0.0, 0.5));
+        learn(&mut sample, None, None, 1.0);
+        assert_eq!((sample.side, sample.gap, sample.light), (0.0, 1.0, 1.0));
+    }
+
+    #[test]
+    fn depth_is_foreshortened() {
+        let [near, far] = [1.0, 3.0].map(|depth| Sample::new(depth, 1.0));
+        assert!((foreshortened(near, far, 0.5).depth - 1.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn weights_are_those_of_the_point() {
+        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
+        let found = weights(corners, DVec3::new(0.25, 0.5, 0.0));
+        assert!((DVec3::from_array(found) - DVec3::new(0.25, 0.25, 0.5)).length() < 1e-12);
+    }
+}

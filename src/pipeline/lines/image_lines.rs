@@ -1,0 +1,53 @@
+//! Lines found in the image, and the maps they are found in.
+
+use std::borrow::Cow;
+
+use crate::drawing::{Length, Unit};
+use crate::light::ShadedNormals;
+use crate::lines::image::Loose;
+use crate::lines::{FeatureLines, Source, Surface, image};
+use crate::style::Style;
+use crate::view::View;
+use crate::view::raster::Maps;
+use crate::visibility::{self, ViewMap};
+
+/// The maps of a view, as fine as a style has them.
+pub(crate) fn maps(surface: &Surface, view: &View, style: &Style, unit: Unit) -> Maps {
+    let normals = ShadedNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
+    let per_unit = style.lines.image.samples / Length::px(1.0).in_unit(unit);
+    let loose = Loose::new(&surface.mesh, view, style.lines.crease_deg, |face| normals.of(face));
+    let normals_of = |face| loose.normals(face).unwrap_or_else(|| normals.of(face));
+    let mut maps = Maps::new(&surface.mesh, view, per_unit, normals_of);
+    if !loose.is_empty() {
+        maps.close_hairlines(|face| loose.is_loose(face));
+    }
+    maps
+}
+
+/// Adds the lines that a style seeks in the image to those found on the surface.
+pub(crate) fn joined<'a>(
+    map: &mut ViewMap,
+    lines: &'a FeatureLines,
+    surface: &Surface,
+    view: &View,
+    style: &Style,
+    unit: Unit,
+) -> Cow<'a, FeatureLines> {
+    let options = &style.lines;
+    if !options.enabled || options.source == Source::Object {
+        return Cow::Borrowed(lines);
+    }
+    let maps = maps(surface, view, style, unit);
+    let edges = image::edges(&maps, &options.image);
+    let found = image::trace(&surface.mesh, &maps, &edges, &options.image);
+    let mut lines = lines.clone();
+    visibility::assembly::image_lines::join(
+        map,
+        &mut lines,
+        &found,
+        &surface.mesh,
+        view,
+        options.source == Source::Both,
+    );
+    Cow::Owned(lines)
+}

@@ -1,0 +1,67 @@
+//! The chains of a view, hidden ones without what lies in the ink of others.
+
+use crate::chains::{self, Chain, Rounding};
+use crate::drawing::{Length, Unit};
+use crate::geometry::numbers::tolerance;
+use crate::lines::HiddenLines;
+use crate::mesh::part_extents::{Extent, Extents};
+use crate::scene::triangle_soup::longest_axis;
+use crate::scene::{Geometry, Part, Scene};
+use crate::strokes::InkWidths;
+use crate::style::Style;
+use crate::view::Frame;
+use crate::visibility::overlap::hidden_line_precedence::{self, Ink};
+use crate::visibility::{Ahead, ViewEdge, ViewMap};
+
+/// Links the lines of a view, whose ink is `widths` wide; `extents` are those of the parts of the scene.
+pub(crate) fn chains(
+    ahead: &Ahead,
+    map: &ViewMap,
+    (style, widths): (&Style, &InkWidths),
+    unit: Unit,
+    (scene, extents, frame): (&Scene, &Extents, &Frame),
+) -> Vec<Chain> {
+    let perspective = frame.perspective;
+    let rounding =
+        (style.chain.circles && !perspective).then(|| corner_rounding(scene, extents, frame.scale));
+    let chained = (&style.chain, Rounding(rounding.as_deref()));
+    let link = |map| chains::link_rounded(ahead, map, chained, unit, style.lines.hidden);
+    let mut chains = link(map);
+    if style.lines.hidden == HiddenLines::None {
+        return chains;
+    }
+    // Visible lines are drawn on across gaps by what is hidden there: they are linked with all of it.
+    let px = Length::px(1.0).in_unit(unit);
+    let half_width = |edge: &ViewEdge| widths.half(map, edge);
+    let ink = Ink { half_width: &half_width, extents, perspective, px };
+    if let Some(cut) = hidden_line_precedence::apart(map, &ink) {
+        chains.retain(|chain| chain.invisibility == 0);
+        let stays = |chain: &Chain| chain.invisibility > 0 && length(chain) >= CRUMB_PX * px;
+        chains.extend(link(&cut).into_iter().filter(stays));
+    }
+    chains
+}
+
+/// How far the rounding of the file moves the corners of each part, at `scale` user units to a unit of the world. Numbers of few decimals may be
+/// rounded to these, also where they could be exact or in single precision.
+fn corner_rounding(scene: &Scene, extents: &Extents, scale: f64) -> Vec<f64> {
+    let own = |(extent, part): (&Extent, &Part)| {
+        let decimals = |geometry: &Geometry| geometry.decimal_step() * longest_axis(&part.world_from_part);
+        let step = scene.geometry_of(part).map_or(0.0, decimals).max(extent.step);
+        (tolerance::CORNER_OFF_CIRCLE * step).max(tolerance::WELD_OF_PART * extent.scale)
+    };
+    extents.all().iter().zip(&scene.parts).map(|both| own(both) * scale).collect()
+}
+
+/// What is left of a hidden line is drawn if it is this long, px: curves that coincide but for rounding leave crumbs.
+const CRUMB_PX: f64 = 1.0;
+
+/// The length of a chain on the page.
+fn length(chain: &Chain) -> f64 {
+    let sides = chain.points.windows(2).map(|pair| match pair {
+        [a, b] => (*b - *a).hypot(),
+        _ => 0.0,
+    });
+    let back = chain.points.first().zip(chain.points.last()).filter(|_| chain.closed);
+    sides.sum::<f64>() + back.map_or(0.0, |(first, last)| (*last - *first).hypot())
+}

@@ -1,0 +1,59 @@
+//! [`Welded`]: the mesh of what a style leaves of a scene.
+
+use std::borrow::Cow;
+
+use crate::mesh::Mesh;
+use crate::pipeline::fills::{glass, surface_fills};
+use crate::pipeline::lines::chain_colours;
+use crate::scene::paints::triangle_paints::Paints;
+use crate::scene::textures::cutouts;
+use crate::scene::{Scene, Warnings};
+use crate::style::Style;
+
+/// The paints of what a style leaves of a scene, if it asks for any.
+pub(crate) fn paints_of(left: &Scene, style: &Style) -> Option<Paints> {
+    let needs_paints = surface_fills::asks_surface(style) || chain_colours::asks_colours(style);
+    let mut paints = needs_paints.then(|| Paints::of(left, &style.textures));
+    if surface_fills::asks_artist(style) {
+        let pictures = &style.lines.artist_texture;
+        paints.iter_mut().for_each(|paints| paints.ink(left, pictures, style.textures.colours));
+    }
+    paints
+}
+
+/// What a style leaves of a scene, and the mesh of it.
+pub(crate) struct Welded<'a> {
+    pub scene: Cow<'a, Scene>,
+    pub warnings: Warnings,
+    pub paints: Option<Paints>,
+    pub mesh: Mesh,
+}
+
+impl<'a> Welded<'a> {
+    pub fn of(scene: &'a Scene, style: &Style) -> Self {
+        let (scene, paints, warnings) = left(scene, style);
+        let mesh = Mesh::build(paints.as_ref().map_or_else(|| scene.to_soup(), |p| scene.to_painted_soup(p)));
+        Self { scene, warnings, paints, mesh }
+    }
+
+    /// Does so with a scene that nobody else needs: its shapes go when the mesh is made of them.
+    pub fn of_all(scene: Scene, style: &Style) -> Self {
+        let (left, paints, warnings) = left(&scene, style);
+        let left = match left {
+            Cow::Owned(left) => Some(left),
+            Cow::Borrowed(_) => None,
+        };
+        let mut left = left.unwrap_or(scene);
+        let mesh = Mesh::build(left.take_soup(paints.as_ref()));
+        Self { scene: Cow::Owned(left), warnings, paints, mesh }
+    }
+}
+
+/// What a style and the pictures of materials leave of a scene, its paints, and what could not be cut.
+fn left<'a>(scene: &'a Scene, style: &Style) -> (Cow<'a, Scene>, Option<Paints>, Warnings) {
+    let left = glass::left(scene, style);
+    let mut paints = paints_of(&left, style);
+    let cutouts::Cut { scene, origins, warnings } = glass::cut(scene, &left);
+    paints.iter_mut().for_each(|paints| paints.carry(&origins));
+    (scene, paints, warnings)
+}

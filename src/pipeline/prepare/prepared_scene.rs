@@ -1,0 +1,107 @@
+//! [`Prepared`]: a scene made ready for a style, of which views are drawn.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use super::prepare_mesh::Welded;
+use crate::lines::{LineOptions, Surface};
+use crate::mesh::components::solid_parts::solid_parts;
+use crate::pipeline::cache::shadow_cache::LateShadows;
+use crate::pipeline::cache::view_cache::LateSearch;
+use crate::pipeline::fills::surface_fills::{self, Paintable};
+use crate::pipeline::rest::chain_anchors::Anchors;
+use crate::pipeline::thread_pool::on_threads;
+use crate::scene::paints::triangle_paints::Paints;
+use crate::scene::{Camera, Scene, Warnings};
+use crate::style::Style;
+use crate::surface::Patches;
+
+/// A scene made ready for a style: what all its views share.
+///
+/// ```no_run
+/// use ligne::{drawing::{Page, Unit}, render::Prepared, scene::{Camera, NamedView, Scene}, style::Style};
+///
+/// let scene = Scene::open("gear.obj")?;
+/// let style = Style::preset("toon").unwrap_or_default();
+/// let prepared = Prepared::new(&scene, &style);
+/// for view in [NamedView::Front, NamedView::Top] {
+///     let camera = Camera::named(view, scene.up).fit(&scene);
+///     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
+///     let (drawing, _report) = prepared.draw(&camera, page, None)?;
+///     println!("{}", drawing.to_svg(&ligne::export::SvgOptions::default()));
+/// }
+/// # Ok::<(), ligne::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Prepared<'a> {
+    /// What is drawn of the scene: without what pictures of its materials leave clear.
+    pub(crate) scene: Cow<'a, Scene>,
+    pub(crate) warnings: Warnings,
+    pub(crate) style: &'a Style,
+    pub(crate) sought: LineOptions,
+    /// Where surfaces are painted or hatched, or lines take their colour: the paints of the scene.
+    pub(crate) paints: Option<Arc<Paints>>,
+    pub(crate) surface: Surface,
+    /// How many vertices and edges the model has.
+    pub(crate) counts: [u64; 2],
+    /// For views that need finer triangles it is made anew.
+    pub(crate) paintable: Option<Paintable>,
+    pub(crate) search: LateSearch,
+    pub(crate) shadows: LateShadows,
+    /// Where lines are told to stay on the model.
+    pub(crate) anchors: Option<Anchors>,
+}
+
+impl<'a> Prepared<'a> {
+    /// Welds the scene to a mesh and finds where its surface is creased and where it is round.
+    #[must_use]
+    pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
+        on_threads(|| Self::made(Welded::of(scene, style), style, None).0)
+    }
+
+    /// Does so for one camera: the surface gets the finer triangles that it needs there at once and for good, which takes less
+    /// memory than to have them beside those of the model.
+    #[must_use]
+    pub fn for_camera(scene: &'a Scene, style: &'a Style, camera: &Camera) -> Self {
+        on_threads(|| Self::made(Welded::of(scene, style), style, Some(camera)).0)
+    }
+
+    /// Does so for one camera with a scene that nobody else needs: its shapes go when the mesh is made of them, and are not held
+    /// beside it.
+    #[must_use]
+    pub fn of_scene(scene: Scene, style: &'a Style, camera: &Camera) -> Self {
+        on_threads(|| Self::made(Welded::of_all(scene, style), style, Some(camera)).0)
+    }
+
+    pub(crate) fn made(
+        welded: Welded<'a>,
+        style: &'a Style,
+        only: Option<&Camera>,
+    ) -> (Self, Option<Patches>) {
+        let Welded { scene, warnings, paints, mesh } = welded;
+        let sought = surface_fills::sought(style);
+        let (mut surface, mut patches) = Surface::with_patches(mesh, &sought);
+        let counts = [surface.mesh.positions.len() as u64, surface.mesh.edges.len() as u64];
+        let painted = paints.as_ref().filter(|_| surface_fills::asks_surface(style));
+        let painted = painted.map(|paints| (paints, solid_parts(&surface.mesh)));
+        if let Some(camera) = only.filter(|camera| camera.validate().is_ok()) {
+            patches = None;
+            surface = surface.finer_for(camera);
+        }
+        let paintable = painted.map(|(paints, solid)| Paintable::new(&surface, paints, solid));
+        let prepared = Self {
+            scene,
+            warnings,
+            style,
+            sought,
+            paints: paints.map(Arc::new),
+            surface,
+            counts,
+            paintable,
+            search: LateSearch::default(),
+            shadows: LateShadows::default(),
+            anchors: None,
+        };
+        (prepared, patches)
+    }
+}

@@ -1,0 +1,181 @@
+//! [`Resting`]: a scene made ready at rest, from which its poses are made ready.
+//!
+//! What does not change when a figure moves is found once, at rest: which vertices are one and which faces meet at which edge, where the
+//! surface is creased and where it is round, the paints and the pictures they come from, unless materials change. Places, normals,
+//! lines and all that is seen of them are found for every pose.
+
+use std::sync::Arc;
+
+use super::prepare_mesh::{Welded, paints_of};
+use crate::mesh::Sources;
+use crate::mesh::components::solid_parts::solid_parts;
+use crate::pipeline::Prepared;
+use crate::pipeline::cache::shadow_cache::LateShadows;
+use crate::pipeline::cache::view_cache::LateSearch;
+use crate::pipeline::fills::glass;
+use crate::pipeline::fills::surface_fills::{self, Paintable};
+use crate::pipeline::rest::chain_anchors::Anchors;
+use crate::pipeline::thread_pool::on_threads;
+use crate::scene::textures::cutouts::Cut;
+use crate::scene::{Part, Scene};
+use crate::style::Style;
+use crate::surface::Patches;
+
+/// A scene made ready at rest, for drawings whose strokes last while it moves.
+///
+/// ```
+/// use ligne::drawing::{Page, Unit};
+/// use ligne::animation::{Playing, Rigged};
+/// use ligne::pipeline::Resting;
+/// use ligne::{Camera, Style};
+///
+/// let crane = Rigged::open("examples/models/crane.glb")?;
+/// let style = Style::default();
+/// let resting = Resting::new(&crane.scene, &style);
+/// let posed = crane.posed(&[Playing::all(0, 1.5)])?;
+/// let camera = Camera::three_quarter().fit(&posed);
+/// let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
+/// let (drawing, _) = resting.posed(&posed).draw(&camera, page, None)?;
+/// assert!(drawing.layers.iter().flat_map(|layer| &layer.marks).all(|mark| mark.provenance.identity != 0));
+/// # Ok::<(), ligne::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Resting<'a> {
+    scene: &'a Scene,
+    style: &'a Style,
+    still: Prepared<'a>,
+    patches: Option<Patches>,
+    /// None where the mesh cannot be followed: then every pose is made ready from the start.
+    sources: Option<Sources>,
+}
+
+impl<'a> Resting<'a> {
+    /// Makes a scene ready that stands as it is stored.
+    #[must_use]
+    pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
+        let made = Self::without_anchors(scene, style);
+        Self { still: made.still.anchored(scene, scene), ..made }
+    }
+
+    fn without_anchors(scene: &'a Scene, style: &'a Style) -> Self {
+        let (still, patches) = on_threads(|| Prepared::made(Welded::of(scene, style), style, None));
+        let sources = Sources::of(&still.surface.mesh, &still.scene.to_soup());
+        Self { scene, style, still, patches, sources }
+    }
+
+    /// The scene as it is stored.
+    #[must_use]
+    pub fn still(&self) -> &Prepared<'a> {
+        &self.still
+    }
+
+    /// The scene in a pose: the same parts and triangles, elsewhere.
+    ///
+    /// Where parts are hidden, what is left is made ready at rest for this pose alone. Where parts have come, or vertices have parted
+    /// that are one at rest, the pose is made ready from the start.
+    #[must_use]
+    pub fn posed<'b>(&self, posed: &'b Scene) -> Prepared<'b>
+    where
+        'a: 'b,
+    {
+        self.posed_after(posed, std::iter::empty)
+    }
+
+    /// The scene in a pose, creased where it was creased a moment ago: `before` tells the poses of earlier moments, the latest first. No
+    /// more of them are asked for than decide about edges that turn by nearly the angle of a crease.
+    #[must_use]
+    pub fn posed_after<'b, I: Iterator<Item = Scene>>(
+        &self,
+        posed: &'b Scene,
+        before: impl Fn() -> I,
+    ) -> Prepared<'b>
+    where
+        'a: 'b,
+    {
+        let prepared = self
+            .following(posed, self.style, before())
+            .or_else(|| {
+                let rest = left_of(self.scene, posed)?;
+                Resting::without_anchors(&rest, self.style).following(posed, self.style, before())
+            })
+            .unwrap_or_else(|| Prepared::new(posed, self.style));
+        prepared.anchored(posed, self.scene)
+    }
+
+    /// A pose in which the mesh is that at rest, moved.
+    fn following<'b>(
+        &self,
+        posed: &'b Scene,
+        style: &'b Style,
+        before: impl Iterator<Item = Scene>,
+    ) -> Option<Prepared<'b>> {
+        let names = |scene: &Scene| scene.parts.iter().map(|part| part.name.clone()).collect::<Vec<_>>();
+        if names(self.scene) != names(posed) {
+            return None;
+        }
+        let left = glass::left(posed, style);
+        let Cut { scene, origins, warnings } = glass::cut(posed, &left);
+        let soup = scene.to_soup();
+        let mut paints = self.still.paints.clone();
+        if posed.materials != self.scene.materials {
+            // Another opacity may leave or cut other triangles, which need not be more or less of them.
+            let rest = self.still.scene.to_soup();
+            if rest.triangles != soup.triangles || rest.triangle_material != soup.triangle_material {
+                return None;
+            }
+            if let Some(still) = &paints {
+                let mut own = paints_of(&left, style)?;
+                own.carry(&origins);
+                paints = Some(Arc::new(own)).filter(|own| own.lie_like(still));
+                paints.as_ref()?;
+            }
+        }
+        let (still, sources) = (&self.still.surface, self.sources.as_ref()?);
+        let mesh = still.mesh.posed(sources, &soup)?;
+        let before = before.map_while(|scene| {
+            let cut = glass::cut(&scene, &glass::left(&scene, style)).scene.to_soup();
+            still.mesh.posed(sources, &cut)
+        });
+        let sought = surface_fills::sought(style);
+        let surface = still.posed(mesh, self.patches.as_ref(), style.lines.crease_deg, before);
+        let paintable = paints.as_deref().filter(|_| surface_fills::asks_surface(style));
+        let paintable = paintable.map(|paints| Paintable::new(&surface, paints, solid_parts(&surface.mesh)));
+        let (search, shadows) = (LateSearch::default(), LateShadows::default());
+        let counts = self.still.counts;
+        Some(Prepared {
+            scene,
+            warnings,
+            style,
+            sought,
+            paints,
+            surface,
+            counts,
+            paintable,
+            search,
+            shadows,
+            anchors: None,
+        })
+    }
+}
+
+/// A scene at rest without the parts that a pose of it hides; none if it hides none, or is no pose of it.
+fn left_of(scene: &Scene, posed: &Scene) -> Option<Scene> {
+    let mut wanted = posed.parts.iter().peekable();
+    let mut parts = scene.parts.clone();
+    parts.retain(|part| {
+        // Of parts of one name and shape it does not matter which is left.
+        let is_next = |next: &&Part| next.name == part.name && next.geometry == part.geometry;
+        wanted.next_if(is_next).is_some()
+    });
+    let all_found = wanted.peek().is_none();
+    (all_found && !parts.is_empty() && parts.len() < scene.parts.len())
+        .then(|| Scene { parts, ..scene.clone() })
+}
+
+impl Prepared<'_> {
+    /// With strokes that last while the model moves: they are named after where on the model at rest they are, and what of them
+    /// varies by chance varies over its surface. `posed` is the scene that this was made of, and `rest` the same at rest.
+    fn anchored(self, posed: &Scene, rest: &Scene) -> Self {
+        Self { anchors: Some(Anchors::new(posed, rest)), ..self }
+    }
+}

@@ -1,0 +1,156 @@
+//! [`Anchors`]: where on the model at rest the points of lines are, so that strokes last while it moves.
+//!
+//! A point of a chain is put back from the page into the world; the nearest triangle of its part says what place on the
+//! surface that is, and the same triangle of the part at rest where this place rests.
+
+use std::sync::Arc;
+
+use crate::parallel::prelude::*;
+use glam::{DAffine3, DVec3};
+
+use crate::chains::{Anchor, Chain, chain_identity};
+use crate::geometry::names::name_ids::identities;
+use crate::geometry::numbers::portable_math::{cbrt, tan};
+use crate::mesh::PartId;
+use crate::mesh::bvh::nearest_tree::NearestTree;
+use crate::mesh::normals::triangle_area::has_own_area;
+use crate::scene::{Camera, Geometry, Part, Projection, Scene};
+
+/// The parts of a posed scene, and how they rest.
+#[derive(Debug)]
+pub(crate) struct Anchors {
+    /// One a geometry of the scene that parts show.
+    resting: Vec<Resting>,
+    parts: Vec<Posed>,
+    /// What tells parts apart.
+    names: Vec<u64>,
+}
+
+/// A geometry as it rests.
+#[derive(Debug)]
+struct Resting {
+    triangles: Arc<[[DVec3; 3]]>,
+    middle: DVec3,
+    diagonal: f64,
+}
+
+/// A part as it is posed.
+#[derive(Debug)]
+struct Posed {
+    geometry: usize,
+    tree: NearestTree,
+    /// World units in a diagonal of its geometry.
+    size: f64,
+    /// Where its geometry rests in the world, and whether every corner is there now.
+    rest: DAffine3,
+    rests: bool,
+}
+
+impl Anchors {
+    /// Of a scene and the same at rest: geometries of one number have the same triangles.
+    pub fn new(posed: &Scene, rest: &Scene) -> Self {
+        let resting: Vec<Resting> = rest.geometries.par_iter().map(Resting::new).collect();
+        let part = |(number, part): (usize, &Part)| {
+            let is_it = |other: &&Part| other.name == part.name && other.geometry == part.geometry;
+            let own = rest.parts.get(number).filter(is_it).or_else(|| rest.parts.iter().find(is_it));
+            let own = own.map_or(part.world_from_part, |own| own.world_from_part);
+            let world = |p: DVec3| part.world_from_part.transform_point3(p);
+            let corners = posed.geometry_of(part).map(corners).unwrap_or_default();
+            let corners: Vec<[DVec3; 3]> = corners.into_iter().map(|corners| corners.map(world)).collect();
+            let diagonal = resting.get(part.geometry).map_or(1.0, |own| own.diagonal);
+            let stretch = cbrt(part.world_from_part.matrix3.determinant().abs());
+            let rests = resting.get(part.geometry).is_some_and(|resting| {
+                let rest = resting.triangles.iter().map(|corners| corners.map(|p| own.transform_point3(p)));
+                rest.eq(corners.iter().copied())
+            });
+            let size = stretch * diagonal;
+            Posed { geometry: part.geometry, tree: NearestTree::new(&corners), size, rest: own, rests }
+        };
+        let parts = posed.parts.par_iter().enumerate().map(part).collect();
+        let names = identities(posed.parts.iter().map(|part| part.name.as_str()));
+        Self { resting, parts, names }
+    }
+
+    /// Tells chains, which lie in the frame of a camera moved by `margin`, where on the model they are, and names them.
+    pub fn ask(&self, chains: &mut [Chain], camera: &Camera, margin: kurbo::Vec2) {
+        let [right, up, forward] = camera.axes();
+        let perspective = match camera.projection {
+            Projection::Perspective { fov_y_deg } => Some(tan(fov_y_deg.to_radians() / 2.0)),
+            Projection::Orthographic { .. } => None,
+        };
+        // World units in a unit of the page, at a depth.
+        let unit = |depth: f64| match (perspective, camera.projection) {
+            (Some(tangent), _) => 2.0 * tangent * depth / camera.height,
+            (None, Projection::Orthographic { height }) => height / camera.height,
+            (None, Projection::Perspective { .. }) => 0.0,
+        };
+        chains.par_iter_mut().for_each(|chain| {
+            let Some(part) = self.parts.get(chain.part.index()) else { return };
+            for (point, sample) in chain.points.iter().zip(&mut chain.samples) {
+                let (unit, p) = (unit(sample.depth), *point - margin);
+                let aside = right * ((p.x - camera.width / 2.0) * unit);
+                let above = up * ((camera.height / 2.0 - p.y) * unit);
+                let world = camera.eye + forward * sample.depth + aside + above;
+                sample.anchor = self.anchor(part, world, unit).unwrap_or_default();
+            }
+        });
+        chain_identity::name(chains, &self.names);
+    }
+
+    /// Whether all stands as it rests.
+    pub fn rests(&self) -> bool {
+        self.parts.iter().all(|part| part.rests)
+    }
+
+    /// Where a point near a part rests, world.
+    pub fn at_rest(&self, part: PartId, world: DVec3) -> Option<DVec3> {
+        let part = self.parts.get(part.index())?;
+        let (place, _) = self.resting_place(part, world)?;
+        Some(part.rest.transform_point3(place))
+    }
+
+    /// Where on a part a point near it is.
+    pub fn place(&self, part: PartId, world: DVec3) -> Option<Anchor> {
+        self.anchor(self.parts.get(part.index())?, world, 1.0)
+    }
+
+    /// Where a point near a part is on its geometry at rest.
+    fn resting_place(&self, part: &Posed, world: DVec3) -> Option<(DVec3, &Resting)> {
+        let resting = self.resting.get(part.geometry)?;
+        let nearest = part.tree.nearest(world)?;
+        let [a, b, c] = resting.triangles.get(nearest.triangle as usize)?;
+        Some((*a * nearest.weights.x + *b * nearest.weights.y + *c * nearest.weights.z, resting))
+    }
+
+    /// Where a point near a part is on it; a unit of the page is `unit` long there.
+    fn anchor(&self, part: &Posed, world: DVec3, unit: f64) -> Option<Anchor> {
+        let (place, resting) = self.resting_place(part, world).filter(|_| unit > 0.0)?;
+        let place = (place - resting.middle) / resting.diagonal;
+        let anchor = Anchor { place: place.as_vec3().to_array(), scale: (part.size / unit) as f32 };
+        (place.is_finite() && anchor.scale.is_finite()).then_some(anchor)
+    }
+}
+
+impl Resting {
+    fn new(geometry: &Geometry) -> Self {
+        let triangles = corners(geometry);
+        // Faces without area are not drawn, and count only where there are no others.
+        let counted = bounds(triangles.iter().filter(|corners| has_own_area(**corners)));
+        let (low, high) = counted.or_else(|| bounds(triangles.iter())).unwrap_or_default();
+        let diagonal = (high - low).length();
+        let diagonal = if diagonal > 0.0 { diagonal } else { 1.0 };
+        Self { middle: low / 2.0 + high / 2.0, diagonal, triangles: triangles.into() }
+    }
+}
+
+/// The box around the corners of triangles that are numbers.
+fn bounds<'a>(triangles: impl Iterator<Item = &'a [DVec3; 3]>) -> Option<(DVec3, DVec3)> {
+    let finite = triangles.flatten().filter(|p| p.is_finite());
+    finite.map(|p| (*p, *p)).reduce(|(low, high), (p, _)| (low.min(p), high.max(p)))
+}
+
+/// The corners of all triangles of a geometry; of those that refer to nothing none is a number.
+fn corners(geometry: &Geometry) -> Vec<[DVec3; 3]> {
+    let corner = |vertex: u32| geometry.positions.get(vertex as usize).copied().unwrap_or(DVec3::NAN);
+    geometry.triangles.iter().map(|triangle| triangle.map(corner)).collect()
+}

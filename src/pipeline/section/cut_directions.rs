@@ -1,0 +1,92 @@
+//! [`long_sides`]: the directions of the long straight sides of a cut face in the picture.
+
+use glam::{DVec2, DVec3};
+use rustc_hash::FxHashMap;
+
+use crate::edit::section::CutFaces;
+use crate::geometry::numbers::portable_math::atan2;
+use crate::scene::{Camera, Projection, Scene};
+
+/// Lines within this angle of a side count as parallel to it, degrees.
+pub(crate) const PARALLEL_DEG: f64 = 10.0;
+
+/// Sides whose directions differ by less than this run in one direction, degrees: what rounding leaves of them.
+const ONE_DIRECTION_DEG: f64 = 0.1;
+
+/// A direction is long if its sides together have at least this share of the length of the longest direction. All sides of a regular
+/// polygon are long, and none of the small steps of a rounding beside a straight side.
+const LONG_SHARE: f64 = 0.5;
+
+/// The directions of the long sides of cut faces as cameras see them: degrees from the horizontal, counter-clockwise, 0 to 180.
+pub(crate) fn long_sides(scene: &Scene, faces: &CutFaces, cameras: &[Camera]) -> Vec<f64> {
+    let border = border(scene, faces);
+    cameras.iter().flat_map(|camera| long_directions(&border, camera)).collect()
+}
+
+/// The sides of the faces that no two of their triangles share, world.
+fn border(scene: &Scene, faces: &CutFaces) -> Vec<[DVec3; 2]> {
+    let Some(part) = scene.parts.get(faces.part) else { return Vec::new() };
+    let Some(shape) = scene.geometry_of(part) else { return Vec::new() };
+    let mut times: FxHashMap<[u32; 2], i32> = FxHashMap::default();
+    let own = shape.triangles.iter().zip(&shape.triangle_material);
+    let mut sides = Vec::new();
+    for (triangle, _) in own.filter(|(_, material)| **material == faces.material) {
+        for k in 0..3 {
+            let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
+            *times.entry([a.min(b), a.max(b)]).or_default() += 1;
+            sides.push([a.min(b), a.max(b)]);
+        }
+    }
+    sides.retain(|side| times.get(side) == Some(&1));
+    let place = |v: u32| shape.positions.get(v as usize).map(|p| part.world_from_part.transform_point3(*p));
+    sides.into_iter().filter_map(|[a, b]| Some([place(a)?, place(b)?])).collect()
+}
+
+/// The long directions of sides as a camera sees them.
+fn long_directions(sides: &[[DVec3; 2]], camera: &Camera) -> Vec<f64> {
+    let [right, up, forward] = camera.axes();
+    let place = |p: DVec3| {
+        let p = p - camera.eye;
+        let at = DVec2::new(p.dot(right), p.dot(up));
+        match camera.projection {
+            Projection::Orthographic { .. } => at,
+            Projection::Perspective { .. } => at / p.dot(forward),
+        }
+    };
+    let side = |ends: &[DVec3; 2]| {
+        let way = place(ends[1]) - place(ends[0]);
+        let angle = atan2(way.y, way.x).to_degrees().rem_euclid(180.0);
+        (way.length() > 0.0 && angle.is_finite()).then_some((angle, way.length()))
+    };
+    let mut sides: Vec<(f64, f64)> = sides.iter().filter_map(side).collect();
+    sides.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    // Each with the direction of the longest side and the length of all.
+    let mut directions: Vec<(f64, f64)> = Vec::new();
+    let mut first = f64::NEG_INFINITY;
+    let mut longest = 0.0;
+    for (angle, length) in sides {
+        match directions.last_mut() {
+            Some(direction) if angle - first < ONE_DIRECTION_DEG => {
+                direction.1 += length;
+                if length > longest {
+                    (direction.0, longest) = (angle, length);
+                }
+            }
+            _ => {
+                directions.push((angle, length));
+                (first, longest) = (angle, length);
+            }
+        }
+    }
+    // Level sides lie at both ends of the order.
+    if let [first, .., last] = directions.as_slice()
+        && first.0 + 180.0 - last.0 < ONE_DIRECTION_DEG
+    {
+        let both = first.1 + last.1;
+        directions[0].1 = both;
+        directions.pop();
+    }
+    let longest = directions.iter().map(|(_, length)| *length).fold(0.0, f64::max);
+    directions.retain(|(_, length)| *length >= LONG_SHARE * longest);
+    directions.into_iter().map(|(angle, _)| angle).collect()
+}

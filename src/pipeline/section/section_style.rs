@@ -1,0 +1,184 @@
+//! [`hatched`], [`hatched_for`], [`trailed`]: styles that also hatch the faces along which a scene is cut open, and draw trails of parts.
+
+use super::cut_directions::{PARALLEL_DEG, long_sides};
+use crate::drawing::{Length, Unit};
+use crate::edit::explode::TRAIL;
+use crate::edit::section::{CutFaces, Section, are_neighbours, material_name};
+use crate::geometry::names::glob::Glob;
+use crate::hatching::{Pattern, PatternKind};
+use crate::lines::LineKind;
+use crate::scene::{Camera, Scene};
+use crate::strokes::{Condition, PenChange, Rule};
+use crate::style::Style;
+
+/// The style with thin chain lines (ISO 128-2, line type 04.1) for the trails of parts that were moved apart.
+#[must_use]
+pub fn trailed(style: &Style) -> Style {
+    let mut style = style.clone();
+    let dash = [24.0, 3.0, 0.5, 3.0].map(|part| Length::mm(part * TRAIL_MM));
+    let pen =
+        PenChange { width: Some(Length::mm(TRAIL_MM)), dash: Some(dash.into()), ..PenChange::default() };
+    let when = Condition { material: Some(Glob::new(TRAIL)), ..Condition::default() };
+    style.stroke.rules.push(Rule { when, pen });
+    if !style.lines.kinds.contains(&LineKind::Wire) {
+        style.lines.kinds.push(LineKind::Wire);
+    }
+    style
+}
+
+/// Width of trail lines.
+const TRAIL_MM: f64 = 0.25;
+
+/// The distance of lines on cut faces, and their width.
+const SPACING_MM: f64 = 2.0;
+const WIDTH_MM: f64 = 0.18;
+
+/// Degrees that the lines of cut parts are turned by, and by how much they are farther apart: neighbours differ in one of both
+/// (ISO 128-50, 6.2).
+const KINDS: [(f64, f64); 8] = [
+    (45.0, 1.0),
+    (135.0, 1.0),
+    (45.0, 1.7),
+    (135.0, 1.7),
+    (45.0, 0.6),
+    (135.0, 0.6),
+    (30.0, 1.0),
+    (120.0, 1.0),
+];
+
+/// More angles, for parts of which long sides run along 45 and 135 degrees.
+const ANGLES: [f64; 6] = [60.0, 150.0, 15.0, 105.0, 75.0, 165.0];
+
+/// By how much the lines of parts at these angles are farther apart.
+const SPACINGS: [f64; 3] = [1.0, 1.7, 0.6];
+
+/// How many ways of hatching there are: those of [`KINDS`], and [`ANGLES`] and all whole degrees at each of [`SPACINGS`].
+const ALL_KINDS: usize = KINDS.len() + (ANGLES.len() + 180) * SPACINGS.len();
+
+/// The angle of the lines of a kind, degrees, and by how much they are farther apart. The last kinds are whole degrees, those near 45 and
+/// 135 first.
+fn lines_of(kind: usize) -> (f64, f64) {
+    let kind = kind % ALL_KINDS;
+    let Some(more) = kind.checked_sub(KINDS.len()) else { return KINDS[kind] };
+    let (number, farther) = (more / SPACINGS.len(), SPACINGS[more % SPACINGS.len()]);
+    let angle = ANGLES.get(number).copied().unwrap_or_else(|| {
+        let degree = (number - ANGLES.len()) as f64;
+        let turn = ((degree / 4.0).floor() + 1.0) * if degree % 4.0 < 2.0 { 1.0 } else { -1.0 };
+        (if degree % 2.0 == 0.0 { 45.0 } else { 135.0 } + turn).rem_euclid(180.0)
+    });
+    (angle, farther)
+}
+
+/// The same as [`hatched`] for views of a scene that was cut open: on a part the lines have another angle where they would run within 10
+/// degrees along its long sides as any of the cameras sees them, if there is such an angle. Neighbouring parts still differ. The numbers of
+/// the faces and the names of their materials are changed to match.
+///
+/// Source: ISO 128-50:2001, 4.
+#[must_use]
+pub fn hatched_for(style: &Style, scene: &mut Scene, faces: &mut [CutFaces], cameras: &[Camera]) -> Style {
+    let mut order: Vec<usize> = (0..faces.len()).collect();
+    order.sort_by(|a, b| faces[*b].area.total_cmp(&faces[*a].area).then(a.cmp(b)));
+    let mut done: Vec<usize> = Vec::new();
+    for own in order {
+        let sides = long_sides(scene, &faces[own], cameras);
+        let runs_along = |angle: f64| {
+            let apart = |side: &f64| (angle - side).rem_euclid(180.0);
+            sides.iter().map(apart).any(|apart| apart.min(180.0 - apart) < PARALLEL_DEG)
+        };
+        let near = done.iter().filter(|other| are_neighbours(&faces[own], &faces[**other]));
+        let taken: Vec<usize> = near.map(|other| faces[*other].kind).collect();
+        // A pattern of the style itself has the angle that it has.
+        let is_right = |kind: &usize| {
+            !taken.contains(kind)
+                && (has_pattern(style, &material_name(*kind)) || !runs_along(lines_of(*kind).0))
+        };
+        let usual = || (0..).find(|kind| !taken.contains(kind)).unwrap_or_default();
+        let kind = (0..ALL_KINDS).find(is_right).unwrap_or_else(usual);
+        faces[own].kind = kind;
+        if let Some(material) = scene.materials.get_mut(faces[own].material as usize) {
+            material.name = material_name(kind);
+        }
+        done.push(own);
+    }
+    with_kinds(style, faces)
+}
+
+/// Whether a style has a pattern for a material.
+fn has_pattern(style: &Style, name: &str) -> bool {
+    style.patterns.iter().any(|own| own.material != Glob::new("*") && own.material.matches(name))
+}
+
+/// The style with thin lines at 45 degrees on the cut faces of a section, at other angles or distances on neighbouring parts, and with
+/// outlines of these faces as wide as the widest lines of the style. A pattern
+/// that the style itself has for the material of such faces (`cut 1`, `cut 2` and so on) is left as it is.
+///
+/// Source: ISO 128-50:2001, Basic conventions for representing areas on cuts and sections, 4 and 6.
+#[must_use]
+pub fn hatched(style: &Style, section: &Section) -> Style {
+    with_kinds(style, &section.faces)
+}
+
+fn with_kinds(style: &Style, faces: &[CutFaces]) -> Style {
+    let mut style = style.clone();
+    let mut kinds: Vec<usize> = faces.iter().map(|faces| faces.kind).collect();
+    kinds.sort_unstable();
+    kinds.dedup();
+    if kinds.is_empty() {
+        return style;
+    }
+    if !style.hatch.enabled {
+        // What is seen where is asked for; nothing but cut faces is hatched.
+        style.hatch.enabled = true;
+        style.hatch.layers.clear();
+        style.hatch.coverage.clear();
+        style.hatch.materials.clear();
+        style.hatch.blacks = 0;
+        style.hatch.cast_shadows = false;
+        style.shade.thresholds.clear();
+        style.shade.materials.clear();
+    }
+    for kind in kinds {
+        let name = material_name(kind);
+        if has_pattern(&style, &name) {
+            continue;
+        }
+        let (angle, farther) = lines_of(kind);
+        style.patterns.push(Pattern {
+            material: Glob::new(name),
+            kind: PatternKind::Lines,
+            size: Length::mm(SPACING_MM * farther),
+            width: Length::mm(WIDTH_MM),
+            angle,
+            colour: style.stroke.pen.colour,
+            unpainted: true,
+            ..Pattern::default()
+        });
+    }
+    // Their outlines are as wide as any line of the style.
+    let always = |rule: &&Rule| {
+        rule.when.part.is_none() && rule.when.material.is_none() && rule.when.hidden != Some(true)
+    };
+    let widths = style.stroke.rules.iter().filter(always).filter_map(|rule| rule.pen.width);
+    let mm = |width: &Length| width.in_unit(Unit::Mm);
+    let width = widths.max_by(|a, b| mm(a).total_cmp(&mm(b)));
+    let width = width.filter(|width| mm(width) > mm(&style.stroke.pen.width));
+    let material = Some(Glob::new("cut *"));
+    let when = Condition { material, hidden: Some(false), ..Condition::default() };
+    style.stroke.rules.push(Rule { when, pen: PenChange { width, ..PenChange::default() } });
+    style
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_ways_of_hatching_differ_and_begin_with_the_usual_ones() {
+        assert_eq!([0, 1, 2].map(lines_of), [(45.0, 1.0), (135.0, 1.0), (45.0, 1.7)]);
+        let degrees = |kind: usize| (lines_of(kind).0.round() as usize, (lines_of(kind).1 * 10.0) as usize);
+        let all: std::collections::BTreeSet<_> = (0..ALL_KINDS).map(degrees).collect();
+        assert!((0..180).all(|degree| degree == 45 || degree == 135 || all.contains(&(degree, 10))));
+        let first = (0..60).map(degrees).collect::<std::collections::BTreeSet<_>>();
+        assert!(first.len() > 50, "{first:?}");
+    }
+}

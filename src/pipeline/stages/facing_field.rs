@@ -1,0 +1,174 @@
+//! n·v on the faces in front: bands of colour, warm where the surface faces the eye and cool where it
+//! is averted, with the zero set between them as a dark line.
+
+use kurbo::{BezPath, Point, Vec2};
+
+use super::stage_marks::{Runs, fill, line};
+use super::{Made, layers};
+use crate::colour::srgb::Colour;
+use crate::drawing::{Layer, LayerKind, Mark, Paint};
+use crate::light::{SurfaceCut, cut};
+use crate::lines;
+use crate::view::raster::painter_order::back_to_front;
+use crate::view::raster::{FaceBuffer, Screen};
+
+/// Where one band ends and the next begins.
+const LEVELS: [f64; 9] = [-0.8, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.8];
+/// Which of them is zero.
+const ZERO: u16 = 4;
+
+/// Colours of the bands, from the most averted.
+const COLOURS: [Colour; 10] = [
+    Colour::rgb(0x1d, 0x3c, 0x6e),
+    Colour::rgb(0x2c, 0x5a, 0x96),
+    Colour::rgb(0x45, 0x7f, 0xb8),
+    Colour::rgb(0x72, 0xa6, 0xd2),
+    Colour::rgb(0xa6, 0xcb, 0xe6),
+    Colour::rgb(0xd9, 0x6c, 0x2c),
+    Colour::rgb(0xe8, 0x93, 0x4c),
+    Colour::rgb(0xf2, 0xb5, 0x77),
+    Colour::rgb(0xf8, 0xd3, 0xa6),
+    Colour::rgb(0xfd, 0xee, 0xd9),
+];
+
+/// Flat faces have no field; greys tell how much they turn to the eye, bluish ones are averted.
+const FLAT: [Colour; 4] = [
+    Colour::rgb(0xb4, 0xb4, 0xb0),
+    Colour::rgb(0xcc, 0xcc, 0xc8),
+    Colour::rgb(0xde, 0xde, 0xda),
+    Colour::rgb(0xee, 0xee, 0xea),
+];
+const FLAT_AVERTED: Colour = Colour::rgb(0x86, 0x94, 0xa6);
+
+/// By how much a piece is widened, px: neighbours overlap by a hair, so that no paper shines through.
+const WIDEN_PX: f64 = 0.4;
+
+/// Corners whose sides turn by more than this cosine (120 degrees) are cut off when widened.
+const SHARP_COSINE: f64 = -0.5;
+
+/// The faces in front, painted from back to front, and the zero set over them.
+pub(crate) fn draw(made: &Made) -> Vec<Layer> {
+    let (mesh, view) = (&made.surface.mesh, made.view);
+    let cut = cut(mesh, &made.surface.smooth, &lines::facing(made.surface, view), &LEVELS);
+    let screen = Screen::new(mesh, view);
+    let buffer = FaceBuffer::new(&screen);
+    let order = back_to_front(&screen, &buffer);
+    let mut fills: Vec<Mark> = Vec::new();
+    for face in &order {
+        let pieces = cut.of_face(*face);
+        if pieces.is_empty() {
+            let colour = flat_colour(made, *face);
+            let corners = &mesh.triangles[*face as usize];
+            paint(&mut fills, made, &cut, corners, colour, &["field", "flat"], "a flat face");
+        }
+        for piece in pieces {
+            let band = usize::from(piece.band);
+            let side = if piece.band > ZERO { "facing" } else { "averted" };
+            let note = format!("n·v {:.1} to {:.1}", band as f64 / 5.0 - 1.0, (band + 1) as f64 / 5.0 - 1.0);
+            paint(&mut fills, made, &cut, cut.corners(piece), COLOURS[band], &["field", side], &note);
+        }
+    }
+    let dark = Colour::rgb(0x1a, 0x1a, 0x1a);
+    let zero = zero_set(made, &cut, &buffer)
+        .map(|path| line(path, dark, made.px(1.2), &["zero-set"], Some("the zero set of n·v")));
+    layers([(LayerKind::Fills, fills), (LayerKind::Lines, zero.into_iter().collect())])
+}
+
+fn flat_colour(made: &Made, face: u32) -> Colour {
+    if !made.view.facing[face as usize] {
+        return FLAT_AVERTED;
+    }
+    // Along the axis of view, so that the triangles of one plane are alike.
+    let normal = glam::Vec3::from_array(made.surface.mesh.face_normals[face as usize]).as_dvec3();
+    let cosine = -normal.dot(made.view.frame.forward);
+    FLAT[((cosine.max(0.0) * FLAT.len() as f64) as usize).min(FLAT.len() - 1)]
+}
+
+/// Paints a polygon; what is painted alike in turn is one mark.
+fn paint(
+    marks: &mut Vec<Mark>,
+    made: &Made,
+    cut: &SurfaceCut,
+    corners: &[u32],
+    colour: Colour,
+    classes: &[&'static str],
+    note: &str,
+) {
+    let Some(points) = corners.iter().map(|c| on_page(made, cut, *c)).collect::<Option<Vec<_>>>() else {
+        return;
+    };
+    let points = widened(&points, made.px(WIDEN_PX));
+    let like = |mark: &&mut Mark| mark.paint == Paint::Fill(colour);
+    let add = |path: &mut BezPath| {
+        super::stage_marks::add(path, &points);
+        path.close_path();
+    };
+    match marks.last_mut().filter(like) {
+        Some(last) => add(&mut last.path),
+        None => {
+            let mut path = BezPath::new();
+            add(&mut path);
+            marks.push(fill(path, colour, classes, Some(note)));
+        }
+    }
+}
+
+/// A corner of a piece on the page; `None` if the near plane cuts it off.
+fn on_page(made: &Made, cut: &SurfaceCut, corner: u32) -> Option<Point> {
+    let point = match made.view.points.get(corner as usize) {
+        Some(point) => *point,
+        None => made.view.frame.image_from_local(cut.position(&made.surface.mesh, corner)),
+    };
+    (!point.z.is_nan()).then(|| Point::new(point.x, point.y) + made.margin())
+}
+
+/// A polygon with its sides moved out, always in the same sense, so that polygons that overlap in one
+/// path fill together.
+fn widened(points: &[Point], by: f64) -> Vec<Point> {
+    let n = points.len();
+    let twice_area: f64 = (0..n).map(|k| points[k].to_vec2().cross(points[(k + 1) % n].to_vec2())).sum();
+    let points: Vec<Point> =
+        if twice_area < 0.0 { points.iter().rev().copied().collect() } else { points.to_vec() };
+    let outward = |k: usize| {
+        let side = points[(k + 1) % n] - points[k];
+        let length = side.hypot2().sqrt();
+        if length > 0.0 { Vec2::new(side.y, -side.x) / length } else { Vec2::ZERO }
+    };
+    let mut out = Vec::with_capacity(2 * n);
+    for (k, point) in points.iter().enumerate() {
+        let (before, after) = (outward((k + n - 1) % n), outward(k));
+        let cosine = before.dot(after);
+        if cosine > SHARP_COSINE {
+            out.push(*point + (before + after) * (by / (1.0 + cosine)));
+        } else {
+            out.extend([*point + before * by, *point + after * by]);
+        }
+    }
+    out
+}
+
+/// The zero set where the face that it crosses is in front, or no other face is.
+fn zero_set(made: &Made, cut: &SurfaceCut, buffer: &FaceBuffer) -> Option<BezPath> {
+    let mesh = &made.surface.mesh;
+    let per_unit = buffer.columns as f64 / made.view.frame.width;
+    let in_front = |face: u32, middle: Point| {
+        let own = mesh.triangles[face as usize];
+        let (column, row) = ((middle.x * per_unit).floor() as isize, (middle.y * per_unit).floor() as isize);
+        let mut beside = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (column + dx, row + dy)));
+        beside.any(|(x, y)| {
+            if x < 0 || y < 0 || x as usize >= buffer.columns || y as usize >= buffer.rows {
+                return false;
+            }
+            let front = buffer.front(y as usize * buffer.columns + x as usize);
+            front.is_none_or(|front| mesh.triangles[front as usize].iter().any(|v| own.contains(v)))
+        })
+    };
+    let mut runs = Runs::default();
+    for (face, side) in cut.border(ZERO) {
+        let [Some(a), Some(b)] = side.map(|corner| on_page(made, cut, corner)) else { continue };
+        if in_front(face, a.midpoint(b) - made.margin()) {
+            runs.push([a, b]);
+        }
+    }
+    runs.finish()
+}

@@ -1,0 +1,145 @@
+//! Pictures of intermediate results, for looking into the pipeline.
+//!
+//! Marks have the class of their kind or reason, and a title that describes them.
+//!
+//! Files, in reading order: [`stage`] the stages by name; [`stage_marks`] colours and marks; [`facing_field`]
+//! bands of n·v; [`zero_sets`] contours before hiding; [`edge_strengths`] view edges by strength;
+//! [`removed_lines`] what tidying removed.
+
+mod edge_strengths;
+mod facing_field;
+mod removed_lines;
+pub mod stage;
+mod stage_marks;
+mod zero_sets;
+
+use kurbo::{Point, Vec2};
+
+use super::Stage;
+use crate::chains::Chain;
+use crate::colour::srgb::Colour;
+use crate::drawing::{Layer, LayerKind, Length, Mark, Page};
+use crate::lines::{FeatureLines, LineKind, Surface};
+use crate::pipeline::view::page_transform::margin;
+use crate::style::Style;
+use crate::view::View;
+use crate::visibility::{Ahead, ViewMap};
+use stage_marks::{HUES, line, polyline};
+
+/// All that the stages of one drawing made.
+pub(crate) struct Made<'a> {
+    pub surface: &'a Surface,
+    pub view: &'a View,
+    pub lines: &'a FeatureLines,
+    pub ahead: &'a Ahead<'a>,
+    /// In the middle of the page.
+    pub map: &'a ViewMap,
+    pub chains: &'a [Chain],
+    pub style: &'a Style,
+    pub page: &'a Page,
+}
+
+/// What one stage made.
+pub(crate) fn draw(stage: Stage, made: &Made) -> Vec<Layer> {
+    match stage {
+        Stage::Field => facing_field::draw(made),
+        Stage::Zeros => zero_sets::draw(made),
+        Stage::Lines => of_lines(made),
+        Stage::ViewMap => of_view_map(made),
+        Stage::Strengths => edge_strengths::draw(made),
+        Stage::Chains => of_chains(made),
+        Stage::Removed => removed_lines::draw(made),
+    }
+}
+
+impl Made<'_> {
+    /// From the camera's frame to the page.
+    fn margin(&self) -> Vec2 {
+        margin(&self.view.frame, self.page)
+    }
+
+    /// So many px in the unit of the page.
+    fn px(&self, px: f64) -> f64 {
+        Length::px(px).in_unit(self.page.unit)
+    }
+
+    /// Width of a thin line.
+    fn thin(&self) -> f64 {
+        self.px(0.8)
+    }
+
+    /// What of a feature segment lies on the page, from its start to its end.
+    fn segment(&self, segment: u32) -> Option<[Point; 2]> {
+        let mesh = &self.surface.mesh;
+        let ends = self.lines.segments[segment as usize].ends;
+        let [a, b] = ends.map(|end| self.lines.position(mesh, end));
+        let ([a, b], _) = self.view.frame.clip_segment(a, b)?;
+        let (start, end) = self.view.frame.clip_to_page(a, b)?;
+        let point = |t: f64| Point::new(a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t) + self.margin();
+        Some([start, end].map(point))
+    }
+}
+
+/// One colour a kind of line.
+fn kind_colour(kind: LineKind) -> Colour {
+    HUES[kind as usize % HUES.len()]
+}
+
+/// All feature lines, hidden or not, one colour a kind.
+fn of_lines(made: &Made) -> Vec<Layer> {
+    let marks = (0..made.lines.segments.len() as u32).filter_map(|s| {
+        let kind = made.lines.segments[s as usize].kind;
+        Some(line(polyline(&made.segment(s)?), kind_colour(kind), made.thin(), &[kind.name()], None))
+    });
+    layers([(LayerKind::Lines, marks.collect())])
+}
+
+/// Every view edge by itself: visible ones in a colour of their kind, hidden ones pale, so that
+/// the layers show what hides what.
+fn of_view_map(made: &Made) -> Vec<Layer> {
+    let (mut hidden, mut visible) = (Vec::new(), Vec::new());
+    for edge in &made.map.edges {
+        let ends = [edge.start, edge.end].map(|v| made.map.vertices[v.index()].position);
+        let colour = if edge.silhouette { Colour::BLACK } else { kind_colour(edge.kind) };
+        push(polyline(&ends), colour, edge.kind, edge.invisibility, made.thin(), &mut hidden, &mut visible);
+    }
+    layers([(LayerKind::HiddenLines, hidden), (LayerKind::Lines, visible)])
+}
+
+/// Every chain in the next of eight colours.
+fn of_chains(made: &Made) -> Vec<Layer> {
+    let (mut hidden, mut visible) = (Vec::new(), Vec::new());
+    for (i, chain) in made.chains.iter().enumerate() {
+        let (colour, path) = (HUES[i % HUES.len()], chain.path.clone());
+        let width = if chain.invisibility == 0 { 1.5 * made.thin() } else { made.thin() };
+        push(path, colour, chain.kind, chain.invisibility, width, &mut hidden, &mut visible);
+    }
+    layers([(LayerKind::HiddenLines, hidden), (LayerKind::Lines, visible)])
+}
+
+/// A line among the visible ones, or pale and thin among the hidden ones.
+fn push(
+    path: kurbo::BezPath,
+    colour: Colour,
+    kind: LineKind,
+    invisibility: u16,
+    width: f64,
+    hidden: &mut Vec<Mark>,
+    visible: &mut Vec<Mark>,
+) {
+    if invisibility == 0 {
+        visible.push(line(path, colour, width, &[kind.name()], None));
+    } else {
+        let mut mark = line(path, Colour { a: 70, ..colour }, width / 2.0, &[kind.name()], None);
+        mark.provenance.invisibility = invisibility;
+        hidden.push(mark);
+    }
+}
+
+/// The layers that hold anything, back to front.
+fn layers<const N: usize>(of: [(LayerKind, Vec<Mark>); N]) -> Vec<Layer> {
+    of.into_iter()
+        .filter(|(_, marks)| !marks.is_empty())
+        .map(|(kind, marks)| Layer { kind, pen: None, ordered: false, marks })
+        .collect()
+}

@@ -1,0 +1,88 @@
+//! The marks that pictures of stages are made of, and their colours.
+
+use std::sync::Arc;
+
+use kurbo::{BezPath, Point};
+
+use crate::colour::srgb::Colour;
+use crate::drawing::{Cap, Join, Mark, Paint, Provenance, StrokePaint};
+
+/// Hues that are easily told apart, for things that lie side by side.
+pub(crate) const HUES: [Colour; 8] = [
+    Colour::rgb(0xd6, 0x27, 0x28),
+    Colour::rgb(0x1f, 0x77, 0xb4),
+    Colour::rgb(0x2c, 0xa0, 0x2c),
+    Colour::rgb(0xff, 0x7f, 0x0e),
+    Colour::rgb(0x94, 0x67, 0xbd),
+    Colour::rgb(0x8c, 0x56, 0x4b),
+    Colour::rgb(0xe3, 0x77, 0xc2),
+    Colour::rgb(0x17, 0xbe, 0xcf),
+];
+
+/// What lies there for orientation only.
+pub(crate) const PALE: Colour = Colour::rgb(0xb4, 0xb4, 0xb4);
+
+/// A line of constant width.
+pub(crate) fn line(
+    path: BezPath,
+    colour: Colour,
+    width: f64,
+    classes: &[&'static str],
+    note: Option<&str>,
+) -> Mark {
+    let (cap, join) = (Cap::Round, Join::Round);
+    let stroke = StrokePaint { width, colour, cap, join, dash: Vec::new(), dash_offset: 0.0 };
+    Mark { path, paint: Paint::Stroke(stroke), provenance: provenance(classes, note) }
+}
+
+/// A filled shape.
+pub(crate) fn fill(path: BezPath, colour: Colour, classes: &[&'static str], note: Option<&str>) -> Mark {
+    Mark { path, paint: Paint::Fill(colour), provenance: provenance(classes, note) }
+}
+
+fn provenance(classes: &[&'static str], note: Option<&str>) -> Provenance {
+    Provenance { classes: classes.to_vec(), note: note.map(Arc::from), ..Provenance::default() }
+}
+
+/// The path through some points.
+pub(crate) fn polyline(points: &[Point]) -> BezPath {
+    let mut path = BezPath::new();
+    add(&mut path, points);
+    path
+}
+
+/// Adds a line through some points to a path.
+pub(crate) fn add(path: &mut BezPath, points: &[Point]) {
+    if let Some((first, others)) = points.split_first() {
+        path.move_to(*first);
+        others.iter().for_each(|point| path.line_to(*point));
+    }
+}
+
+/// Segments that follow each other in a list, as the polylines they make.
+#[derive(Debug, Default)]
+pub(crate) struct Runs {
+    finished: BezPath,
+    points: Vec<Point>,
+}
+
+impl Runs {
+    /// Goes on with a segment: the same line where it begins where the last one ended.
+    pub fn push(&mut self, [a, b]: [Point; 2]) {
+        if self.points.last() != Some(&a) {
+            self.end_line();
+            self.points.push(a);
+        }
+        self.points.push(b);
+    }
+
+    fn end_line(&mut self) {
+        add(&mut self.finished, &std::mem::take(&mut self.points));
+    }
+
+    /// All lines as one path; `None` where there is none.
+    pub fn finish(mut self) -> Option<BezPath> {
+        self.end_line();
+        (!self.finished.elements().is_empty()).then_some(self.finished)
+    }
+}

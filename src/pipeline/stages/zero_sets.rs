@@ -1,0 +1,77 @@
+//! The zero sets as they are traced, before anything is hidden, and the edges that say what is seen of them.
+
+use super::stage_marks::{PALE, Runs, line};
+use super::{Made, layers};
+use crate::colour::srgb::Colour;
+use crate::drawing::{Layer, LayerKind};
+use crate::lines::{LineKind, Role};
+
+/// Edges that say what of a contour is seen.
+const WITNESS: Colour = Colour::rgb(0xd6, 0x27, 0x28);
+/// Contours that run forward, and those that run backward between one cusp and the next.
+const FORWARD: Colour = Colour::rgb(0x1a, 0x1a, 0x1a);
+const BACKWARD: Colour = Colour::rgb(0x9b, 0x3f, 0xc4);
+
+/// Contours from curve to curve, lines inside, witnesses, all else pale.
+pub(crate) fn draw(made: &Made) -> Vec<Layer> {
+    let mut lines = Vec::new();
+    let mut on_curve = vec![false; made.lines.segments.len()];
+    for curve in &made.lines.curves {
+        for backward in [false, true] {
+            let mut runs = Runs::default();
+            for (segment, advance) in curve.segments.clone().zip(&curve.advance) {
+                on_curve[segment as usize] = true;
+                if (*advance < 0.0) == backward
+                    && let Some(ends) = made.segment(segment)
+                {
+                    runs.push(ends);
+                }
+            }
+            let (colour, class, note) = if backward {
+                (BACKWARD, "backward", "contour, the averted side nearer: between two cusps")
+            } else {
+                (FORWARD, "forward", "contour")
+            };
+            let path = runs.finish();
+            lines.extend(path.map(|path| line(path, colour, made.px(1.0), &["contour", class], Some(note))));
+        }
+    }
+    let mut others = Vec::new();
+    for kind in LineKind::ALL {
+        let mut runs = Runs::default();
+        for (i, segment) in made.lines.segments.iter().enumerate() {
+            if segment.kind == kind
+                && !on_curve[i]
+                && !matches!(segment.role, Role::Witness { .. })
+                && let Some(ends) = made.segment(i as u32)
+            {
+                runs.push(ends);
+            }
+        }
+        let Some(path) = runs.finish() else { continue };
+        if kind.is_inside() {
+            lines.push(line(path, inside_colour(kind), made.px(1.0), &[kind.name()], Some(kind.name())));
+        } else {
+            others.push(line(path, PALE, made.px(0.6), &[kind.name()], None));
+        }
+    }
+    let mut runs = Runs::default();
+    let segments = made.lines.segments.iter().enumerate();
+    for (i, _) in segments.filter(|(_, s)| matches!(s.role, Role::Witness { .. })) {
+        made.segment(i as u32).into_iter().for_each(|ends| runs.push(ends));
+    }
+    let note = "edge along which the polyhedron turns from the eye";
+    others.extend(
+        runs.finish().map(|path| line(path, WITNESS, made.px(0.6), &["contour", "witness"], Some(note))),
+    );
+    others.extend(lines);
+    layers([(LayerKind::Lines, others)])
+}
+
+fn inside_colour(kind: LineKind) -> Colour {
+    match kind {
+        LineKind::Ridge => Colour::rgb(0xff, 0x7f, 0x0e),
+        LineKind::Valley => Colour::rgb(0x17, 0xbe, 0xcf),
+        _ => Colour::rgb(0x2c, 0xa0, 0x2c),
+    }
+}

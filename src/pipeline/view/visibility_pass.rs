@@ -1,0 +1,124 @@
+//! [`OnView`]: a view of which is known what is seen of its lines.
+
+use crate::drawing::{Length, Unit};
+use crate::lines::{self, FeatureLines, Known, Surface, Textures};
+use crate::pipeline::fills::glass::{self, Behind};
+use crate::pipeline::fills::surface_fills::{self, Colours, Fills};
+use crate::pipeline::lines::part_joints;
+use crate::pipeline::prepare::prepared_scene::Prepared;
+use crate::pipeline::report::drawing_report::{Report, Stopwatch};
+use crate::pipeline::thread_pool::on_threads;
+use crate::scene::Camera;
+use crate::view::View;
+use crate::visibility::{self, ViewMap};
+
+/// A view whose lines are seen or hidden.
+pub(crate) struct OnView<'a> {
+    pub surface: &'a Surface,
+    pub view: &'a View,
+    pub lines: &'a FeatureLines,
+    /// The numbers of tone borders without a change of tone, and of joints that are left out, ascending.
+    pub unchanged: Vec<u32>,
+    /// Where lines or surfaces have colours.
+    pub textures: Option<&'a Textures>,
+    /// Where surfaces are painted or hatched.
+    pub fills: Option<&'a Fills<'a>>,
+    pub map: ViewMap,
+    /// What is seen through materials that are not opaque.
+    pub behind: Option<Behind<'a>>,
+    pub report: Report,
+    pub watch: Stopwatch,
+    pub warnings: Vec<String>,
+}
+
+impl Prepared<'_> {
+    /// Decides what is seen of the lines of a view.
+    pub(crate) fn on_view<T: Send>(
+        &self,
+        camera: &Camera,
+        unit: Unit,
+        call: impl FnOnce(OnView) -> T + Send,
+    ) -> T {
+        on_threads(|| self.decided(camera, unit, call))
+    }
+
+    fn decided<T>(&self, camera: &Camera, unit: Unit, call: impl FnOnce(OnView) -> T) -> T {
+        let Self { scene, style, sought, paints, .. } = self;
+        let mut report = Report::default();
+        let mut watch = Stopwatch::start();
+        [report.counts.vertices, report.counts.edges] = self.counts;
+
+        let refined = self.surface.refined_for(camera, self.search.cones_of_next_view(&self.surface));
+        let surface = refined.as_ref().map_or(&self.surface, |finer| &finer.surface);
+        // Finer triangles are those of this view alone.
+        let paint = || {
+            let whole = self.paintable.as_ref().filter(|_| refined.is_some())?;
+            Some(whole.finer(surface, paints.as_deref()?))
+        };
+        let search =
+            || refined.as_ref().and_then(|finer| self.search.of_finer_view(&self.surface, finer, sought));
+        let look = || crate::parallel::join(|| View::new(&surface.mesh, camera), paint);
+        let (finer, (view, own)) = crate::parallel::join(search, look);
+        let paintable = own.as_ref().or(self.paintable.as_ref());
+        report.stages_ms.topology = watch.lap_ms();
+
+        let panes = glass::Panes::of(surface, scene, style);
+        // Through glass one sees more.
+        let is_clear = panes.is_none();
+        let in_sight =
+            is_clear.then(|| self.search.in_sight(surface, &view, finer.as_ref(), sought)).flatten();
+        let (covers, in_sight) = in_sight.unzip();
+        let mut known = if surface.refined {
+            Known { intersections: finer.as_ref(), ..Known::default() }
+        } else {
+            self.search.of_next_view(surface, sought, in_sight.is_none())
+        };
+        known.intersections = known.intersections.or(in_sight.as_ref());
+        let mut lines = lines::extract_with(surface, known, &view, sought);
+        // Parts on both sides of a joint stay separate regions.
+        let has_regions = self.paintable.is_some();
+        let joints =
+            part_joints::take_out(scene, paints.as_deref(), &surface.mesh, &mut lines, style, has_regions);
+        let mut warnings = Vec::new();
+        let px = Length::px(1.0).in_unit(unit);
+        let of = |paints| Textures::new(&surface.mesh, &view, paints, px, &style.lines);
+        let textures = paints.as_deref().map(of);
+        let colours = paints.as_deref().zip(textures.as_ref());
+        // What one sees through casts no shadow.
+        let casting = panes.as_ref().map_or(&surface.mesh, glass::Panes::clear);
+        // Shadows on faces that this view has cut are its own.
+        let late = refined.is_none().then_some(&self.shadows);
+        let fills = paintable.zip(colours).map(|(paintable, (paints, textures))| {
+            let colours = Colours { paints, textures };
+            let fills =
+                Fills::new(surface, (casting, late), paintable, &view, scene, colours, style, &mut warnings);
+            let moved = self.anchors.as_ref().filter(|_| surface_fills::lays_through(style));
+            moved.into_iter().fold(fills, Fills::laid_at)
+        });
+        warnings.extend(textures.iter().flat_map(Textures::warnings).cloned());
+        let inked = surface_fills::asks_isophotes(style);
+        let mut unchanged = joints;
+        unchanged.extend(
+            fills.as_ref().map(|fills| fills.add_tone_borders(&mut lines, inked)).unwrap_or_default(),
+        );
+        report.stages_ms.features = watch.lap_ms();
+
+        let map = visibility::build_with(&surface.mesh, &view, &lines, sought, covers.as_ref());
+        report.stages_ms.visibility = watch.lap_ms();
+        let behind = panes.as_ref().map(|panes| panes.look_behind(&surface.mesh, &view, &lines, sought));
+        let (view, lines, fills, textures) = (&view, &lines, fills.as_ref(), textures.as_ref());
+        call(OnView {
+            surface,
+            view,
+            lines,
+            unchanged,
+            textures,
+            fills,
+            map,
+            behind,
+            report,
+            watch,
+            warnings,
+        })
+    }
+}

@@ -1,0 +1,228 @@
+//! Fewer points: borders that come in short pieces, one a face, keep only the points that bend them.
+//!
+//! Source: Douglas and Peucker, "Algorithms for the reduction of the number of points required to
+//! represent a digitized line or its caricature", 1973. What the borders are cut into costs more than
+//! all that is done before, and a hundredth of a px is not seen.
+
+use crate::parallel::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::snap_rounding::{Border, GridPoint};
+
+/// Segments of the grid, and what each parts.
+pub(crate) type Segments = Vec<([GridPoint; 2], Border)>;
+
+const NONE: u32 = u32::MAX;
+
+/// Lines with fewer points: none moves farther than the `tolerance` of its border (steps of the
+/// grid), and points where lines meet or end stay.
+pub(crate) fn thinned(segments: &Segments, tolerance: impl Fn(Border) -> f64) -> Segments {
+    let lines = Lines::new(segments);
+    let mut done = vec![false; segments.len()];
+    let mut out = Segments::new();
+    let mut points = Vec::new();
+    // Lines between places where others meet first, then what closes on itself.
+    for closed in [false, true] {
+        for first in 0..segments.len() {
+            for end in 0..2 {
+                let starts_here = closed || !lines.goes_on(lines.ends[first][end]);
+                if done[first] || !starts_here {
+                    continue;
+                }
+                points.clear();
+                lines.follow(first, end, &mut done, &mut points);
+                make_canonical(&mut points);
+                let border = segments[first].1;
+                simplify(&points, tolerance(border), border, &mut out);
+            }
+        }
+    }
+    // Neither sense nor order of the lines shows.
+    out.iter_mut().for_each(|(ends, _)| ends.sort_unstable());
+    out.par_sort_unstable();
+    out
+}
+
+/// Turns a line so that it begins at its lesser end; a ring begins at its least point and goes on to the lesser
+/// of its neighbours.
+fn make_canonical(points: &mut Vec<GridPoint>) {
+    let last = points.len() - 1;
+    if points[0] != points[last] {
+        if points[last] < points[0] {
+            points.reverse();
+        }
+        return;
+    }
+    points.pop();
+    let least = (0..last).min_by_key(|k| points[*k]).unwrap_or(0);
+    points.rotate_left(least);
+    if points.last() < points.get(1) {
+        points[1..].reverse();
+    }
+    points.push(points[0]);
+}
+
+/// Segments by their ends.
+struct Lines<'a> {
+    segments: &'a Segments,
+    /// Numbers of the ends of each segment.
+    ends: Vec<[u32; 2]>,
+    /// The first two segments at each point.
+    at: Vec<[u32; 2]>,
+    /// How many there are.
+    count: Vec<u32>,
+}
+
+impl<'a> Lines<'a> {
+    fn new(segments: &'a Segments) -> Self {
+        let mut number: FxHashMap<GridPoint, u32> = FxHashMap::default();
+        number.reserve(segments.len());
+        let mut lines =
+            Self { segments, ends: Vec::with_capacity(segments.len()), at: Vec::new(), count: Vec::new() };
+        for (k, (points, _)) in segments.iter().enumerate() {
+            let ends = points.map(|p| {
+                let next = lines.at.len() as u32;
+                let own = *number.entry(p).or_insert(next);
+                if own == next {
+                    lines.at.push([NONE; 2]);
+                    lines.count.push(0);
+                }
+                own
+            });
+            for end in ends {
+                let count = &mut lines.count[end as usize];
+                if let Some(slot) = lines.at[end as usize].get_mut(*count as usize) {
+                    *slot = k as u32;
+                }
+                *count += 1;
+            }
+            lines.ends.push(ends);
+        }
+        lines
+    }
+
+    /// Whether a line goes on at a point: two segments of one kind meet there, and no more.
+    fn goes_on(&self, point: u32) -> bool {
+        let [a, b] = self.at[point as usize];
+        self.count[point as usize] == 2
+            && a != b
+            && self.segments[a as usize].1 == self.segments[b as usize].1
+    }
+
+    /// The points of the line that sets out with a segment from one of its ends.
+    fn follow(&self, first: usize, end: usize, done: &mut [bool], points: &mut Vec<GridPoint>) {
+        let (mut segment, mut from) = (first, end);
+        points.push(self.segments[first].0[end]);
+        loop {
+            done[segment] = true;
+            points.push(self.segments[segment].0[1 - from]);
+            let point = self.ends[segment][1 - from];
+            if !self.goes_on(point) {
+                return;
+            }
+            let [a, b] = self.at[point as usize];
+            let next = if a as usize == segment { b } else { a } as usize;
+            if done[next] {
+                return;
+            }
+            from = usize::from(self.ends[next][0] != point);
+            segment = next;
+        }
+    }
+}
+
+/// Adds the segments of a line without the points that it does not need.
+fn simplify(points: &[GridPoint], tolerance: f64, border: Border, out: &mut Segments) {
+    let last = points.len() - 1;
+    let mut kept = vec![false; points.len()];
+    kept[0] = true;
+    kept[last] = true;
+    let mut open = vec![(0, last)];
+    if points[0] == points[last] {
+        // A ring is cut at the point farthest from where it begins.
+        let away = |k: &usize| square(points[*k], points[0]);
+        let far = (1..last).max_by(|a, b| away(a).cmp(&away(b)).then(b.cmp(a))).unwrap_or(0);
+        kept[far] = true;
+        open = vec![(0, far), (far, last)];
+    }
+    while let Some((from, to)) = open.pop() {
+        let mut worst = (0.0, from);
+        for k in from + 1..to {
+            let off = distance2(points[k], points[from], points[to]);
+            if off > worst.0 {
+                worst = (off, k);
+            }
+        }
+        if worst.0 > tolerance * tolerance {
+            kept[worst.1] = true;
+            open.push((from, worst.1));
+            open.push((worst.1, to));
+        }
+    }
+    let mut before = points[0];
+    for k in (1..points.len()).filter(|k| kept[*k]) {
+        out.push(([before, points[k]], border));
+        before = points[k];
+    }
+}
+
+fn square(a: GridPoint, b: GridPoint) -> i64 {
+    (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
+}
+
+/// The distance of a point from a segment, squared.
+fn distance2(p: GridPoint, a: GridPoint, b: GridPoint) -> f64 {
+    let [way, to] = [b, p].map(|q| [(q[0] - a[0]) as f64, (q[1] - a[1]) as f64]);
+    let length2 = way[0] * way[0] + way[1] * way[1];
+    let along = to[0] * way[0] + to[1] * way[1];
+    let t = if length2 > 0.0 { (along / length2).clamp(0.0, 1.0) } else { 0.0 };
+    let (x, y) = (to[0] - way[0] * t, to[1] - way[1] * t);
+    x * x + y * y
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn straight_lines_keep_their_ends_and_meetings() {
+        // A line in ten pieces, met by another one in its middle.
+        let mut segments: Segments =
+            (0..10).map(|k| ([[10 * k, 0], [10 * k + 10, 0]], Border::Soft)).collect();
+        segments.push(([[50, 0], [50, 40]], Border::Soft));
+        let mut thin = thinned(&segments, |_| 0.5);
+        thin.sort_unstable();
+        assert_eq!(
+            thin,
+            [
+                ([[0, 0], [50, 0]], Border::Soft),
+                ([[50, 0], [50, 40]], Border::Soft),
+                ([[50, 0], [100, 0]], Border::Soft)
+            ]
+            .map(|(ends, border)| {
+                (if thin.contains(&(ends, border)) { ends } else { [ends[1], ends[0]] }, border)
+            })
+        );
+    }
+
+    #[test]
+    fn rings_stay_closed_and_near() {
+        let at = |k: usize| {
+            let angle = std::f64::consts::TAU * k as f64 / 200.0;
+            [
+                (1000.0 * crate::geometry::numbers::portable_math::cos(angle)) as i64,
+                (1000.0 * crate::geometry::numbers::portable_math::sin(angle)) as i64,
+            ]
+        };
+        let segments: Segments = (0..200).map(|k| ([at(k), at((k + 1) % 200)], Border::Soft)).collect();
+        let thin = thinned(&segments, |_| 10.0);
+        assert!((12..60).contains(&thin.len()), "{}", thin.len());
+        let mut ends: Vec<GridPoint> = thin.iter().flat_map(|(ends, _)| *ends).collect();
+        ends.sort_unstable();
+        assert!(ends.chunks_exact(2).all(|pair| pair[0] == pair[1]), "every point has two segments");
+        for k in 0..200 {
+            let off = thin.iter().map(|([a, b], _)| distance2(at(k), *a, *b)).fold(f64::INFINITY, f64::min);
+            assert!(off <= 100.0);
+        }
+    }
+}

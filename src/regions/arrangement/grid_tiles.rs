@@ -1,0 +1,113 @@
+//! [`PieceTiles`]: which pieces of borders pass a tile of the page, so that only neighbours are compared.
+
+use rustc_hash::FxHashMap;
+
+use crate::geometry::lists::csr_lists::{Grouped, grouped};
+
+/// A point of the grid that pieces lie on.
+pub(crate) type GridPoint = [i64; 2];
+
+/// Pieces in a tile, on average over the page, much of which is empty.
+const PIECES_A_TILE: usize = 1;
+
+/// Most tiles across, about.
+const MOST_TILES: usize = 1000;
+
+/// Pieces by the tiles of the page that they pass.
+#[derive(Default)]
+pub(crate) struct PieceTiles {
+    low: GridPoint,
+    /// Tiles are as wide and as high as these powers of two.
+    shift: [u32; 2],
+    across: GridPoint,
+    first: Grouped<u32>,
+    /// Those that were added later; few.
+    later: FxHashMap<u32, Vec<u32>>,
+}
+
+impl PieceTiles {
+    /// Tiles of the box around some points, and as many pieces between these.
+    pub fn new(points: &[GridPoint], count: usize, ends: impl Fn(u32) -> [GridPoint; 2]) -> Self {
+        let low = [0, 1].map(|k| points.iter().map(|p| p[k]).min().unwrap_or_default());
+        let high = [0, 1].map(|k| points.iter().map(|p| p[k]).max().unwrap_or_default());
+        let across = ((count / PIECES_A_TILE) as f64).sqrt() as usize;
+        let across = across.clamp(1, MOST_TILES) as i64;
+        // The power of two next to the size that is asked for.
+        let shift = [0, 1].map(|k| {
+            let size = (high[k] - low[k]) / across + 1;
+            let below = size.ilog2();
+            if size * size > 2 << (2 * below) { below + 1 } else { below }
+        });
+        let across = [0, 1].map(|k| ((high[k] - low[k]) >> shift[k]) + 1);
+        let tiles = Self { low, shift, across, ..Self::default() };
+        let first = grouped((across[0] * across[1]) as usize, |put| {
+            for piece in 0..count as u32 {
+                tiles.each(ends(piece), |tile| put(tile as usize, piece));
+            }
+        });
+        Self { first, ..tiles }
+    }
+
+    /// Adds one more piece, and calls `touch` for each tile that it passes.
+    pub fn add(&mut self, number: u32, ends: [GridPoint; 2], mut touch: impl FnMut(u32)) {
+        let mut passed = Vec::new();
+        self.each(ends, |tile| passed.push(tile));
+        for tile in passed {
+            self.later.entry(tile).or_default().push(number);
+            touch(tile);
+        }
+    }
+
+    /// How many tiles there are.
+    pub fn count(&self) -> usize {
+        self.first.count()
+    }
+
+    /// The pieces that pass a tile.
+    pub fn of(&self, tile: u32) -> impl Iterator<Item = u32> + '_ {
+        self.first.of(tile as usize).iter().chain(self.later.get(&tile).into_iter().flatten()).copied()
+    }
+
+    /// The tiles within `reach` of a point.
+    pub fn around(&self, p: GridPoint, reach: f64) -> impl Iterator<Item = u32> + '_ {
+        let reach = reach.ceil() as i64;
+        let range = |k: usize| self.place(p[k] - reach, k)..=self.place(p[k] + reach, k);
+        let columns = range(0);
+        range(1).flat_map(move |row| columns.clone().map(move |column| self.number(column, row)))
+    }
+
+    fn place(&self, x: i64, k: usize) -> i64 {
+        ((x - self.low[k]) >> self.shift[k]).clamp(0, self.across[k] - 1)
+    }
+
+    fn number(&self, column: i64, row: i64) -> u32 {
+        (row * self.across[0] + column) as u32
+    }
+
+    /// Calls for each tile that a piece passes, or comes near.
+    fn each(&self, [mut a, mut b]: [GridPoint; 2], mut call: impl FnMut(u32)) {
+        if a[1] > b[1] {
+            std::mem::swap(&mut a, &mut b);
+        }
+        let (first, last) = (self.place(a[1] - 1, 1), self.place(b[1] + 1, 1));
+        for row in first..=last {
+            let (x, y) = if first == last {
+                (a[0], b[0])
+            } else {
+                // The part of the piece within this row, and a step more.
+                let top = self.low[1] + (row << self.shift[1]) - 2;
+                let bottom = self.low[1] + ((row + 1) << self.shift[1]) + 2;
+                let rise = (b[1] - a[1]).max(1) as f64;
+                let at = |y: i64| {
+                    let t = ((y - a[1]) as f64 / rise).clamp(0.0, 1.0);
+                    a[0] as f64 + (b[0] - a[0]) as f64 * t
+                };
+                let (x, y) = if a[1] == b[1] { (a[0] as f64, b[0] as f64) } else { (at(top), at(bottom)) };
+                (x.min(y).floor() as i64, x.max(y).ceil() as i64)
+            };
+            for column in self.place(x.min(y) - 2, 0)..=self.place(x.max(y) + 2, 0) {
+                call(self.number(column, row));
+            }
+        }
+    }
+}

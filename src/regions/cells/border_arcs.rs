@@ -1,0 +1,224 @@
+//! [`Arc`]: a stretch of the border between two patches, and the loops of arcs around each patch.
+
+use super::triangulation::{OUTSIDE, Triangulation};
+use crate::regions::arrangement::snap_rounding::Border;
+
+/// The patch of what is not painted.
+pub(crate) const OUTSIDE_PATCH: u32 = u32::MAX;
+
+/// A stretch of border between two patches, from one node to the next: a point where three or more
+/// patches meet. Neighbours share it, so that they can have neither gap nor overlap.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct RawArc {
+    /// Points of the triangulation; a closed arc does not repeat the first.
+    pub points: Vec<u32>,
+    /// Whether the piece after each point lies on a smooth surface.
+    pub soft: Vec<bool>,
+    pub closed: bool,
+    /// The patch on the left, as x turns to y, and that on the right; [`OUTSIDE_PATCH`] where nothing is
+    /// painted.
+    pub sides: [u32; 2],
+}
+
+/// An arc as part of a loop, and whether it is run through from its first point to its last.
+pub(crate) type Use = (u32, bool);
+
+/// The arcs between patches with different owners, and around each patch its loops, the patch on
+/// their left.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Borders {
+    pub arcs: Vec<RawArc>,
+    /// The loops around each patch.
+    pub loops: Vec<Vec<Vec<Use>>>,
+}
+
+/// One side of a triangle on a border, with the patch on its left.
+#[derive(Debug, Clone, Copy)]
+struct HalfEdge {
+    from: u32,
+    to: u32,
+    left: u32,
+    right: u32,
+    soft: bool,
+}
+
+/// Traces the borders between `patches` (one a triangle, numbers below `count`).
+pub(crate) fn trace(cut: &Triangulation, patches: &[u32], count: usize) -> Borders {
+    let mut halves: Vec<HalfEdge> = Vec::new();
+    for (triangle, corners) in cut.triangles.iter().enumerate() {
+        for side in 0..3 {
+            let next = cut.neighbours[triangle][side];
+            let left = patches[triangle];
+            let right = if next == OUTSIDE { OUTSIDE_PATCH } else { patches[next as usize] };
+            if left != right {
+                let soft = cut.borders[triangle][side].is_none_or(Border::is_soft);
+                let (from, to) = (corners[side], corners[(side + 1) % 3]);
+                halves.push(HalfEdge { from, to, left, right, soft });
+                if next == OUTSIDE {
+                    halves.push(HalfEdge { from: to, to: from, left: OUTSIDE_PATCH, right: left, soft });
+                }
+            }
+        }
+    }
+    halves.sort_unstable_by_key(|half| (half.from, half.to));
+    let mut starts = vec![0u32; cut.points.len() + 1];
+    for half in &halves {
+        starts[half.from as usize + 1] += 1;
+    }
+    for k in 1..starts.len() {
+        starts[k] += starts[k - 1];
+    }
+    let tracer = Tracer { cut, halves, starts };
+    let (arcs, arc_of) = tracer.arcs();
+    let loops = tracer.loops(&arcs, &arc_of, count);
+    Borders { arcs, loops }
+}
+
+struct Tracer<'a> {
+    cut: &'a Triangulation,
+    /// Sides on borders, by their first point.
+    halves: Vec<HalfEdge>,
+    starts: Vec<u32>,
+}
+
+const UNSET: u32 = u32::MAX;
+
+impl Tracer<'_> {
+    fn from(&self, point: u32) -> std::ops::Range<usize> {
+        self.starts[point as usize] as usize..self.starts[point as usize + 1] as usize
+    }
+
+    /// Where three patches or more meet, or a patch touches itself.
+    fn is_node(&self, point: u32) -> bool {
+        self.from(point).len() != 2
+    }
+
+    fn find(&self, from: u32, to: u32) -> Option<usize> {
+        let range = self.from(from);
+        let own = &self.halves[range.clone()];
+        own.binary_search_by_key(&to, |half| half.to).ok().map(|k| range.start + k)
+    }
+
+    /// The arcs, and for each half edge the arc it is part of, and whether it runs along it.
+    fn arcs(&self) -> (Vec<RawArc>, Vec<Use>) {
+        let mut arcs = Vec::new();
+        let mut arc_of: Vec<Use> = vec![(UNSET, false); self.halves.len()];
+        // Arcs between nodes first, then what closes on itself.
+        for closed in [false, true] {
+            for first in 0..self.halves.len() {
+                if arc_of[first].0 != UNSET || (!closed && !self.is_node(self.halves[first].from)) {
+                    continue;
+                }
+                arcs.push(self.follow(first, arcs.len() as u32, &mut arc_of));
+            }
+        }
+        (arcs, arc_of)
+    }
+
+    fn follow(&self, first: usize, arc: u32, arc_of: &mut [Use]) -> RawArc {
+        let start = self.halves[first];
+        let mut found = RawArc {
+            points: vec![start.from],
+            soft: Vec::new(),
+            closed: false,
+            sides: [start.left, start.right],
+        };
+        let mut at = first;
+        loop {
+            let half = self.halves[at];
+            found.soft.push(half.soft);
+            arc_of[at] = (arc, true);
+            if let Some(back) = self.find(half.to, half.from) {
+                arc_of[back] = (arc, false);
+            }
+            if half.to == start.from && !self.is_node(half.to) {
+                found.closed = true;
+                return found;
+            }
+            found.points.push(half.to);
+            let next = self.from(half.to).find(|k| self.halves[*k].to != half.from);
+            match next {
+                Some(next) if !self.is_node(half.to) && arc_of[next].0 == UNSET => at = next,
+                _ => {
+                    found.soft.push(half.soft);
+                    return found;
+                }
+            }
+        }
+    }
+
+    /// The loops around each patch: at a node the border goes on with the first side that is met
+    /// when turning from where it came through the patch.
+    fn loops(&self, arcs: &[RawArc], arc_of: &[Use], count: usize) -> Vec<Vec<Vec<Use>>> {
+        let mut loops: Vec<Vec<Vec<Use>>> = vec![Vec::new(); count];
+        let mut done = vec![[false; 2]; arcs.len()];
+        for arc in 0..arcs.len() {
+            for along in [true, false] {
+                let patch = arcs[arc].sides[usize::from(!along)];
+                if patch == OUTSIDE_PATCH || done[arc][usize::from(!along)] {
+                    continue;
+                }
+                let mut uses: Vec<Use> = Vec::new();
+                let mut next = (arc as u32, along);
+                while !done[next.0 as usize][usize::from(!next.1)] {
+                    done[next.0 as usize][usize::from(!next.1)] = true;
+                    uses.push(next);
+                    let raw = &arcs[next.0 as usize];
+                    if raw.closed {
+                        break;
+                    }
+                    let n = raw.points.len();
+                    let (before, node) = if next.1 { (n - 2, n - 1) } else { (1, 0) };
+                    let Some(half) = self.turn(raw.points[before], raw.points[node], patch) else { break };
+                    next = arc_of[half];
+                }
+                loops[patch as usize].push(uses);
+            }
+        }
+        loops
+    }
+
+    /// The half edge with which a border that comes from `before` goes on at `node`, with `patch` on
+    /// its left.
+    fn turn(&self, before: u32, node: u32, patch: u32) -> Option<usize> {
+        let point = |v: u32| self.cut.points[v as usize];
+        let origin = point(node);
+        let direction = |v: u32| [point(v)[0] - origin[0], point(v)[1] - origin[1]];
+        let back = direction(before);
+        let own = self.from(node).filter(|k| self.halves[*k].left == patch);
+        // The least turn from the way back against the sense in which x turns to y.
+        own.min_by(|a, b| {
+            let (a, b) = (direction(self.halves[*a].to), direction(self.halves[*b].to));
+            backward(back, a, b)
+        })
+    }
+}
+
+/// Orders directions by how far they are from `back`, turning from y to x; `back` itself comes last.
+fn backward(back: [i64; 2], a: [i64; 2], b: [i64; 2]) -> std::cmp::Ordering {
+    let cross = |u: [i64; 2], v: [i64; 2]| u[0] * v[1] - u[1] * v[0];
+    let dot = |u: [i64; 2], v: [i64; 2]| u[0] * v[0] + u[1] * v[1];
+    // 0: up to half a turn, 1: exactly half, 2: beyond, 3: a whole turn.
+    let part = |d: [i64; 2]| match (cross(back, d), dot(back, d)) {
+        (c, _) if c < 0 => 0,
+        (0, d) if d < 0 => 1,
+        (0, _) => 3,
+        _ => 2,
+    };
+    part(a).cmp(&part(b)).then_with(|| cross(a, b).cmp(&0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_are_ordered_backward() {
+        use std::cmp::Ordering::Less;
+        let back = [1, 0];
+        let around = [[1, -1], [0, -1], [-1, -1], [-1, 0], [-1, 1], [0, 1], [1, 1], [1, 0]];
+        for pair in around.windows(2) {
+            assert_eq!(backward(back, pair[0], pair[1]), Less, "{pair:?}");
+        }
+    }
+}

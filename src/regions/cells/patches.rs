@@ -1,0 +1,112 @@
+//! [`Patches`]: triangles of one look that hang together, without crumbs.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::triangulation::{OUTSIDE, Triangulation};
+
+/// Triangles of one look that hang together.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Patches {
+    /// The patch of each triangle.
+    pub of: Vec<u32>,
+    /// The look of each patch.
+    pub looks: Vec<u32>,
+    /// Twice the area of each patch, steps of the grid squared.
+    pub area2: Vec<f64>,
+}
+
+/// Gathers the triangles of one look, and gives patches of less than `crumb2` (twice the area) to
+/// the neighbour with which they share most of their border: the smallest first. The
+/// look `background` takes none, for a model must not have holes; patches that have only background
+/// around them stay.
+pub(crate) fn gather(cut: &Triangulation, looks: &[u32], background: u32, crumb2: f64) -> Patches {
+    let (of, count) = cut.flooded(|a, _, b| looks[a] == looks[b]);
+    let mut patches = Patches { of, looks: vec![0; count], area2: vec![0.0; count] };
+    let mut shared: Vec<BTreeMap<u32, f64>> = vec![BTreeMap::new(); count];
+    for (triangle, look) in looks.iter().enumerate() {
+        let own = patches.of[triangle];
+        patches.looks[own as usize] = *look;
+        patches.area2[own as usize] += cut.area2(triangle);
+        for side in 0..3 {
+            let next = cut.neighbours[triangle][side];
+            if next != OUTSIDE && patches.of[next as usize] != own {
+                *shared[own as usize].entry(patches.of[next as usize]).or_default() +=
+                    cut.side(triangle, side);
+            }
+        }
+    }
+    let mut merging = Merging { into: (0..count as u32).collect(), shared, background };
+    // Areas as bits, which order positive numbers.
+    let mut small: BTreeSet<(u64, u32)> = (0..count as u32)
+        .filter(|p| patches.area2[*p as usize] < crumb2)
+        .map(|p| (patches.area2[p as usize].to_bits(), p))
+        .collect();
+    while let Some((_, crumb)) = small.pop_first() {
+        let Some(to) = merging.neighbour(crumb, &patches) else { continue };
+        // Patches of one look on both sides of a crumb become one.
+        let mut joined = vec![crumb];
+        joined.extend(merging.alike(crumb, to, &patches));
+        for patch in joined {
+            let area = std::mem::take(&mut patches.area2[patch as usize]);
+            small.remove(&(area.to_bits(), patch));
+            small.remove(&(patches.area2[to as usize].to_bits(), to));
+            patches.area2[to as usize] += area;
+            merging.join(patch, to);
+        }
+        if patches.area2[to as usize] < crumb2 {
+            small.insert((patches.area2[to as usize].to_bits(), to));
+        }
+    }
+    for patch in &mut patches.of {
+        *patch = merging.root(*patch);
+    }
+    patches
+}
+
+struct Merging {
+    into: Vec<u32>,
+    /// For each patch that stands, the lengths of the borders with its neighbours.
+    shared: Vec<BTreeMap<u32, f64>>,
+    background: u32,
+}
+
+impl Merging {
+    fn root(&self, mut patch: u32) -> u32 {
+        while self.into[patch as usize] != patch {
+            patch = self.into[patch as usize];
+        }
+        patch
+    }
+
+    /// The neighbour with the longest border that is not background.
+    fn neighbour(&self, crumb: u32, patches: &Patches) -> Option<u32> {
+        let is_background = |p: u32| patches.looks[p as usize] == self.background;
+        let others = self.shared[crumb as usize].iter().filter(|(other, _)| !is_background(**other));
+        let longest = others.fold(None, |most: Option<(u32, f64)>, (other, length)| match most {
+            Some((_, greatest)) if greatest >= *length => most,
+            _ => Some((*other, *length)),
+        });
+        longest.map(|(other, _)| other)
+    }
+
+    /// The neighbours of a crumb that look like the patch it goes to.
+    fn alike(&self, crumb: u32, to: u32, patches: &Patches) -> Vec<u32> {
+        let look = patches.looks[to as usize];
+        let others = self.shared[crumb as usize].keys().copied();
+        others.filter(|other| *other != to && patches.looks[*other as usize] == look).collect()
+    }
+
+    fn join(&mut self, patch: u32, to: u32) {
+        self.into[patch as usize] = to;
+        let borders = std::mem::take(&mut self.shared[patch as usize]);
+        self.shared[to as usize].remove(&patch);
+        for (other, length) in borders {
+            if other == to {
+                continue;
+            }
+            self.shared[other as usize].remove(&patch);
+            *self.shared[to as usize].entry(other).or_default() += length;
+            *self.shared[other as usize].entry(to).or_default() += length;
+        }
+    }
+}

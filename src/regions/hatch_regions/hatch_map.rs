@@ -1,0 +1,268 @@
+//! [`Ground`]: the page as hatching is laid on it: what is seen where, and where strokes end.
+//!
+//! Borders are those of the triangulation itself, exact to a hundredth of a px; they are not smoothed
+//! again, and need no polygons: a stroke is cut where it crosses a piece of border, and the piece knows
+//! what lies on its two sides.
+
+use std::collections::BTreeMap;
+
+use kurbo::{Point, Vec2};
+
+pub use super::border_piece::{BorderPiece, PAPER};
+
+use super::piece_tiles::PieceTiles;
+use crate::drawing::{Length, Unit};
+use crate::regions::cells::patches;
+use crate::regions::cells::triangulation::{OUTSIDE, Triangulation};
+use crate::regions::labels::labelled_page::Seen;
+use crate::regions::labels::surface_label::{Look, NOTHING};
+
+/// A part of the page that looks alike to hatching and hangs together.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cell {
+    /// What is seen; tones of fills do not count, and are 0. Of no meaning in cell 0, which is paper.
+    pub look: Look,
+    /// The stretch of visible surface that it is part of: cells of one facet are parted by borders of
+    /// light and shade only. 0 for paper.
+    pub facet: u32,
+    /// Its area, user units squared.
+    pub area: f64,
+}
+
+/// What is seen where, and the borders between.
+#[derive(Debug, Clone, Default)]
+pub struct Ground {
+    /// The cells; the first is paper.
+    pub cells: Vec<Cell>,
+    /// The borders: where the cells on both sides differ, or surfaces part.
+    pub pieces: Vec<BorderPiece>,
+    /// Number of facets; facet 0 is paper.
+    pub facets: u32,
+    grid: PieceTiles,
+}
+
+impl Ground {
+    /// The ground of a page that is seen, moved on the page by `offset`. Cells of less area than a square
+    /// of side `crumb` go to a neighbour.
+    #[must_use]
+    pub fn new(seen: &Seen, crumb: Length, unit: Unit, offset: Vec2) -> Self {
+        let cut = &seen.cut;
+        // Cast shadows are dark enough to be hatched as they are, and colours do not matter.
+        let (looks, table) = seen.seen_as(|look| Look { tone: 0, cast: false, ..*look });
+        let part = |triangle: usize| {
+            looks[triangle]
+                .checked_sub(1)
+                .and_then(|k| table.get(k as usize))
+                .map(|look| (look.part, look.material))
+        };
+        let (facet_of, _) = cut.flooded(|triangle, side, next| {
+            cut.borders[triangle][side].is_none_or(|border| border.is_tone()) && part(triangle) == part(next)
+        });
+        Self::gathered(seen, &looks, &table, &facet_of, crumb, unit, offset)
+    }
+
+    /// The ground to an eye that tells tones and colours apart, but no bins of hatching.
+    #[must_use]
+    pub fn toned(seen: &Seen, crumb: Length, unit: Unit, offset: Vec2) -> Self {
+        let (looks, table) = seen.seen_as(|look| Look { bin: 0, ..*look });
+        let (facet_of, _) = seen.cut.flooded(|triangle, side, next| {
+            seen.cut.borders[triangle][side].is_none_or(|border| border.is_tone())
+                && looks[triangle] == looks[next]
+        });
+        Self::gathered(seen, &looks, &table, &facet_of, crumb, unit, offset)
+    }
+
+    /// The ground under a coarser eye, by which different looks may count as one; all of it is one facet.
+    pub(crate) fn coarse(
+        seen: &Seen,
+        coarser: impl Fn(&Look) -> Look,
+        crumb: Length,
+        unit: Unit,
+        offset: Vec2,
+    ) -> Self {
+        let (looks, table) = seen.seen_as(coarser);
+        Self::gathered(seen, &looks, &table, &vec![0; looks.len()], crumb, unit, offset)
+    }
+
+    /// The ground of triangles whose looks and facets are known.
+    fn gathered(
+        seen: &Seen,
+        looks: &[u32],
+        table: &[Look],
+        facet_of: &[u32],
+        crumb: Length,
+        unit: Unit,
+        offset: Vec2,
+    ) -> Self {
+        let cut = &seen.cut;
+        let mut numbers: BTreeMap<(u32, u32), u32> = BTreeMap::new();
+        let mut keys: Vec<(u32, u32)> = vec![(NOTHING, 0)];
+        let keyed: Vec<u32> = (0..looks.len())
+            .map(|t| {
+                if looks[t] == NOTHING {
+                    return NOTHING;
+                }
+                *numbers.entry((looks[t], facet_of[t])).or_insert_with(|| {
+                    keys.push((looks[t], facet_of[t]));
+                    keys.len() as u32 - 1
+                })
+            })
+            .collect();
+        let crumb = crumb.in_unit(unit).max(0.0) / seen.step;
+        let patches = patches::gather(cut, &keyed, NOTHING, 2.0 * crumb * crumb);
+
+        let mut ground = Self { cells: vec![paper()], facets: 1, ..Self::default() };
+        let mut cell_of: Vec<Option<u32>> = vec![None; patches.looks.len()];
+        let mut facets: BTreeMap<u32, u32> = BTreeMap::new();
+        for patch in &patches.of {
+            let (look, facet) = keys[patches.looks[*patch as usize] as usize];
+            let cell = &mut cell_of[*patch as usize];
+            if cell.is_some() {
+                continue;
+            }
+            let seen_look = look.checked_sub(1).and_then(|k| table.get(k as usize));
+            let Some(look) = seen_look else {
+                *cell = Some(PAPER);
+                continue;
+            };
+            let next = ground.facets;
+            let facet = *facets.entry(facet).or_insert(next);
+            ground.facets = next.max(facet + 1);
+            *cell = Some(ground.cells.len() as u32);
+            let area = patches.area2[*patch as usize] / 2.0 * seen.step * seen.step;
+            ground.cells.push(Cell { look: *look, facet, area });
+        }
+        let of = |triangle: usize| cell_of[patches.of[triangle] as usize].unwrap_or(PAPER);
+        ground.add_pieces(cut, of, |v: u32| {
+            let [x, y] = cut.points[v as usize];
+            Point::new(x as f64 * seen.step, y as f64 * seen.step) + offset
+        });
+        ground.grid = PieceTiles::new(&ground.pieces);
+        ground
+    }
+
+    /// A ground of given cells and pieces, for tests and for pages without a model; the first cell is
+    /// paper.
+    #[must_use]
+    pub fn of_pieces(cells: Vec<Cell>, pieces: Vec<BorderPiece>) -> Self {
+        let facets = cells.iter().map(|cell| cell.facet + 1).max().unwrap_or(1);
+        let grid = PieceTiles::new(&pieces);
+        Self { cells, pieces, facets, grid }
+    }
+
+    fn add_pieces(&mut self, cut: &Triangulation, cell: impl Fn(usize) -> u32, point: impl Fn(u32) -> Point) {
+        for (triangle, corners) in cut.triangles.iter().enumerate() {
+            for side in 0..3 {
+                let next = cut.neighbours[triangle][side];
+                // Each side once: by the lesser of its triangles.
+                if next != OUTSIDE && (next as usize) < triangle {
+                    continue;
+                }
+                let own = cell(triangle);
+                let other = if next == OUTSIDE { PAPER } else { cell(next as usize) };
+                let parts = cut.borders[triangle][side].is_some_and(|border| !border.is_tone());
+                if own == other && (!parts || own == PAPER) {
+                    continue;
+                }
+                let facet = |cell: u32| self.cells[cell as usize].facet;
+                let parts_surfaces = parts || facet(own) != facet(other);
+                let ends = [corners[side], corners[(side + 1) % 3]].map(&point);
+                // Triangles turn from x to y: their inside is to the right as the page is seen.
+                self.pieces.push(BorderPiece { ends, sides: [own, other], parts_surfaces });
+            }
+        }
+    }
+
+    /// The cell at a point.
+    #[must_use]
+    pub fn cell_at(&self, p: Point) -> u32 {
+        self.grid.cell_at(&self.pieces, p)
+    }
+
+    /// The cells at the points of a lattice, row by row from its first point.
+    #[must_use]
+    pub fn raster(&self, first: Point, pitch: f64, columns: usize, rows: usize) -> Vec<u32> {
+        let mut meets: Vec<Vec<(f64, u32)>> = vec![Vec::new(); rows];
+        for piece in &self.pieces {
+            let [a, b] = piece.ends;
+            // Of the cells on both sides that which lies to the right on the page.
+            let cell = piece.sides[usize::from(b.y > a.y)];
+            let (top, bottom) = (a.y.min(b.y), a.y.max(b.y));
+            let row = |y: f64| ((y - first.y) / pitch).ceil().max(0.0) as usize;
+            for (k, meets) in meets.iter_mut().enumerate().take(row(bottom)).skip(row(top)) {
+                let y = first.y + k as f64 * pitch;
+                meets.push((a.x + (b.x - a.x) * ((y - a.y) / (b.y - a.y)), cell));
+            }
+        }
+        let mut cells = vec![PAPER; columns * rows];
+        for (meets, cells) in meets.iter_mut().zip(cells.chunks_exact_mut(columns.max(1))) {
+            meets.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let mut next = meets.iter().peekable();
+            let mut cell = PAPER;
+            for (k, own) in cells.iter_mut().enumerate() {
+                let x = first.x + k as f64 * pitch;
+                while let Some((_, beyond)) = next.next_if(|(at, _)| *at <= x) {
+                    cell = *beyond;
+                }
+                *own = cell;
+            }
+        }
+        cells
+    }
+
+    /// The numbers of the pieces within `reach` of a point and some beyond it, ascending.
+    #[must_use]
+    pub fn pieces_near(&self, p: Point, reach: f64) -> Vec<u32> {
+        self.grid.near(p - Vec2::new(reach, reach), p + Vec2::new(reach, reach))
+    }
+
+    /// Where a segment crosses pieces, in order: the part of the way, and the piece's number, and whether it
+    /// is crossed from its first side to its second.
+    pub(crate) fn crossings(&self, from: Point, to: Point, out: &mut Vec<(f64, u32, bool)>) {
+        let first = out.len();
+        self.grid.visit(from, to, |number| {
+            if let Some((t, along)) = crossing(&self.pieces[number as usize], from, to) {
+                out.push((t, number, along));
+            }
+        });
+        out[first..].sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut last = None;
+        let mut kept = first;
+        for k in first..out.len() {
+            if last != Some(out[k].1) {
+                last = Some(out[k].1);
+                out[kept] = out[k];
+                kept += 1;
+            }
+        }
+        out.truncate(kept);
+    }
+}
+
+const fn paper() -> Cell {
+    use crate::mesh::{MaterialId, PaintId, PartId};
+    let look =
+        Look { part: PartId(0), material: MaterialId(0), paint: PaintId(0), tone: 0, bin: 0, cast: false };
+    Cell { look, facet: 0, area: 0.0 }
+}
+
+/// On which side of the way from `a` to `b` a point lies: true for the right as the page is seen, and for
+/// points on it.
+fn is_right(a: Point, b: Point, p: Point) -> bool {
+    (b - a).cross(p - a) >= 0.0
+}
+
+/// Where a segment crosses a piece, and whether from its first side to its second.
+fn crossing(piece: &BorderPiece, from: Point, to: Point) -> Option<(f64, bool)> {
+    let [a, b] = piece.ends;
+    let (side_a, side_b) = (is_right(from, to, a), is_right(from, to, b));
+    if side_a == side_b {
+        return None;
+    }
+    let (off_from, off_to) = ((b - a).cross(from - a), (b - a).cross(to - a));
+    // The first point of a segment counts to it, its last to the next one.
+    if (off_from >= 0.0) == (off_to >= 0.0) {
+        return None;
+    }
+    Some(((off_from / (off_from - off_to)).clamp(0.0, 1.0), off_from >= 0.0))
+}

@@ -1,0 +1,128 @@
+//! [`PieceTiles`]: pieces of border by the tiles of the page that they pass.
+
+use kurbo::{Point, Vec2};
+
+use super::border_piece::{BorderPiece, PAPER};
+use crate::geometry::lists::csr_lists::{Grouped, grouped};
+
+/// Pieces by the tiles of the page that they pass.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct PieceTiles {
+    low: Vec2,
+    tiles_per_unit: f64,
+    across: [usize; 2],
+    pieces: Grouped<u32>,
+}
+
+/// Pieces in a tile, on average.
+const PIECES_A_TILE: usize = 2;
+
+/// Most tiles across.
+const MOST_TILES: f64 = 256.0;
+
+impl PieceTiles {
+    pub fn new(pieces: &[BorderPiece]) -> Self {
+        let ends = || pieces.iter().flat_map(|piece| piece.ends);
+        let Some(first) = ends().next() else { return Self::default() };
+        let (low, high) = ends().fold((first, first), |(low, high), p| {
+            (Point::new(low.x.min(p.x), low.y.min(p.y)), Point::new(high.x.max(p.x), high.y.max(p.y)))
+        });
+        let size = high - low;
+        let wanted = ((pieces.len() / PIECES_A_TILE).max(1) as f64).sqrt().clamp(1.0, MOST_TILES);
+        let tiles_per_unit = wanted / size.x.max(size.y).max(f64::MIN_POSITIVE);
+        let across = [size.x, size.y].map(|length| (length * tiles_per_unit) as usize + 1);
+        let mut grid = Self { low: low.to_vec2(), tiles_per_unit, across, ..Self::default() };
+        grid.pieces = grouped(across[0] * across[1], |put| {
+            for (number, piece) in pieces.iter().enumerate() {
+                grid.pass(piece.ends[0], piece.ends[1], |tile| put(tile, number as u32));
+            }
+        });
+        grid
+    }
+
+    /// Calls for each tile that a segment passes; those outside of the grid are left out.
+    fn pass(&self, from: Point, to: Point, mut call: impl FnMut(usize)) {
+        let at = |p: Point| (p.to_vec2() - self.low) * self.tiles_per_unit;
+        let (mut a, mut b) = (at(from), at(to));
+        if a.y > b.y {
+            std::mem::swap(&mut a, &mut b);
+        }
+        let [columns, rows] = self.across;
+        if columns == 0 || b.y < 0.0 || a.y >= rows as f64 {
+            return;
+        }
+        let way = b - a;
+        let (first, last) = (a.y.max(0.0) as usize, (b.y.max(0.0) as usize).min(rows - 1));
+        for row in first..=last {
+            // The stretch of the segment in this row, a little widened against rounding.
+            let x_at =
+                |y: f64| if way.y > 0.0 { a.x + way.x * ((y - a.y) / way.y).clamp(0.0, 1.0) } else { a.x };
+            let (x0, x1) = if way.y > 0.0 { (x_at(row as f64), x_at(row as f64 + 1.0)) } else { (a.x, b.x) };
+            let (x0, x1) = (x0.min(x1) - WIDENED, x0.max(x1) + WIDENED);
+            if x1 < 0.0 || x0 >= columns as f64 {
+                continue;
+            }
+            for column in x0.max(0.0) as usize..=(x1 as usize).min(columns - 1) {
+                call(row * columns + column);
+            }
+        }
+    }
+
+    /// Calls for the pieces in the tiles that a segment passes, for some more than once.
+    pub fn visit(&self, from: Point, to: Point, mut call: impl FnMut(u32)) {
+        self.pass(from, to, |tile| self.pieces.of(tile).iter().for_each(|number| call(*number)));
+    }
+
+    /// Pieces in the tiles that a box touches, ascending.
+    pub fn near(&self, low: Point, high: Point) -> Vec<u32> {
+        let at = |p: Point| (p.to_vec2() - self.low) * self.tiles_per_unit;
+        let (low, high) = (at(low), at(high));
+        let mut found = Vec::new();
+        let [columns, rows] = self.across;
+        if columns == 0 || high.x < 0.0 || high.y < 0.0 {
+            return found;
+        }
+        for row in low.y.max(0.0) as usize..=(high.y as usize).min(rows - 1) {
+            for column in low.x.max(0.0) as usize..=(high.x as usize).min(columns - 1) {
+                found.extend_from_slice(self.pieces.of(row * columns + column));
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    /// The cell at a point: what the next piece to its left has on this side.
+    pub fn cell_at(&self, pieces: &[BorderPiece], p: Point) -> u32 {
+        let at = (p.to_vec2() - self.low) * self.tiles_per_unit;
+        let [columns, rows] = self.across;
+        if columns == 0 || at.x < 0.0 || at.y < 0.0 || at.y >= rows as f64 {
+            return PAPER;
+        }
+        let row = at.y as usize;
+        for column in (0..=(at.x as usize).min(columns - 1)).rev() {
+            let mut nearest: Option<(f64, u32)> = None;
+            for number in self.pieces.of(row * columns + column) {
+                let piece = &pieces[*number as usize];
+                let [a, b] = piece.ends;
+                if (a.y > p.y) == (b.y > p.y) {
+                    continue;
+                }
+                let x = a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y));
+                // One that crosses this height farther left is met again there.
+                let here = (x - self.low.x) * self.tiles_per_unit >= column as f64 - WIDENED;
+                if here && x <= p.x && nearest.is_none_or(|(most, _)| x > most) {
+                    // A piece that runs down the page has the point on its left.
+                    nearest = Some((x, piece.sides[usize::from(b.y > a.y)]));
+                }
+            }
+            if let Some((_, cell)) = nearest {
+                return cell;
+            }
+        }
+        PAPER
+    }
+}
+
+/// Tiles are widened by this part of themselves against rounding.
+const WIDENED: f64 = 1e-6;

@@ -1,0 +1,147 @@
+//! What each triangle between borders looks like: all of a cell looks alike, unless its border leaks.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use crate::parallel::prelude::*;
+use rustc_hash::FxHashMap;
+
+use crate::geometry::lists::csr_lists::grouped_pairs;
+use crate::regions::cells::triangulation::{OUTSIDE, Triangulation};
+
+/// Cells that one task decides on.
+const CELLS: usize = 1 << 8;
+
+/// What the triangles of a cell look like.
+enum CellLooks {
+    /// All alike.
+    Alike(u32),
+    /// Each of them, since its borders leak.
+    Each(Vec<u32>),
+}
+
+/// Decides on a look for each triangle from what is seen in the middle of each (`seen`, numbers
+/// below `looks`). A cell looks like most of its area. Only where a part of it wider than `wide` is
+/// seen to differ do its borders leak; then each triangle keeps its own look, and narrow ones, which
+/// cannot be trusted beside a border, take that of the neighbour over their longest side.
+///
+/// Gives the looks and the number of cells that leak.
+pub(crate) fn decide(cut: &Triangulation, seen: &[u32], wide: f64) -> (Vec<u32>, u64) {
+    let (cell_of, count) = cut.cells();
+    let triangles = cell_of.iter().enumerate().map(|(triangle, cell)| (*cell as usize, triangle as u32));
+    let cells = grouped_pairs(count, triangles);
+    let decided: Vec<CellLooks> = (0..count)
+        .into_par_iter()
+        .with_min_len(CELLS)
+        .with_max_len(CELLS)
+        .map(|cell| of_cell(cut, cells.of(cell), seen, wide))
+        .collect();
+    let mut looks = seen.to_vec();
+    let mut leaks = 0;
+    for (cell, decided) in decided.into_iter().enumerate() {
+        let triangles = cells.of(cell).iter().map(|triangle| *triangle as usize);
+        match decided {
+            CellLooks::Alike(look) => triangles.for_each(|triangle| looks[triangle] = look),
+            CellLooks::Each(own) => {
+                leaks += 1;
+                triangles.zip(own).for_each(|(triangle, look)| looks[triangle] = look);
+            }
+        }
+    }
+    (looks, leaks)
+}
+
+/// Decides on the looks of a cell, which has a triangle.
+fn of_cell(cut: &Triangulation, triangles: &[u32], seen: &[u32], wide: f64) -> CellLooks {
+    let mut areas: Vec<(u32, f64)> = Vec::new();
+    for triangle in triangles {
+        let look = seen[*triangle as usize];
+        let area = cut.area2(*triangle as usize);
+        match areas.iter_mut().find(|(known, _)| *known == look) {
+            Some((_, sum)) => *sum += area,
+            None => areas.push((look, area)),
+        }
+    }
+    // The greatest area; of equal ones the first seen.
+    let (most, _) =
+        areas.iter().fold(
+            (OUTSIDE, f64::NEG_INFINITY),
+            |most, (look, area)| {
+                if most.1 >= *area { most } else { (*look, *area) }
+            },
+        );
+    let differs = |t: &u32| seen[*t as usize] != most && cut.width(*t as usize) > wide;
+    if triangles.iter().any(differs) {
+        CellLooks::Each(spread(cut, triangles, wide, seen))
+    } else {
+        CellLooks::Alike(most)
+    }
+}
+
+/// The looks of the triangles of a cell where the narrow ones have those of wide ones, handed on over the longest sides first: a
+/// sliver shares its long sides with what is around it, and but a short one with what it would be a spike of.
+fn spread(cut: &Triangulation, triangles: &[u32], wide: f64, seen: &[u32]) -> Vec<u32> {
+    let is_wide = |triangle: &u32| cut.width(*triangle as usize) > wide;
+    let sure: Vec<u32> = triangles.iter().copied().filter(is_wide).collect();
+    let mut known: FxHashMap<u32, u32> = sure.iter().map(|t| (*t, seen[*t as usize])).collect();
+    // Lengths as bits, which order positive numbers; of equal ones the first triangles.
+    let mut open = BinaryHeap::new();
+    let reach = |from: u32, known: &FxHashMap<u32, u32>, open: &mut BinaryHeap<_>| {
+        for side in 0..3 {
+            let next = cut.neighbours[from as usize][side];
+            let goes_on = cut.borders[from as usize][side].is_none();
+            if next != OUTSIDE && goes_on && !known.contains_key(&next) {
+                open.push((cut.side(from as usize, side).to_bits(), Reverse([next, from])));
+            }
+        }
+    };
+    sure.iter().for_each(|triangle| reach(*triangle, &known, &mut open));
+    while let Some((_, Reverse([next, from]))) = open.pop() {
+        if !known.contains_key(&next)
+            && let Some(look) = known.get(&from).copied()
+        {
+            known.insert(next, look);
+            reach(next, &known, &mut open);
+        }
+    }
+    triangles.iter().map(|t| known.get(t).copied().unwrap_or(seen[*t as usize])).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::regions::arrangement::snap_rounding::Noded;
+
+    #[test]
+    fn slivers_look_like_what_is_along_them() {
+        // A sliver with its short side at a light triangle on the left, and dark ones along its long sides.
+        let points = vec![[0, 0], [0, 20], [10, 9], [10, 11], [200, 10], [210, -200], [210, 220]];
+        let cut = Triangulation::new(Noded { points, pieces: Vec::new() });
+        let is_light = |corners: [u32; 3]| corners.iter().all(|corner| *corner < 4);
+        let is_sliver = |corners: [u32; 3]| corners == [2, 4, 3];
+        let seen: Vec<u32> = cut.triangles.iter().map(|t| u32::from(is_light(*t) || is_sliver(*t))).collect();
+        assert_eq!(cut.triangles.iter().filter(|t| is_sliver(**t)).count(), 1, "{:?}", cut.triangles);
+        let (looks, leaks) = decide(&cut, &seen, 3.0);
+        assert_eq!(leaks, 1);
+        for (corners, look) in cut.triangles.iter().zip(looks) {
+            assert_eq!(look, u32::from(is_light(*corners)), "{corners:?}");
+        }
+    }
+
+    #[test]
+    fn slivers_beyond_slivers_look_like_what_is_wide_beyond_all_of_them() {
+        // Rows of slivers below two wide triangles, of which only one has the side along the rows.
+        let rows = [0, 2, 4, 200].into_iter();
+        let points: Vec<[i64; 2]> = rows.flat_map(|y| [[0, y], [200, y]]).collect();
+        let cut = Triangulation::new(Noded { points, pieces: Vec::new() });
+        let is_top = |corners: [u32; 3]| corners.contains(&6) || corners.contains(&7);
+        let is_along = |corners: [u32; 3]| is_top(corners) && corners.contains(&4) && corners.contains(&5);
+        let seen: Vec<u32> = cut.triangles.iter().map(|t| u32::from(is_along(*t))).collect();
+        assert_eq!(cut.triangles.iter().filter(|t| !is_top(**t)).count(), 4, "{:?}", cut.triangles);
+        let (looks, leaks) = decide(&cut, &seen, 3.0);
+        assert_eq!(leaks, 1);
+        for (corners, look) in cut.triangles.iter().zip(looks) {
+            assert_eq!(look, u32::from(!is_top(*corners) || is_along(*corners)), "{corners:?}");
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! [`Seen`]: the page in triangles, and what the eye sees in each.
+
+use crate::parallel::prelude::*;
+use glam::{DVec2, DVec3};
+use kurbo::Point;
+
+use super::cell_labels;
+use super::point_labels::seen_at;
+use super::surface_label::{Darkened, Look, NOTHING};
+use crate::drawing::{Length, Unit};
+use crate::geometry::numbers::tolerance;
+use crate::lines::{LineKind, Lit};
+use crate::parallel::task_size::GRAIN;
+use crate::regions::arrangement::border_simplification::{self, Segments};
+use crate::regions::arrangement::snap_rounding::{self, Border, GridPoint};
+use crate::regions::cells::triangulation::Triangulation;
+use crate::view::Frame;
+use crate::visibility::ViewMap;
+
+/// The page in triangles, and what the eye sees in each: regions of colour and what hatching is laid on
+/// are both read from it, so that they can never disagree.
+#[derive(Debug, Clone)]
+pub struct Seen {
+    pub(crate) cut: Triangulation,
+    /// What each triangle looks like: [`NOTHING`], or the number of a look plus 1.
+    pub(crate) looks: Vec<u32>,
+    pub(crate) table: Vec<Look>,
+    /// User units in a step of the triangulation's grid.
+    pub(crate) step: f64,
+    /// Cells in which different looks were seen, because a line around them breaks off.
+    pub leaks: u64,
+}
+
+/// The visible lines that may part looks and the edge of the page, on a grid.
+#[derive(Debug, Clone)]
+pub struct PageBorders(Segments);
+
+impl PageBorders {
+    /// Those of a view map, before it is moved on the page, in the frame of its camera.
+    #[must_use]
+    pub fn of(map: &ViewMap, frame: &Frame) -> Self {
+        Self(segments(map, [frame.width, frame.height], step(frame)))
+    }
+}
+
+/// User units in a step of the grid.
+fn step(frame: &Frame) -> f64 {
+    frame.width.max(frame.height) / tolerance::REGION_STEPS
+}
+
+/// Cuts the page along borders and asks what is seen. `shadowed`, if anything casts shadows, tells which lights do not reach points
+/// of faces.
+#[must_use]
+pub fn see(
+    lit: &Lit,
+    PageBorders(segments): &PageBorders,
+    shadowed: Option<impl Fn(&[(u32, DVec3)]) -> Vec<u32>>,
+    darkened: Darkened,
+    unit: Unit,
+) -> Seen {
+    let step = step(&lit.view.frame);
+    let px = Length::px(1.0).in_unit(unit);
+    let of_tone = match lit.shading.most_levels() {
+        0 => tolerance::THIN_BIN_PX,
+        1..=tolerance::FEW_LEVELS => tolerance::THIN_PX,
+        _ => tolerance::THIN_STEP_PX,
+    };
+    let fine = |border: Border| if border.is_tone() { of_tone } else { tolerance::THIN_PX };
+    let segments = border_simplification::thinned(segments, |border| fine(border) * px / step);
+    let noded = snap_rounding::node(&segments, tolerance::BRIDGE_PX * px / step);
+    let cut = Triangulation::new(noded);
+
+    let centres: Vec<DVec2> = (0..cut.triangles.len())
+        .into_par_iter()
+        .with_min_len(GRAIN)
+        .map(|t| {
+            let [a, b, c] = cut.corners(t).map(DVec2::from_array);
+            (a + b + c) / 3.0 * step
+        })
+        .collect();
+    let (looks, table) = seen_at(lit, &centres, shadowed, darkened);
+    drop(centres);
+    let (looks, leaks) = cell_labels::decide(&cut, &looks, tolerance::LEAK_PX * px / step);
+    Seen { cut, looks, table, step, leaks }
+}
+
+impl Seen {
+    /// Whether anything is seen that looks so.
+    pub(crate) fn shows(&self, is_so: impl Fn(&Look) -> bool) -> bool {
+        self.table.iter().any(is_so)
+    }
+
+    /// The looks of the triangles under a coarser eye, by which different looks may count as one: their
+    /// numbers as in [`Seen::looks`], and the table that these point to.
+    pub(crate) fn seen_as(&self, coarser: impl Fn(&Look) -> Look) -> (Vec<u32>, Vec<Look>) {
+        let of: Vec<Look> = self.table.iter().map(coarser).collect();
+        let mut table = of.clone();
+        table.sort_unstable();
+        table.dedup();
+        let number: Vec<u32> =
+            of.iter().map(|look| table.binary_search(look).map_or(NOTHING, |at| at as u32 + 1)).collect();
+        let looks = self.looks.iter().map(|look| match look.checked_sub(1) {
+            Some(k) => number.get(k as usize).copied().unwrap_or(NOTHING),
+            None => NOTHING,
+        });
+        (looks.collect(), table)
+    }
+}
+
+fn segments(map: &ViewMap, page: [f64; 2], step: f64) -> Segments {
+    let on_grid = |p: Point| [p.x, p.y].map(|x| (x / step).round() as i64);
+    let [right, bottom] = page.map(|x| (x / step).round() as i64);
+    let corners = [[0, 0], [right, 0], [right, bottom], [0, bottom]];
+    let mut segments: Segments = (0..4).map(|k| ([corners[k], corners[(k + 1) % 4]], Border::Hard)).collect();
+    let parting = map.edges.iter().filter(|edge| edge.invisibility == 0 && may_part(edge.kind));
+    segments.reserve(parting.clone().count());
+    segments.extend(parting.map(|edge| {
+        let ends = [edge.start, edge.end].map(|end| on_grid(map.vertices[end.index()].position));
+        let inside = |p: GridPoint| [p[0].clamp(0, right), p[1].clamp(0, bottom)];
+        let border = match (matches!(edge.kind, LineKind::Isophote | LineKind::Artist), edge.smooth) {
+            (false, false) => Border::Hard,
+            (false, true) => Border::Soft,
+            (true, false) => Border::HardTone,
+            (true, true) => Border::SoftTone,
+        };
+        (ends.map(inside), border)
+    }));
+    segments.retain(|([a, b], _)| a != b);
+    segments
+}
+
+/// Whether the surface may look different on both sides of lines of a kind.
+fn may_part(kind: LineKind) -> bool {
+    use LineKind::{Artist, Border, Contour, Crease, Intersection, Isophote, Material};
+    matches!(kind, Contour | Border | Crease | Material | Intersection | Isophote | Artist)
+}

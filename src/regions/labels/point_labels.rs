@@ -1,0 +1,121 @@
+//! [`seen_at`]: what is seen at points of the image.
+
+use crate::parallel::prelude::*;
+use glam::{DVec2, DVec3};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::surface_label::{Darkened, Look, NOTHING};
+use crate::lines::Lit;
+use crate::visibility::{Front, front_faces};
+
+/// Points that one task looks at: they lie near each other, and look alike.
+const TASK: usize = 1 << 9;
+
+/// What some points look like: the looks that are among them, and for each point [`NOTHING`], or the number of one plus 1.
+struct Looks {
+    looks: Vec<Look>,
+    numbers: Vec<u32>,
+}
+
+/// What is seen at points of the image: for each [`NOTHING`], or the number of its look in the table of looks plus 1. `shadowed`, if anything casts shadows, tells which lights do not reach points of faces.
+///
+/// There are as many points as the page has triangles, so that nothing is kept of each but what it looks like.
+pub(crate) fn seen_at(
+    lit: &Lit,
+    points: &[DVec2],
+    shadowed: Option<impl Fn(&[(u32, DVec3)]) -> Vec<u32>>,
+    darkened: Darkened,
+) -> (Vec<u32>, Vec<Look>) {
+    let fronts = front_faces(lit.mesh, lit.view, points);
+    let place = |front: &Front, p: &DVec2| lit.view.frame.local_from_image(p.extend(front.nearness));
+    let masks = shadowed.map(|shadowed| {
+        let seen = || fronts.iter().zip(points).filter_map(|(front, p)| Some((front.as_ref()?, p)));
+        let asked: Vec<(u32, DVec3)> = seen().map(|(front, p)| (front.face, place(front, p))).collect();
+        let mut masks = shadowed(&asked).into_iter();
+        let of_point = |front: &Option<Front>| front.as_ref().and_then(|_| masks.next()).unwrap_or_default();
+        fronts.iter().map(of_point).collect::<Vec<u32>>()
+    });
+    let look_at = |k: usize| {
+        let front = fronts[k].as_ref()?;
+        let shadowed = masks.as_ref().map_or(0, |masks| masks[k]);
+        Some(look(lit, front.face, place(front, &points[k]), shadowed, darkened))
+    };
+    let some: Vec<Looks> = (0..points.len().div_ceil(TASK))
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|task| Looks::of((task * TASK..((task + 1) * TASK).min(points.len())).map(look_at)))
+        .collect();
+    let all: FxHashSet<Look> = some.iter().flat_map(|some| &some.looks).copied().collect();
+    let mut table: Vec<Look> = all.into_iter().collect();
+    table.sort_unstable();
+    let mut numbers = Vec::with_capacity(points.len());
+    for Looks { looks, numbers: own } in some {
+        let number = |look: &Look| table.binary_search(look).map_or(NOTHING, |at| at as u32 + 1);
+        let of: Vec<u32> = looks.iter().map(number).collect();
+        numbers.extend(own.iter().map(|own| own.checked_sub(1).map_or(NOTHING, |own| of[own as usize])));
+    }
+    (numbers, table)
+}
+
+impl Looks {
+    fn of(seen: impl Iterator<Item = Option<Look>>) -> Self {
+        let (mut looks, mut known) = (Vec::new(), FxHashMap::default());
+        // Neighbours mostly look the same.
+        let mut last = (None, NOTHING);
+        let numbers = seen.map(|look| {
+            if look != last.0 {
+                let number = look.map_or(NOTHING, |look| {
+                    *known.entry(look).or_insert_with(|| {
+                        looks.push(look);
+                        looks.len() as u32
+                    })
+                });
+                last = (look, number);
+            }
+            last.1
+        });
+        let numbers = numbers.collect();
+        Self { looks, numbers }
+    }
+}
+
+/// What a face looks like at a point of it.
+fn look(lit: &Lit, face: u32, at: DVec3, shadowed: u32, darkened: Darkened) -> Look {
+    let mesh = lit.mesh;
+    let (material, paint) = (mesh.face_material[face as usize], lit.paint(face, at));
+    let point = lit.at(face, at);
+    let (tone_lit, bin_lit) = lit.tone_and_bin_shown(face, paint, &point, 0);
+    let (tone_dark, bin_dark) = if shadowed == 0 {
+        (tone_lit, bin_lit)
+    } else {
+        lit.tone_and_bin_shown(face, paint, &point, shadowed)
+    };
+    let tone = if darkened.tones { tone_dark } else { tone_lit };
+    let bin = if darkened.bins { bin_dark } else { bin_lit };
+    let cast = tone != tone_lit;
+    Look { part: mesh.face_part[face as usize], material, paint, tone, bin, cast }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::{MaterialId, PaintId, PartId};
+
+    #[test]
+    fn looks_are_told_apart_and_paper_is_none() {
+        let look = |tone| Look {
+            part: PartId(0),
+            material: MaterialId(0),
+            paint: PaintId(0),
+            tone,
+            bin: 0,
+            cast: tone == 9,
+        };
+        let seen = [3, 3, 0, 9, 0, 0, 3, 7, 9].map(|tone| (tone > 0).then(|| look(tone)));
+        let Looks { looks, numbers } = Looks::of(seen.into_iter());
+        assert_eq!(looks, [3, 9, 7].map(look));
+        let back = numbers.iter().map(|number| number.checked_sub(1).map(|k| looks[k as usize]));
+        assert!(back.eq(seen) && numbers[2] == NOTHING);
+        assert!(Looks::of(std::iter::empty()).numbers.is_empty());
+    }
+}

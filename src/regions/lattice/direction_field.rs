@@ -1,0 +1,219 @@
+//! [`Axes`]: which way strokes are to run at the points of a lattice, as the surface or its light there has it.
+
+use crate::parallel::prelude::*;
+use glam::{DVec2, DVec3};
+
+use super::flat_faces::flat;
+use super::page_lattice::{Probe, Samples};
+use crate::geometry::numbers::portable_math::{cos, sin};
+
+/// What is asked of each point beside the facet and the light.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Asked {
+    /// Nothing more.
+    Light,
+    /// The direction in which the surface bends most, turned by an angle (radians) in its own plane.
+    Bend(f64),
+    /// The direction in which the light changes most, turned by an angle (radians) on the page.
+    Shade(f64),
+}
+
+/// A line without sense at a point of the page: the cosine and sine of twice its angle (from x to y),
+/// times how sure it is, 0 to 1.
+pub type Axis = [f32; 2];
+
+/// The directions at the points of a lattice.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Axes {
+    /// One a point.
+    pub of: Vec<Axis>,
+    /// Which of them hold whatever lies around: those of wide flat faces.
+    pub hold: Vec<bool>,
+}
+
+impl Samples {
+    /// The directions that are asked for, one a point.
+    #[must_use]
+    pub fn axes(&self, probe: &Probe, asked: Asked) -> Axes {
+        let (mut of, angle) = match asked {
+            Asked::Light => (vec![[0.0; 2]; self.facets.len()], 0.0),
+            Asked::Bend(angle) => (probe.bends(self, angle), angle),
+            Asked::Shade(angle) => (self.shades(angle), angle),
+        };
+        // Over flat faces light from afar does not change, but that of lamps does.
+        let follows_light = matches!(asked, Asked::Shade(_))
+            && probe.lit.shading.bins().is_some_and(|bins| probe.lit.shading.is_local(bins));
+        let mut hold = if asked == Asked::Light || follows_light {
+            vec![false; of.len()]
+        } else {
+            flat(self, &probe.as_built)
+        };
+        let level = |k: usize| {
+            let (_, at) = probe.hits[k]?;
+            (self.facets[k] != 0).then(|| turned(probe.level(at, probe.as_built[k]), angle))
+        };
+        of.par_iter_mut().zip(&mut hold).enumerate().with_min_len(1 << 10).for_each(|(k, (axis, hold))| {
+            let sure = f64::from(axis[0] * axis[0] + axis[1] * axis[1]).sqrt();
+            if asked != Asked::Light && (*hold || sure < HABIT) {
+                match level(k) {
+                    Some(way) => *axis = along(way, if *hold { 1.0 } else { HABIT }),
+                    None => *hold = false,
+                }
+            }
+        });
+        Axes { of, hold }
+    }
+
+    /// Where the light changes most on the page.
+    fn shades(&self, angle: f64) -> Vec<Axis> {
+        let light = |k: usize, next: usize| {
+            (self.facets[k] == self.facets[next]).then(|| f64::from(self.lights[next]))
+        };
+        let slope = |k: usize, before: Option<usize>, after: Option<usize>| {
+            let own = f64::from(self.lights[k]);
+            let [a, b] = [before, after].map(|next| next.and_then(|next| light(k, next)));
+            match (a, b) {
+                (Some(a), Some(b)) => (b - a) / 2.0,
+                (Some(a), None) => own - a,
+                (None, Some(b)) => b - own,
+                (None, None) => 0.0,
+            }
+        };
+        (0..self.facets.len())
+            .into_par_iter()
+            .with_min_len(1 << 10)
+            .map(|k| {
+                let (column, row) = (k % self.columns, k / self.columns);
+                let x = slope(k, (column > 0).then(|| k - 1), (column + 1 < self.columns).then_some(k + 1));
+                let up = (row > 0).then(|| k - self.columns);
+                let y = slope(k, up, (row + 1 < self.rows).then_some(k + self.columns));
+                if self.facets[k] == 0 {
+                    return [0.0; 2];
+                }
+                let slope = DVec2::new(x, y);
+                along(turned(slope, angle), (slope.length() / STEEP).min(1.0))
+            })
+            .collect()
+    }
+}
+
+/// Light that changes by this much from point to point shows its direction for sure.
+const STEEP: f64 = 0.02;
+
+/// The sureness of directions that nothing but a habit asks for.
+const HABIT: f64 = 0.004;
+
+impl Probe<'_> {
+    /// Directions in which the surface bends most, from how its normals change from point to point once they
+    /// are smoothed: bends smaller than what strokes could follow do not count.
+    fn bends(&self, samples: &Samples, angle: f64) -> Vec<Axis> {
+        let lit = self.lit;
+        let frame = &lit.view.frame;
+        let normals = self.smooth_normals(samples);
+        let columns = samples.columns;
+        let around = |k: usize, step: usize, has_before: bool, has_after: bool| {
+            let own = |other: usize| samples.facets[other] == samples.facets[k] && self.hits[other].is_some();
+            let from = if has_before && own(k - step) { k - step } else { k };
+            let to = if has_after && own(k + step) { k + step } else { k };
+            let at = |k: usize| self.hits[k].map_or(DVec3::ZERO, |(_, at)| at);
+            let points = (to - from) / step.max(1);
+            let share = 1.0 / points.max(1) as f64;
+            ((at(to) - at(from)) * share, (normals[to] - normals[from]) * share)
+        };
+        (0..self.hits.len())
+            .into_par_iter()
+            .with_min_len(1 << 10)
+            .map(|k| {
+                if samples.facets[k] == 0 || self.hits[k].is_none() {
+                    return [0.0; 2];
+                }
+                let (column, row) = (k % columns, k / columns);
+                let x = around(k, 1, column > 0, column + 1 < columns);
+                let y = around(k, columns, row > 0, row + 1 < samples.rows);
+                let depth = self.hits[k].map_or(frame.focus, |(_, at)| frame.depth(at));
+                match bend([x.0, y.0], [x.1, y.1], angle, frame.side_at(depth)) {
+                    Some((way, sure)) => along(way, sure),
+                    None => [0.0; 2],
+                }
+            })
+            .collect()
+    }
+
+    /// The unit normals at all points, each evened out over its neighbours on the facet.
+    fn smooth_normals(&self, samples: &Samples) -> Vec<DVec3> {
+        samples.spread(self.normals.clone(), EVENED, |_, own, around| {
+            let sum: DVec3 = around.into_iter().flatten().sum();
+            (own + sum).normalize_or_zero()
+        })
+    }
+
+    /// The level direction of a surface on the page: hands draw walls with level strokes. On level surfaces
+    /// that of the page.
+    fn level(&self, at: DVec3, normal: DVec3) -> DVec2 {
+        let frame = &self.lit.view.frame;
+        let level = frame.up.cross(normal);
+        let level = if level.length_squared() > LEVEL * LEVEL { level.normalize() } else { frame.right };
+        let step = frame.px_at(frame.depth(at)) * STEP_PX;
+        let [from, to] = [at, at + level * step].map(|p| frame.image_from_local(p).truncate());
+        to - from
+    }
+}
+
+/// Directions are carried to the page over this length, px.
+const STEP_PX: f64 = 1e-2;
+
+/// Rounds in which normals are evened out: over about five points of the lattice.
+const EVENED: usize = 40;
+
+/// The direction on the page in which a surface bends most, turned by an angle in the surface, and how sure
+/// it is; from the ways on the surface that a step of the lattice to the right and one down make, and
+/// from the changes of the normal along them.
+///
+/// Both fundamental forms are taken in the coordinates of the page; where II v = k I v, v is a principal
+/// direction (do Carmo, Differential Geometry of Curves and Surfaces, section 3.3).
+fn bend(ways: [DVec3; 2], turns: [DVec3; 2], angle: f64, size: f64) -> Option<(DVec2, f64)> {
+    let [g11, g12, g22] = [ways[0].dot(ways[0]), ways[0].dot(ways[1]), ways[1].dot(ways[1])];
+    let m12 = f64::midpoint(turns[0].dot(ways[1]), turns[1].dot(ways[0]));
+    let [m11, m22] = [turns[0].dot(ways[0]), turns[1].dot(ways[1])];
+    let area2 = g11 * g22 - g12 * g12;
+    if area2 <= f64::EPSILON * g11 * g22 {
+        return None;
+    }
+    let mean = (m11 * g22 - 2.0 * m12 * g12 + m22 * g11) / (2.0 * area2);
+    let gauss = (m11 * m22 - m12 * m12) / area2;
+    let apart = (mean * mean - gauss).max(0.0).sqrt();
+    let k1 = if mean >= 0.0 { mean + apart } else { mean - apart };
+    let rows = [DVec2::new(-(m12 - k1 * g12), m11 - k1 * g11), DVec2::new(m22 - k1 * g22, -(m12 - k1 * g12))];
+    let first = if rows[0].length_squared() > rows[1].length_squared() { rows[0] } else { rows[1] };
+    let length = |v: DVec2| (v.x * v.x * g11 + 2.0 * v.x * v.y * g12 + v.y * v.y * g22).max(0.0).sqrt();
+    let long = length(first);
+    if long <= 0.0 || !long.is_finite() {
+        return None;
+    }
+    let first = first / long;
+    // The other one, at a right angle in the surface.
+    let second = DVec2::new(-(first.x * g12 + first.y * g22), first.x * g11 + first.y * g12) / area2.sqrt();
+    let (s, c) = (sin(angle), cos(angle));
+    let sure = 2.0 * apart / (2.0 * (mean.abs() + apart)).max(f64::MIN_POSITIVE);
+    Some((first * c - second * s, sure * (k1.abs() * size / BENDS).min(1.0)))
+}
+
+/// Surfaces that face straight up or down, but for this cosine, have no level direction.
+const LEVEL: f64 = 0.05;
+
+/// A surface that bends by this angle (radians) over the longer side of the frame bends for sure.
+const BENDS: f64 = 2.0;
+
+fn turned(v: DVec2, angle: f64) -> DVec2 {
+    let (s, c) = (sin(angle), cos(angle));
+    DVec2::new(v.x * c + v.y * s, v.y * c - v.x * s)
+}
+
+/// The line along a vector, whose length counts as well.
+fn along(v: DVec2, sure: f64) -> Axis {
+    let length2 = v.length_squared();
+    if length2 <= 0.0 || !length2.is_finite() {
+        return [0.0; 2];
+    }
+    [(v.x * v.x - v.y * v.y) / length2 * sure, 2.0 * v.x * v.y / length2 * sure].map(|x| x as f32)
+}

@@ -1,0 +1,138 @@
+//! Which points of a lattice lie on wide flat faces: such faces have no bends of their own, and those of what
+//! lies beside them say nothing about them.
+
+use glam::DVec3;
+
+use super::page_lattice::Samples;
+
+/// Normals of neighbours on a flat face differ by less than this.
+const SAME: f64 = 1e-3;
+
+/// Normals all over a flat face differ from that of its first point by less than this: what bends ever so
+/// gently is not flat.
+const ALL_SAME: f64 = 0.01;
+
+/// A wide face has a point that is as many points of the lattice away from all that is not the face.
+const WIDE: u16 = 3;
+
+/// Whether each point of the lattice is on a wide flat face: one of a patch of neighbours on one facet that
+/// share their normal, as it is before it is evened out. `normals` are zero where nothing is seen.
+pub(crate) fn flat(samples: &Samples, normals: &[DVec3]) -> Vec<bool> {
+    let (patches, count) = patches(samples, normals);
+    let depths = depths(samples, &patches);
+    let mut is_flat = vec![false; count as usize + 1];
+    for (patch, depth) in patches.iter().zip(&depths) {
+        is_flat[*patch as usize] |= *patch != 0 && *depth >= WIDE;
+    }
+    // Patches that go on in each other without an edge bend, if ever so gently.
+    for k in 0..patches.len() {
+        let beside =
+            [(k % samples.columns + 1 < samples.columns).then_some(k + 1), Some(k + samples.columns)];
+        for next in beside.into_iter().flatten().filter(|next| *next < patches.len()) {
+            let goes_on = samples.facets[next] == samples.facets[k] && near(normals, k, next, SAME);
+            if goes_on && patches[next] != patches[k] {
+                is_flat[patches[k] as usize] = false;
+                is_flat[patches[next] as usize] = false;
+            }
+        }
+    }
+    patches.iter().map(|patch| is_flat[*patch as usize]).collect()
+}
+
+/// Whether two normals differ by less than `far`.
+fn near(normals: &[DVec3], a: usize, b: usize, far: f64) -> bool {
+    (normals[a] - normals[b]).length_squared() < far * far
+}
+
+/// The patch of each point, from 1; 0 where nothing is seen. And how many there are.
+fn patches(samples: &Samples, normals: &[DVec3]) -> (Vec<u32>, u32) {
+    let (columns, rows) = (samples.columns, samples.rows);
+    let mut patches = vec![0; normals.len()];
+    let mut count = 0;
+    let mut open = Vec::new();
+    for first in 0..normals.len() {
+        if patches[first] != 0 || samples.facets[first] == 0 || normals[first] == DVec3::ZERO {
+            continue;
+        }
+        count += 1;
+        patches[first] = count;
+        open.push(first);
+        while let Some(k) = open.pop() {
+            let (column, row) = (k % columns, k / columns);
+            let beside = [
+                (column > 0).then(|| k - 1),
+                (column + 1 < columns).then_some(k + 1),
+                (row > 0).then(|| k - columns),
+                (row + 1 < rows).then_some(k + columns),
+            ];
+            for next in beside.into_iter().flatten() {
+                if patches[next] == 0
+                    && samples.facets[next] == samples.facets[first]
+                    && near(normals, k, next, SAME)
+                    && near(normals, first, next, ALL_SAME)
+                {
+                    patches[next] = count;
+                    open.push(next);
+                }
+            }
+        }
+    }
+    (patches, count)
+}
+
+/// How many points it is from each point to the next one of another patch or beyond the page, diagonals
+/// counted as one.
+fn depths(samples: &Samples, patches: &[u32]) -> Vec<u16> {
+    let (columns, rows) = (samples.columns, samples.rows);
+    let mut depths = vec![u16::MAX; patches.len()];
+    let mut pass = |order: &mut dyn Iterator<Item = usize>, back: isize| {
+        for k in order {
+            let (column, row) = ((k % columns) as isize, (k / columns) as isize);
+            let mut least = depths[k];
+            for (right, down) in [(-1, 0), (-1, -1), (0, -1), (1, -1)] {
+                let (x, y) = (column + right * back, row + down * back);
+                if x < 0 || y < 0 || x >= columns as isize || y >= rows as isize {
+                    least = 1;
+                    continue;
+                }
+                let next = y as usize * columns + x as usize;
+                least =
+                    least.min(if patches[next] == patches[k] { depths[next].saturating_add(1) } else { 1 });
+            }
+            depths[k] = least;
+        }
+    };
+    pass(&mut (0..patches.len()), 1);
+    pass(&mut (0..patches.len()).rev(), -1);
+    depths
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A page of one facet, whose normal at each point is given.
+    fn page(columns: usize, rows: usize, normal: impl Fn(usize, usize) -> DVec3) -> Vec<bool> {
+        let count = columns * rows;
+        let samples = Samples { columns, rows, facets: vec![1; count], ..Samples::default() };
+        let normals: Vec<DVec3> = (0..count).map(|k| normal(k % columns, k / columns)).collect();
+        flat(&samples, &normals)
+    }
+
+    #[test]
+    fn walls_are_flat_up_to_the_edge_between_them() {
+        let slanted = DVec3::new(0.0, 0.3, 1.0).normalize();
+        let found = page(20, 20, |_, row| if row < 10 { DVec3::Z } else { slanted });
+        assert!(found.iter().all(|flat| *flat));
+    }
+
+    #[test]
+    fn what_bends_or_is_narrow_is_not_flat() {
+        let along = |angle: f64| DVec3::new(angle, 0.0, 1.0).normalize();
+        assert!(!page(20, 20, |column, _| along(0.02 * column as f64)).contains(&true));
+        // Too gently to be seen from point to point.
+        assert!(!page(60, 20, |column, _| along(0.0008 * column as f64)).contains(&true));
+        // Strips of a round tower.
+        assert!(!page(40, 40, |column, _| along(0.1 * (column / 4) as f64)).contains(&true));
+    }
+}

@@ -1,0 +1,266 @@
+//! Regions painted: one closed path for each, in the layers `fills` and `shadows`.
+
+use std::sync::Arc;
+
+use crate::parallel::prelude::*;
+use kurbo::{Affine, BezPath, ParamCurve, ParamCurveDeriv, PathEl, PathSeg, Point, Vec2};
+
+use super::tone_ramps::gradient;
+use crate::drawing::{Layer, LayerKind, Mark, Paint, Provenance, Unit};
+use crate::light::Shading;
+use crate::regions::{Look, Region, RegionOptions, Regions, Seams};
+
+/// What painting needs beside regions: names, colours, the unit.
+#[derive(Debug, Clone, Copy)]
+pub struct PaintContext<'a> {
+    /// Unit of the page.
+    pub unit: Unit,
+    /// Where the regions' frame lies on the page.
+    pub offset: Vec2,
+    /// Names of the parts, by [`crate::mesh::PartId`].
+    pub parts: &'a [Arc<str>],
+    /// Names of the materials, by [`crate::mesh::MaterialId`].
+    pub materials: &'a [Arc<str>],
+    /// The colours of tones.
+    pub shading: &'a Shading,
+}
+
+/// The layers `fills` and `shadows`; empty ones are absent.
+///
+/// Narrow regions come first. With [`Seams::Underlap`] each reaches a little under those that are
+/// painted after it; wide ones have room for that, and nothing peeps out on their other side.
+#[must_use]
+pub fn paint(regions: &Regions, context: &PaintContext, options: &RegionOptions) -> Vec<Layer> {
+    let lengths: Vec<f64> = regions.borders.par_iter().with_min_len(16).map(|b| length(&b.path)).collect();
+    let mut order: Vec<u32> = (0..regions.regions.len() as u32).collect();
+    let key = |k: u32| {
+        let region = &regions.regions[k as usize];
+        let around: f64 = region.loops.iter().flatten().map(|(border, _)| lengths[*border as usize]).sum();
+        // Bits order positive numbers.
+        (region.look.cast, (region.area / around.max(f64::MIN_POSITIVE)).to_bits(), k)
+    };
+    order.sort_by_cached_key(|k| key(*k));
+    let mut rank = vec![0u32; order.len()];
+    for (place, k) in order.iter().enumerate() {
+        rank[*k as usize] = place as u32;
+    }
+    let reach = match options.seams {
+        Seams::Underlap => options.underlap.in_unit(context.unit).max(0.0),
+        Seams::Exact => 0.0,
+    };
+    let marks: Vec<(bool, Mark)> = order
+        .par_iter()
+        .with_min_len(4)
+        .with_max_len(8)
+        .map(|k| {
+            let region = &regions.regions[*k as usize];
+            let mut path = outline(regions, *k, &rank, reach);
+            path.apply_affine(Affine::translate(context.offset));
+            (region.look.cast, mark(region, path, context))
+        })
+        .collect();
+    let layer = |kind: LayerKind, cast: bool| {
+        let own = marks.iter().filter(|(is_cast, _)| *is_cast == cast).map(|(_, mark)| mark.clone());
+        Layer { kind, pen: None, ordered: false, marks: own.collect() }
+    };
+    let layers = [layer(LayerKind::Fills, false), layer(LayerKind::Shadows, true)];
+    layers.into_iter().filter(|layer| !layer.marks.is_empty()).collect()
+}
+
+/// The outlines of regions that are picked, each up to its borders, but for a `reach` under those of them
+/// that come after it: where two are painted alike, no paper shines through between them.
+pub(crate) fn outlines(
+    regions: &Regions,
+    offset: Vec2,
+    reach: f64,
+    pick: impl Fn(&Region) -> bool,
+) -> Vec<(BezPath, Region)> {
+    let numbers = (1..).zip(&regions.regions);
+    let rank: Vec<u32> = numbers.map(|(number, region)| if pick(region) { number } else { 0 }).collect();
+    let numbered = regions.regions.iter().enumerate().filter(|(_, region)| pick(region));
+    numbered
+        .map(|(k, region)| {
+            let mut path = outline(regions, k as u32, &rank, reach);
+            path.apply_affine(Affine::translate(offset));
+            (path, region.clone())
+        })
+        .collect()
+}
+
+/// The length of a path, by the chords of its pieces and of their handles.
+fn length(path: &BezPath) -> f64 {
+    let way = |a: Point, b: Point| (b - a).hypot2().sqrt();
+    let of = |segment: PathSeg| match segment {
+        PathSeg::Line(line) => way(line.p0, line.p1),
+        PathSeg::Quad(quad) => {
+            f64::midpoint(way(quad.p0, quad.p2), way(quad.p0, quad.p1) + way(quad.p1, quad.p2))
+        }
+        PathSeg::Cubic(cubic) => {
+            let handles = way(cubic.p0, cubic.p1) + way(cubic.p1, cubic.p2) + way(cubic.p2, cubic.p3);
+            f64::midpoint(way(cubic.p0, cubic.p3), handles)
+        }
+    };
+    path.segments().map(of).sum()
+}
+
+fn mark(region: &Region, path: BezPath, context: &PaintContext) -> Mark {
+    let look = region.look;
+    let colour = |tone: u16| context.shading.colour(look.paint, tone);
+    let paint = match &region.ramp {
+        Some(ramp) => Paint::Gradient(gradient(ramp, colour, context.offset)),
+        None => Paint::Fill(colour(look.tone)),
+    };
+    Mark { path, paint, provenance: provenance(look, context) }
+}
+
+/// Where a region that looks so is from.
+pub(crate) fn provenance(look: Look, context: &PaintContext) -> Provenance {
+    let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
+    Provenance {
+        identity: 0,
+        places: Arc::default(),
+        classes: Vec::new(),
+        tone: Some(look.tone),
+        part: context.parts.get(look.part.index()).and_then(name),
+        material: context.materials.get(look.material.index()).and_then(name),
+        invisibility: 0,
+        note: None,
+        text: None,
+    }
+}
+
+/// The loops of a region, pushed outward by `reach` along borders with regions painted after it.
+fn outline(regions: &Regions, number: u32, rank: &[u32], reach: f64) -> BezPath {
+    let mut path = BezPath::new();
+    for uses in &regions.regions[number as usize].loops {
+        let mut begun = false;
+        for (border, along) in uses {
+            let border = &regions.borders[*border as usize];
+            let other = border.sides[usize::from(*along)];
+            let later = other.is_some_and(|other| rank[other as usize] > rank[number as usize]);
+            let mut piece = if *along { border.path.clone() } else { border.path.reverse_subpaths() };
+            if later && reach > 0.0 {
+                piece = pushed(&piece, reach, border.closed);
+            }
+            append(&mut path, &piece, &mut begun);
+        }
+        if begun {
+            path.close_path();
+        }
+    }
+    path
+}
+
+/// Adds an open or closed piece to the loop that is being drawn.
+pub(crate) fn append(path: &mut BezPath, piece: &BezPath, begun: &mut bool) {
+    let mut at = match path.elements().last() {
+        Some(last) if *begun => last.end_point(),
+        _ => None,
+    };
+    for element in piece.elements() {
+        match *element {
+            PathEl::MoveTo(p) if !*begun => {
+                path.move_to(p);
+                *begun = true;
+                at = Some(p);
+            }
+            // The end of the border before, or near to it where that was pushed outward.
+            PathEl::MoveTo(p) | PathEl::LineTo(p) => {
+                if at != Some(p) {
+                    path.line_to(p);
+                }
+                at = Some(p);
+            }
+            PathEl::ClosePath => {}
+            element => {
+                path.push(element);
+                at = element.end_point();
+            }
+        }
+    }
+}
+
+/// A path moved by `reach` to its left as the page is seen (y down), which is outward. Sharp corners
+/// are cut off or crossed over, so that their sides stay as far away as all others.
+fn pushed(path: &BezPath, reach: f64, closed: bool) -> BezPath {
+    let segments: Vec<PathSeg> = path.segments().collect();
+    let directions: Vec<[Vec2; 2]> = segments.iter().map(ends).collect();
+    let n = segments.len();
+    // How far the start and the end of a segment move, given the direction of the one next to it.
+    let shift =
+        |own: Vec2, next: Option<Vec2>| next.and_then(|next| mitre(own, next)).unwrap_or(normal(own)) * reach;
+    let mut out = BezPath::new();
+    for (k, segment) in segments.iter().enumerate() {
+        let before = if k > 0 { Some(k - 1) } else { closed.then_some(n - 1) };
+        let after = if k + 1 < n { Some(k + 1) } else { closed.then_some(0) };
+        let from = shift(directions[k][0], before.map(|b| directions[b][1]));
+        let to = shift(directions[k][1], after.map(|a| directions[a][0]));
+        let start = segment.start() + from;
+        if k == 0 {
+            out.move_to(start);
+        } else if out.elements().last().and_then(PathEl::end_point) != Some(start) {
+            out.line_to(start);
+        }
+        match *segment {
+            PathSeg::Line(line) => out.line_to(line.p1 + to),
+            PathSeg::Quad(quad) => out.quad_to(quad.p1 + (from + to) / 2.0, quad.p2 + to),
+            PathSeg::Cubic(cubic) => out.curve_to(cubic.p1 + from, cubic.p2 + to, cubic.p3 + to),
+        }
+    }
+    if closed && n > 0 {
+        out.close_path();
+    }
+    out
+}
+
+/// Unit directions at both ends of a segment.
+fn ends(segment: &PathSeg) -> [Vec2; 2] {
+    let chord = unit(segment.end() - segment.start());
+    let at = |t: f64| {
+        let way = match segment {
+            PathSeg::Line(line) => line.p1 - line.p0,
+            PathSeg::Quad(quad) => quad.deriv().eval(t).to_vec2(),
+            PathSeg::Cubic(cubic) => cubic.deriv().eval(t).to_vec2(),
+        };
+        let way = unit(way);
+        if way == Vec2::ZERO { chord } else { way }
+    };
+    [at(0.0), at(1.0)]
+}
+
+fn unit(v: Vec2) -> Vec2 {
+    let length = v.hypot2().sqrt();
+    if length > 0.0 { v / length } else { Vec2::ZERO }
+}
+
+/// To the side that lies outside of a region whose border runs this way.
+fn normal(way: Vec2) -> Vec2 {
+    Vec2::new(way.y, -way.x)
+}
+
+/// The shift of a blunt corner between two directions by which both its sides move by one.
+fn mitre(a: Vec2, b: Vec2) -> Option<Vec2> {
+    let middle = unit(normal(a) + normal(b));
+    let cosine = middle.dot(normal(a));
+    (cosine > 0.5).then(|| middle / cosine)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_square_grows_on_all_sides() {
+        // Turning from x to y: the inside is on the left of the numbers, the right as seen.
+        let square = BezPath::from_vec(vec![
+            PathEl::MoveTo(Point::new(0.0, 0.0)),
+            PathEl::LineTo(Point::new(10.0, 0.0)),
+            PathEl::LineTo(Point::new(10.0, 10.0)),
+            PathEl::LineTo(Point::new(0.0, 10.0)),
+            PathEl::ClosePath,
+        ]);
+        let grown = pushed(&square, 1.0, true);
+        let area = kurbo::Shape::area(&grown);
+        assert!((area - 144.0).abs() < 1e-9, "{area}: {}", grown.to_svg());
+    }
+}

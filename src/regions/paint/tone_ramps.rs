@@ -1,0 +1,291 @@
+//! [`Ramp`]: bands of light that lie side by side along straight, parallel borders are one region, painted in a gradient.
+//!
+//! Where light is all but linear in one direction, as on a cylinder, its steps end in lines that run the same way. Bands are
+//! joined as long as every border between two of them stays within a tolerance of one line across the gradient, and no band
+//! reaches beyond its own borders: then no point is painted a step lighter or darker than its band would be.
+
+use std::collections::BTreeMap;
+
+use kurbo::{Point, Vec2};
+
+use crate::colour::srgb::Colour;
+use crate::drawing::Gradient;
+use crate::regions::cells::border_arcs::{Borders, OUTSIDE_PATCH, RawArc};
+use crate::regions::cells::patches::Patches;
+use crate::regions::cells::triangulation::Triangulation;
+use crate::regions::labels::surface_label::Look;
+
+/// How tones follow each other along a line.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ramp {
+    /// The direction in which it grows lighter, of length 1.
+    pub way: Vec2,
+    /// Where a tone ends, as far along `way` as its border is, and that tone and the next; rising.
+    pub steps: Vec<(f64, [u16; 2])>,
+}
+
+/// The colours of a ramp on a page on which its frame lies at an offset. Half way between two tones lies the border between them.
+pub(crate) fn gradient(ramp: &Ramp, colour: impl Fn(u16) -> Colour, offset: Vec2) -> Gradient {
+    let mut shades: Vec<(f64, [f64; 3])> = Vec::with_capacity(ramp.steps.len() + 2);
+    let mut alpha = 255;
+    let mut last = None;
+    for (k, (at, tones)) in ramp.steps.iter().enumerate() {
+        let [below, above] = tones.map(&colour);
+        alpha = below.a;
+        let beside = if k == 0 { ramp.steps.get(1) } else { ramp.steps.get(k - 1) };
+        let half = beside.map_or(0.0, |(other, _)| (at - other).abs() / 2.0);
+        if k == 0 {
+            shades.push((at - half, below.channels()));
+        }
+        let (a, b) = (below.channels(), above.channels());
+        shades.push((*at, [0, 1, 2].map(|c| f64::midpoint(a[c], b[c]))));
+        last = Some((at + half, above.channels()));
+    }
+    shades.extend(last);
+    let from = shades.first().map_or(0.0, |shade| shade.0);
+    let length = shades.last().map_or(0.0, |shade| shade.0) - from;
+    let mut kept = vec![false; shades.len()];
+    keep(&shades, 0, shades.len().saturating_sub(1), &mut kept);
+    let place = |at: f64| if length > 0.0 { (at - from) / length } else { 0.0 };
+    let stop = |(at, channels): &(f64, [f64; 3])| {
+        (place(*at), Colour { a: alpha, ..Colour::from_channels(*channels) })
+    };
+    let stops = shades.iter().zip(&kept).filter(|(_, kept)| **kept).map(|(shade, _)| stop(shade)).collect();
+    let at = |along: f64| (ramp.way * along + offset).to_point();
+    Gradient { start: at(from), end: at(from + length), stops }
+}
+
+/// Keeps the shades between two that are not all but on the line between them.
+///
+/// Source: Douglas and Peucker, 1973, over one dimension.
+fn keep(shades: &[(f64, [f64; 3])], first: usize, last: usize, kept: &mut [bool]) {
+    let (Some(a), Some(b)) = (shades.get(first), shades.get(last)) else { return };
+    (kept[first], kept[last]) = (true, true);
+    let off = |k: usize| {
+        let (at, shade) = shades[k];
+        let t = if b.0 > a.0 { (at - a.0) / (b.0 - a.0) } else { 0.0 };
+        [0, 1, 2].map(|c| (shade[c] - a.1[c] - (b.1[c] - a.1[c]) * t).abs()).into_iter().fold(0.0, f64::max)
+    };
+    let worst =
+        (first + 1..last).map(|k| (off(k), k)).fold((0.0, first), |w, o| if o.0 > w.0 { o } else { w });
+    if worst.0 > SHADE {
+        keep(shades, first, worst.1, kept);
+        keep(shades, worst.1, last, kept);
+    }
+}
+
+/// A channel from 0 to 1 that is off by no more than this is not seen.
+const SHADE: f64 = 0.6 / 255.0;
+
+/// A ramp has at least so many steps: fewer are no smaller as a gradient.
+const FEWEST_STEPS: usize = 3;
+
+/// How far beyond its borders a band may reach, in tolerances.
+const REACH: f64 = 2.0;
+
+/// A border between two bands of one surface, on the page.
+struct Step {
+    /// The number of its arc.
+    arc: usize,
+    /// The darker patch and the lighter one, and their tones.
+    patches: [u32; 2],
+    tones: [u16; 2],
+    ends: [Point; 2],
+    /// Across it, to the lighter side.
+    way: Vec2,
+    length: f64,
+}
+
+/// Patches that may be one region.
+#[derive(Default)]
+struct Group {
+    way: Vec2,
+    /// The borders within it, by number.
+    steps: Vec<usize>,
+    /// Where those of each pair of tones lie: from and to.
+    spans: Spans,
+    is_broken: bool,
+}
+
+type Spans = BTreeMap<[u16; 2], (f64, f64)>;
+
+/// Joins bands to ramps: gives their patches one number each. One entry a patch.
+pub(crate) fn join(
+    cut: &Triangulation,
+    patches: &mut Patches,
+    table: &[Look],
+    borders: &Borders,
+    unit: f64,
+    tolerance: f64,
+) -> Vec<Option<Ramp>> {
+    let count = patches.looks.len();
+    let look = |patch: u32| patches.looks[patch as usize].checked_sub(1).and_then(|k| table.get(k as usize));
+    let points: Vec<Vec<Point>> = borders
+        .arcs
+        .iter()
+        .map(|arc| arc.points.iter().map(|v| cut.points[*v as usize]))
+        .map(|points| points.map(|[x, y]| Point::new(x as f64 * unit, y as f64 * unit)).collect())
+        .collect();
+    let mut steps: Vec<Step> = Vec::new();
+    for (number, (arc, points)) in borders.arcs.iter().zip(&points).enumerate() {
+        steps.extend(straight(number, arc, points, look, tolerance));
+    }
+    steps.sort_by(|a, b| b.length.total_cmp(&a.length).then(a.arc.cmp(&b.arc)));
+
+    let mut joined = Joined { root: (0..count as u32).collect(), groups: BTreeMap::new() };
+    for number in 0..steps.len() {
+        joined.join(&steps, number, tolerance);
+    }
+    joined.break_up(borders, &points, look, tolerance);
+
+    let mut ramps = vec![None; count];
+    let mut members: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for patch in 0..count as u32 {
+        let root = joined.find(patch);
+        if joined.groups.get(&root).is_some_and(|g| !g.is_broken && g.spans.len() >= FEWEST_STEPS) {
+            members.entry(root).or_default().push(patch);
+        }
+    }
+    let mut number: Vec<u32> = (0..count as u32).collect();
+    for (root, mut own) in members {
+        let Some(group) = joined.groups.get(&root) else { continue };
+        let middle = |(from, to): (f64, f64)| f64::midpoint(from, to);
+        let steps = group.spans.iter().map(|(tones, span)| (middle(*span), *tones)).collect();
+        ramps[root as usize] = Some(Ramp { way: group.way, steps });
+        for patch in &own {
+            number[*patch as usize] = root;
+            if *patch != root {
+                patches.area2[root as usize] += std::mem::take(&mut patches.area2[*patch as usize]);
+            }
+        }
+        // The region is called by the tone in its middle.
+        own.sort_by_key(|patch| (patches.looks[*patch as usize], *patch));
+        patches.looks[root as usize] = patches.looks[own[own.len() / 2] as usize];
+    }
+    patches.of.iter_mut().for_each(|patch| *patch = number[*patch as usize]);
+    ramps
+}
+
+/// The border that an arc is between two bands, if it is straight.
+fn straight<'a>(
+    arc: usize,
+    raw: &RawArc,
+    points: &[Point],
+    look: impl Fn(u32) -> Option<&'a Look>,
+    tolerance: f64,
+) -> Option<Step> {
+    let [left, right] = raw.sides;
+    if raw.closed || left == OUTSIDE_PATCH || right == OUTSIDE_PATCH || left == right {
+        return None;
+    }
+    let (a, b) = (look(left)?, look(right)?);
+    if (Look { tone: b.tone, ..*a }) != *b || a.tone == b.tone {
+        return None;
+    }
+    let (first, last) = (*points.first()?, *points.last()?);
+    let length = (last - first).hypot2().sqrt();
+    // A shorter one has no direction.
+    if length < tolerance * 4.0 {
+        return None;
+    }
+    let along = (last - first) / length;
+    // The left side, as x turns to y.
+    let to_left = Vec2::new(-along.y, along.x);
+    let is_near = |p: &Point| (*p - first).dot(to_left).abs() <= tolerance;
+    let (patches, tones, way) = if a.tone > b.tone {
+        ([right, left], [b.tone, a.tone], to_left)
+    } else {
+        ([left, right], [a.tone, b.tone], -to_left)
+    };
+    points.iter().all(is_near).then_some(Step { arc, patches, tones, ends: [first, last], way, length })
+}
+
+struct Joined {
+    root: Vec<u32>,
+    /// The groups of more than one patch, by their roots.
+    groups: BTreeMap<u32, Group>,
+}
+
+impl Joined {
+    fn find(&self, mut patch: u32) -> u32 {
+        while self.root[patch as usize] != patch {
+            patch = self.root[patch as usize];
+        }
+        patch
+    }
+
+    /// Joins the groups on both sides of a border, if all borders of both lie well along one line.
+    fn join(&mut self, steps: &[Step], number: usize, tolerance: f64) {
+        let step = &steps[number];
+        let [a, b] = step.patches.map(|patch| self.find(patch));
+        if a == b {
+            return;
+        }
+        let size = |root: u32| self.groups.get(&root).map_or(0, |group| group.steps.len());
+        let (large, small) = if size(b) > size(a) { (b, a) } else { (a, b) };
+        let (way, mut spans) = match self.groups.get(&large) {
+            Some(group) => (group.way, group.spans.clone()),
+            None => (step.way, Spans::new()),
+        };
+        let added: Vec<usize> = self
+            .groups
+            .get(&small)
+            .map_or(&[][..], |group| &group.steps)
+            .iter()
+            .copied()
+            .chain([number])
+            .collect();
+        for k in &added {
+            let Step { tones, ends, .. } = &steps[*k];
+            let at = ends.map(|p| p.to_vec2().dot(way));
+            let span = spans.entry(*tones).or_insert((f64::INFINITY, f64::NEG_INFINITY));
+            *span = (span.0.min(at[0]).min(at[1]), span.1.max(at[0]).max(at[1]));
+            if span.1 - span.0 > 2.0 * tolerance {
+                return;
+            }
+        }
+        let mut middles = spans.values().map(|(from, to)| f64::midpoint(*from, *to));
+        let mut before = f64::NEG_INFINITY;
+        if middles.any(|middle| middle <= std::mem::replace(&mut before, middle)) {
+            return;
+        }
+        self.groups.remove(&small);
+        self.root[small as usize] = large;
+        let group = self.groups.entry(large).or_default();
+        group.way = way;
+        group.spans = spans;
+        group.steps.extend(added);
+    }
+
+    /// Breaks groups up that hold a border which lies elsewhere, or a band that reaches beyond its borders.
+    fn break_up<'a>(
+        &mut self,
+        borders: &Borders,
+        points: &[Vec<Point>],
+        look: impl Fn(u32) -> Option<&'a Look>,
+        tolerance: f64,
+    ) {
+        for (arc, points) in borders.arcs.iter().zip(points) {
+            for patch in arc.sides.into_iter().filter(|patch| *patch != OUTSIDE_PATCH) {
+                let root = self.find(patch);
+                let (Some(group), Some(look)) = (self.groups.get_mut(&root), look(patch)) else { continue };
+                if group.is_broken {
+                    continue;
+                }
+                let middle = |(from, to): &(f64, f64)| f64::midpoint(*from, *to);
+                let below = group.spans.iter().filter(|(tones, _)| tones[1] == look.tone);
+                let above = group.spans.iter().filter(|(tones, _)| tones[0] == look.tone);
+                let low = below.map(|(_, span)| middle(span)).fold(f64::INFINITY, f64::min);
+                let high = above.map(|(_, span)| middle(span)).fold(f64::NEG_INFINITY, f64::max);
+                let low = if low < f64::INFINITY { low } else { f64::NEG_INFINITY };
+                let high = if high > f64::NEG_INFINITY { high } else { f64::INFINITY };
+                let slack = REACH * tolerance;
+                let is_within = |p: &Point| {
+                    let at = p.to_vec2().dot(group.way);
+                    at >= low - slack && at <= high + slack
+                };
+                group.is_broken = !points.iter().all(is_within);
+            }
+        }
+    }
+}

@@ -1,0 +1,365 @@
+//! [`Decal`]: figures of a plane laid on the surface, as they are seen: where, and on which facets of the ground.
+//!
+//! The plane is laid on the surface face by face, by texture coordinates or by the axes of a part. A figure keeps to its middle: each
+//! of its points is found by walking from there over the faces, straight in the plane; where the plane is not continued, or turns
+//! from the eye, the last face is thought on. What is painted of it is for the ground to say, whose borders are exact.
+
+use std::collections::BTreeMap;
+
+use crate::parallel::prelude::*;
+use glam::{DVec2, DVec3};
+use kurbo::{Point, Vec2};
+
+use super::level_curves::are_seen;
+pub use super::surface_chart::Chart;
+use super::surface_chart::Walker;
+use crate::lines::{Lit, shows_inside};
+use crate::mesh::{FaceId, Mesh};
+use crate::regions::Ground;
+use crate::regions::hatch_regions::hatch_map::PAPER;
+
+/// What is laid on the plane, again and again.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Figure {
+    /// Its lines, closed or not; their last points are not their first.
+    pub lines: Vec<Vec<DVec2>>,
+    /// Points of the plane are this far apart along x and y from one figure to the next.
+    pub period: DVec2,
+}
+
+/// A figure as it is seen.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decal {
+    /// The number of the figure.
+    pub figure: u32,
+    /// Its lines, page units.
+    pub lines: Vec<Vec<Point>>,
+    /// The facets on which something of it is seen, ascending.
+    pub facets: Vec<u32>,
+}
+
+/// More figures than this on a surface are too fine to be seen.
+pub const MOST_FIGURES: f64 = 5e5;
+
+/// Of each line of a figure so many points are asked for whether they are seen.
+const ASKED: usize = 12;
+
+/// Figures of two charts may be so near to each other, as part of their sizes, where the surface bends by less than `SMOOTH`
+/// between them (cosine); else the later one is left out.
+const NEAR: f64 = 0.9;
+const SMOOTH: f64 = 0.7;
+
+/// How many figures there would be, given how the plane lies on each face.
+#[must_use]
+pub fn count(mesh: &Mesh, chart: impl Fn(u32) -> Option<Chart>, figures: &[Figure]) -> f64 {
+    let area = |chart: Chart| {
+        let [a, b, c] = chart.corners;
+        let area = (b - a).perp_dot(c - a).abs() / 2.0;
+        if area.is_finite() { area } else { 0.0 }
+    };
+    let whole: f64 = (0..mesh.triangles.len() as u32).filter_map(chart).map(area).sum();
+    figures.iter().map(|figure| whole / (figure.period.x * figure.period.y)).sum()
+}
+
+/// The middle of a figure on a face.
+struct Anchor {
+    figure: u32,
+    face: u32,
+    /// Number along x and y.
+    place: [i64; 2],
+    /// In the model.
+    at: DVec3,
+    /// Whether it lies beyond the face, where the plane is not continued.
+    is_outer: bool,
+}
+
+/// The figures on the faces that the eye may see.
+#[must_use]
+pub fn decals(
+    lit: &Lit,
+    ground: &Ground,
+    offset: Vec2,
+    chart: &(dyn Fn(u32) -> Option<Chart> + Sync),
+    figures: &[Figure],
+) -> Vec<Decal> {
+    const CHUNK: usize = 1 << 10;
+    let mesh = lit.mesh;
+    let middles: Vec<DVec2> = figures.iter().map(middle).collect();
+    let faces = mesh.triangles.len();
+    let anchors: Vec<Vec<Anchor>> = (0..faces.div_ceil(CHUNK))
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|chunk| {
+            let mut found = Vec::new();
+            for face in chunk * CHUNK..((chunk + 1) * CHUNK).min(faces) {
+                let Some(own) = chart(face as u32).filter(|_| !mesh.is_degenerate(FaceId(face as u32)))
+                else {
+                    continue;
+                };
+                for (number, figure) in figures.iter().enumerate() {
+                    place(mesh, face as u32, &own, (number as u32, figure, middles[number]), &mut found);
+                }
+            }
+            found
+        })
+        .collect();
+    let inside = shows_inside(lit);
+    let shows = |face: u32| lit.view.facing[face as usize] || inside[mesh.face_part[face as usize].index()];
+    let walker = Walker { lit, chart };
+    let mut anchors: Vec<Anchor> = anchors.into_iter().flatten().collect();
+    let outer: Vec<Vec<Anchor>> = (0..faces.div_ceil(CHUNK))
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|chunk| {
+            let own = chunk * CHUNK..((chunk + 1) * CHUNK).min(faces);
+            own.flat_map(|face| walker.beyond_border(face as u32, figures, &middles)).collect()
+        })
+        .collect();
+    add_outer(lit, chart, outer.into_iter().flatten().collect(), &mut anchors);
+    let anchors = apart(lit, chart, figures, anchors);
+    let laid: Vec<Laid> = anchors
+        .par_iter()
+        .with_min_len(64)
+        .filter(|anchor| shows(anchor.face))
+        .filter_map(|anchor| {
+            let figure = &figures[anchor.figure as usize];
+            let [i, j] = anchor.place.map(|k| k as f64);
+            walker.lay(anchor, figure, (figure.period * DVec2::new(i, j), offset), shows)
+        })
+        .collect();
+    let asked: Vec<(Point, f64)> = laid.iter().flat_map(|laid| laid.asked.iter().copied()).collect();
+    let mut seen = are_seen(lit, offset, &asked).into_iter();
+    let decal = |laid: Laid| {
+        let seen: Vec<bool> = seen.by_ref().take(laid.asked.len()).collect();
+        let on = laid.asked.iter().zip(seen).filter(|(_, seen)| *seen).map(|((p, _), _)| ground.cell_at(*p));
+        let mut facets: Vec<u32> =
+            on.filter(|cell| *cell != PAPER).map(|cell| ground.cells[cell as usize].facet).collect();
+        facets.sort_unstable();
+        facets.dedup();
+        (!facets.is_empty()).then_some(Decal { figure: laid.figure, lines: laid.lines, facets })
+    };
+    laid.into_iter().filter_map(decal).collect()
+}
+
+/// A figure on the page, and the points of it on the surface of which is asked whether they are seen.
+struct Laid {
+    figure: u32,
+    lines: Vec<Vec<Point>>,
+    asked: Vec<(Point, f64)>,
+}
+
+/// The middle of the box around a figure.
+fn middle(figure: &Figure) -> DVec2 {
+    let points = || figure.lines.iter().flatten();
+    let low = points().copied().fold(DVec2::INFINITY, DVec2::min);
+    let high = points().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
+    (low + high) / 2.0
+}
+
+/// The figures whose middles lie on a face.
+fn place(
+    mesh: &Mesh,
+    face: u32,
+    chart: &Chart,
+    (number, figure, middle): (u32, &Figure, DVec2),
+    found: &mut Vec<Anchor>,
+) {
+    let corners = chart.corners.map(|p| (p - middle) / figure.period);
+    let [a, b, c] = corners;
+    let (low, high) = (a.min(b).min(c).ceil(), a.max(b).max(c).floor());
+    let whole = (b - a).perp_dot(c - a);
+    let size = high - low + 1.0;
+    if !(whole.abs() > 0.0 && whole.is_finite() && size.x.max(1.0) * size.y.max(1.0) < 4.0 * MOST_FIGURES) {
+        return;
+    }
+    let solid = mesh.corners(FaceId(face));
+    for j in low.y as i64..=high.y as i64 {
+        for i in low.x as i64..=high.x as i64 {
+            let p = DVec2::new(i as f64, j as f64);
+            let parts = [beside(b, c, p), beside(c, a, p), beside(a, b, p)];
+            // On a side it belongs to one of both faces there.
+            let is_in = parts.iter().all(|(part, along)| match whole > 0.0 {
+                true => *part > 0.0 || (*part == 0.0 && *along),
+                false => *part < 0.0 || (*part == 0.0 && *along),
+            });
+            if is_in {
+                let at = (0..3).map(|k| solid[k] * (parts[k].0 / whole)).sum();
+                found.push(Anchor { figure: number, face, place: [i, j], at, is_outer: false });
+            }
+        }
+    }
+}
+
+/// Twice the area between a side and a point, the same but for its sign from both faces; and whether the side runs as it is
+/// thought to where the point lies on it.
+fn beside(a: DVec2, b: DVec2, p: DVec2) -> (f64, bool) {
+    if (a.x, a.y) < (b.x, b.y) { ((b - a).perp_dot(p - a), true) } else { (-(a - b).perp_dot(p - b), false) }
+}
+
+/// Adds those beyond the border of the plane, each once.
+fn add_outer(
+    lit: &Lit,
+    chart: &(dyn Fn(u32) -> Option<Chart> + Sync),
+    outer: Vec<Anchor>,
+    anchors: &mut Vec<Anchor>,
+) {
+    let key = |anchor: &Anchor| {
+        let name = chart(anchor.face).map_or(0, |chart| chart.name);
+        (lit.mesh.face_part[anchor.face as usize], name, anchor.figure, anchor.place)
+    };
+    if outer.is_empty() {
+        return;
+    }
+    let mut known: BTreeMap<_, Vec<DVec3>> = BTreeMap::new();
+    anchors.iter().for_each(|anchor| known.entry(key(anchor)).or_default().push(anchor.at));
+    for anchor in outer {
+        let there = known.entry(key(&anchor)).or_default();
+        let near = unit(lit.mesh, chart, anchor.face) / 2.0;
+        if there.iter().all(|at| at.distance(anchor.at) > near) {
+            there.push(anchor.at);
+            anchors.push(anchor);
+        }
+    }
+}
+
+/// How long a unit of the plane is on a face.
+fn unit(mesh: &Mesh, chart: &(dyn Fn(u32) -> Option<Chart> + Sync), face: u32) -> f64 {
+    let [a, b, c] = mesh.corners(FaceId(face));
+    let area = |chart: Chart| {
+        let [p, q, r] = chart.corners;
+        (q - p).perp_dot(r - p).abs()
+    };
+    ((b - a).cross(c - a).length() / chart(face).map_or(1.0, area)).sqrt()
+}
+
+/// The middles without those that are too near to one in another chart. In an order of the plane, not of the faces or the view.
+fn apart(
+    lit: &Lit,
+    chart: &(dyn Fn(u32) -> Option<Chart> + Sync),
+    figures: &[Figure],
+    mut anchors: Vec<Anchor>,
+) -> Vec<Anchor> {
+    let mesh = lit.mesh;
+    let name = |face: u32| chart(face).map_or(0, |chart| chart.name);
+    let names: Vec<u32> = anchors.iter().map(|anchor| name(anchor.face)).collect();
+    if names.iter().all(|name| *name == names[0]) {
+        return anchors;
+    }
+    let far = |figure: &Figure| {
+        let middle = middle(figure);
+        figure.lines.iter().flatten().map(|p| (*p - middle).abs().max_element()).fold(0.0, f64::max)
+    };
+    let reaches: Vec<f64> = figures.iter().map(far).collect();
+    let normal = |face: u32| {
+        let [a, b, c] = mesh.corners(FaceId(face));
+        (b - a).cross(c - a).normalize_or_zero()
+    };
+    let part = |anchor: &Anchor| mesh.face_part[anchor.face as usize];
+    anchors.sort_by_key(|anchor| {
+        (anchor.is_outer, part(anchor), name(anchor.face), anchor.figure, anchor.place, anchor.face)
+    });
+    let widest = reaches.iter().copied().fold(0.0, f64::max);
+    let cell = |p: DVec3, size: f64| (p / size).floor().to_array().map(|v| v as i64);
+    let mut kept: BTreeMap<(u32, [i64; 3]), Vec<usize>> = BTreeMap::new();
+    let mut stays = vec![true; anchors.len()];
+    for (k, anchor) in anchors.iter().enumerate() {
+        let part = part(anchor).index() as u32;
+        let unit = unit(mesh, chart, anchor.face);
+        let size = 2.0 * widest * unit;
+        if !(size > 0.0 && size.is_finite()) {
+            continue;
+        }
+        let own = name(anchor.face);
+        let [x, y, z] = cell(anchor.at, size);
+        let around = (0..27).map(|n| [x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1]);
+        let is_near = |other: &usize| {
+            let other = &anchors[*other];
+            let reach = (reaches[anchor.figure as usize] + reaches[other.figure as usize]) * unit * NEAR;
+            name(other.face) != own
+                && anchor.at.distance(other.at) < reach
+                && normal(anchor.face).dot(normal(other.face)) > SMOOTH
+        };
+        stays[k] = !around.filter_map(|cell| kept.get(&(part, cell))).flatten().any(is_near);
+        if stays[k] {
+            kept.entry((part, [x, y, z])).or_default().push(k);
+        }
+    }
+    let mut stays = stays.into_iter();
+    anchors.retain(|_| stays.next().unwrap_or(true));
+    anchors
+}
+
+/// Leads figures to the page.
+impl Walker<'_> {
+    /// A figure around its middle, on faces that are shown; none if something of it is behind the eye.
+    fn lay(
+        &self,
+        anchor: &Anchor,
+        figure: &Figure,
+        (shift, offset): (DVec2, Vec2),
+        shows: impl Fn(u32) -> bool,
+    ) -> Option<Laid> {
+        let frame = &self.lit.view.frame;
+        let on_page = |p: DVec3| {
+            let image = frame.image_from_local(p);
+            image.is_finite().then(|| (Point::new(image.x, image.y) + offset, image.z))
+        };
+        let mut asked = if anchor.is_outer { Vec::new() } else { vec![on_page(anchor.at)?] };
+        let mut lines = Vec::with_capacity(figure.lines.len());
+        for line in &figure.lines {
+            let mut points = Vec::with_capacity(line.len());
+            let mut face = anchor.face;
+            let every = line.len().div_ceil(ASKED);
+            for (k, p) in line.iter().enumerate() {
+                // Neighbours are on the same face, mostly.
+                let (at, there, is_on) = match self.find(face, *p + shift) {
+                    Some(at) => (at, face, true),
+                    None => self.walk(anchor.face, *p + shift, &shows)?,
+                };
+                let (point, nearness) = on_page(at)?;
+                points.push(point);
+                if is_on {
+                    face = there;
+                    if k % every == 0 {
+                        asked.push((point, nearness));
+                    }
+                }
+            }
+            lines.push(points);
+        }
+        Some(Laid { figure: anchor.figure, lines, asked })
+    }
+
+    /// Figures whose middles lie beyond a face on the border of the plane.
+    fn beyond_border(&self, face: u32, figures: &[Figure], middles: &[DVec2]) -> Vec<Anchor> {
+        let mut found = Vec::new();
+        let is_degenerate = self.lit.mesh.is_degenerate(FaceId(face));
+        let Some(own) = (self.chart)(face).filter(|_| !is_degenerate) else { return found };
+        if (0..3).all(|corner| self.next(face, &own, corner).is_some()) {
+            return found;
+        }
+        let [a, b, c] = own.corners;
+        for (number, (figure, middle)) in figures.iter().zip(middles).enumerate() {
+            let points = figure.lines.iter().flatten();
+            let half = points.fold(DVec2::ZERO, |most, p| most.max((*p - *middle).abs()));
+            let low = ((a.min(b).min(c) - half - *middle) / figure.period).ceil();
+            let high = ((a.max(b).max(c) + half - *middle) / figure.period).floor();
+            let size = high - low + 1.0;
+            let many = size.x.max(1.0) * size.y.max(1.0);
+            if many.is_nan() || many >= MOST_FIGURES {
+                continue;
+            }
+            for j in low.y as i64..=high.y as i64 {
+                for i in low.x as i64..=high.x as i64 {
+                    let p = *middle + figure.period * DVec2::new(i as f64, j as f64);
+                    // What lies on a face is known, but where it lies on the very border.
+                    if let Some((at, last, is_on)) = self.walk(face, p, |_| true) {
+                        let (figure, place) = (number as u32, [i, j]);
+                        found.push(Anchor { figure, face: last, place, at, is_outer: !is_on });
+                    }
+                }
+            }
+        }
+        found
+    }
+}

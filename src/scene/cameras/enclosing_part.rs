@@ -1,0 +1,83 @@
+//! Whether a point lies inside a part, as a camera that one has put into the model by mistake does.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use crate::geometry::numbers::portable_math::atan2;
+use crate::scene::{Part, Scene};
+
+/// Triangles handled at once by one thread.
+const CHUNK: usize = 1 << 14;
+
+impl Scene {
+    /// The first part whose surface goes round a point (world), seen from outside: the winding number of its triangles is nearer to 1
+    /// than to 0. A room, whose faces look inwards, goes round nothing.
+    ///
+    /// Source: solid angles of triangles, Van Oosterom and Strackee, *The solid angle of a plane triangle*, 1983, equation 8; what is open
+    /// goes round a point partly (Jacobson and others, *Robust inside-outside segmentation using generalized winding numbers*, 2013).
+    #[must_use]
+    pub fn part_round(&self, point: DVec3) -> Option<&Part> {
+        self.parts.iter().find(|part| self.winding(part, point).is_some_and(|turns| turns > 0.5))
+    }
+
+    /// How often a part goes round a point; none where the point is not even in the box round it.
+    fn winding(&self, part: &Part, point: DVec3) -> Option<f64> {
+        let geometry = self.geometry_of(part)?;
+        let place = part.world_from_part.inverse().transform_point3(point);
+        if !place.is_finite() {
+            return None;
+        }
+        let low = geometry.positions.iter().copied().fold(DVec3::INFINITY, DVec3::min);
+        let high = geometry.positions.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);
+        if !(place.cmpge(low).all() && place.cmple(high).all()) {
+            return None;
+        }
+        let solid_angle = |triangle: &[u32; 3]| {
+            let corner = |vertex: u32| geometry.positions.get(vertex as usize).map(|p| *p - place);
+            let [Some(a), Some(b), Some(c)] = triangle.map(corner) else { return 0.0 };
+            let (la, lb, lc) = (a.length(), b.length(), c.length());
+            let across = a.dot(b.cross(c));
+            let along = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+            2.0 * atan2(across, along)
+        };
+        let of_chunk = |chunk: &[[u32; 3]]| chunk.iter().map(solid_angle).sum::<f64>();
+        // Summed in order: the same on any number of threads.
+        let chunks: Vec<f64> = geometry.triangles.par_chunks(CHUNK).map(of_chunk).collect();
+        // A mirrored part is turned right side out again: what is inside it as it is stored is inside.
+        Some(chunks.iter().sum::<f64>() / (4.0 * std::f64::consts::PI))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DAffine3;
+
+    use super::*;
+
+    fn tetrahedron(inwards: bool) -> Scene {
+        let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+        let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let faces = faces.map(|[a, b, c]| if inwards { [a, c, b] } else { [a, b, c] });
+        Scene::from_triangles(corners, faces).unwrap()
+    }
+
+    #[test]
+    fn what_is_inside_is_told_from_what_is_beside() {
+        let scene = tetrahedron(false);
+        assert!(scene.part_round(DVec3::splat(0.2)).is_some());
+        assert!(scene.part_round(DVec3::splat(0.4)).is_none());
+        assert!(scene.part_round(DVec3::splat(2.0)).is_none());
+        assert!(scene.part_round(DVec3::NAN).is_none());
+        assert!(tetrahedron(true).part_round(DVec3::splat(0.2)).is_none());
+    }
+
+    #[test]
+    fn mirrored_parts_have_the_same_inside() {
+        let mut scene = tetrahedron(false);
+        scene.parts[0].world_from_part = DAffine3::from_scale(DVec3::new(-1.0, 2.0, 1.0));
+        assert!(scene.part_round(DVec3::new(-0.2, 0.4, 0.2)).is_some());
+        assert!(scene.part_round(DVec3::new(0.2, 0.4, 0.2)).is_none());
+        scene.parts[0].world_from_part = DAffine3::from_scale(DVec3::new(1.0, 1.0, 0.0));
+        assert!(scene.part_round(DVec3::splat(0.2)).is_none());
+    }
+}

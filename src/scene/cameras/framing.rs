@@ -1,0 +1,343 @@
+//! Framing: moves a camera along its line of sight and sideways until a whole model fills its
+//! frame.
+//!
+//! With the eye at `e` and a point at `p` in the camera's axes (x right, y up, z forward), the
+//! point is inside the frame's right side when `p.x - e.x <= t (p.z - e.z)`, with `t` the tangent
+//! of half the horizontal angle of view. So each of the four sides is a plane whose position is
+//! one maximum over all points, `max(p.x - t p.z)`, and the nearest eye from which everything is
+//! seen follows from two opposite planes: exact, from the vertices and not from their box.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use crate::geometry::numbers::portable_math::tan;
+pub use crate::scene::extent::coordinate_limits::bounds;
+use crate::scene::extent::drawn_points::DrawnPoints;
+use crate::scene::{Camera, Projection, Scene};
+
+/// Share of the frame (of its shorter side) that a fitted model leaves free on each side.
+pub const MARGIN: f64 = 0.05;
+
+/// A perspective eye stays at least this share of the model's diagonal in front of it: matters
+/// only for models that are thin as seen from the eye, such as a rod seen end-on.
+const NEAREST_EYE: f64 = 0.02;
+
+/// A parallel view spans at least this share of the model's diagonal, for the same reason.
+const LEAST_SPAN: f64 = 1e-6;
+
+/// Points handled at once by one thread.
+const CHUNK: usize = 1 << 14;
+
+/// Points in one box.
+const BLOCK: usize = 1 << 8;
+
+/// Newton steps of the centring; each but the last passes a vertex of a convex polyline, and three
+/// or four are usual.
+const CENTRING_STEPS: usize = 32;
+
+impl Camera {
+    /// A camera with this line of sight, moved so that the whole scene fills the frame, with a margin of
+    /// [`MARGIN`] on the sides that it touches, and centred.
+    ///
+    /// A scene without anything to draw leaves the camera as it was.
+    #[must_use]
+    pub fn fit(self, scene: &Scene) -> Self {
+        self.fit_points(&world_points(scene), MARGIN)
+    }
+
+    /// A camera with this line of sight, moved so that all `points` (world) lie in the frame, with a margin
+    /// of `margin` (0 to below 0.5) of the frame's shorter side on the sides that they touch, and
+    /// centred. A parallel view changes its height, a perspective view its distance.
+    ///
+    /// Points that are not finite are passed over; without any the camera stays as it was. A
+    /// single point is framed as if it were a ball of radius 1.
+    #[must_use]
+    pub fn fit_points(self, points: &[DVec3], margin: f64) -> Self {
+        let Some((low, high)) = bounds(points) else { return self };
+        let centre = low / 2.0 + high / 2.0;
+        let [right, up, forward] = self.axes();
+        // Relative to the centre, so that a model far from the origin loses nothing.
+        let local = Cloud::new(points, |p| {
+            let p = p - centre;
+            DVec3::new(p.dot(right), p.dot(up), p.dot(forward))
+        });
+        let diagonal = match (high - low).length() {
+            0.0 => 2.0,
+            diagonal => diagonal,
+        };
+        let free = 2.0 * margin.clamp(0.0, 0.49) * self.width.min(self.height);
+        let frame = (self.width - free, self.height - free);
+        let (eye, projection) = match self.projection {
+            Projection::Perspective { fov_y_deg } => {
+                let y = tan(fov_y_deg.to_radians() / 2.0);
+                let tangents = (y * frame.0 / self.height, y * frame.1 / self.height);
+                (perspective_eye(&local, tangents, diagonal), self.projection)
+            }
+            Projection::Orthographic { .. } => {
+                let (eye, height) = parallel_eye(&local, frame, self.height, diagonal);
+                (eye, Projection::Orthographic { height })
+            }
+        };
+        let aside = centre + right * eye.x + up * eye.y;
+        Self { eye: aside + forward * eye.z, target: aside, projection, ..self }
+    }
+}
+
+/// Points in the camera's axes, with a box round every few of them: whatever lies farthest in some
+/// direction is found without looking at most of them. Each maximum is exact, and the same
+/// whatever the order of the points.
+struct Cloud {
+    points: Vec<DVec3>,
+    /// Least and greatest coordinates of each [`BLOCK`] of points.
+    boxes: Vec<(DVec3, DVec3)>,
+}
+
+impl Cloud {
+    /// All finite points, placed in the camera's axes.
+    fn new(points: &[DVec3], place: impl Fn(DVec3) -> DVec3 + Sync) -> Self {
+        // A point that stands twice changes nothing.
+        let finite = points.iter().copied().find(|p| p.is_finite()).unwrap_or_default();
+        let placed =
+            points.par_iter().with_min_len(CHUNK).map(|&p| place(if p.is_finite() { p } else { finite }));
+        let points: Vec<DVec3> = placed.collect();
+        let boxes = points.par_chunks(BLOCK).with_min_len(CHUNK / BLOCK).map(box_round).collect();
+        Self { points, boxes }
+    }
+
+    /// The greatest product of a point with `direction`, and the depth of a point that attains it;
+    /// of several such points the farthest.
+    fn farthest(&self, direction: DVec3) -> (f64, f64) {
+        // Rounding keeps the order of products and sums, so no point is beyond this.
+        let beyond = |(low, high): &(DVec3, DVec3)| {
+            product(DVec3::select(direction.cmpge(DVec3::ZERO), *high, *low), direction)
+        };
+        let mut best = (f64::NEG_INFINITY, f64::NEG_INFINITY);
+        let mut look = |points: &[DVec3]| {
+            for p in points {
+                let found = (product(*p, direction), p.z);
+                if found > best {
+                    best = found;
+                }
+            }
+            best.0
+        };
+        // The box that reaches farthest first: then most others need no look.
+        let reaches: Vec<f64> = self.boxes.iter().map(beyond).collect();
+        let first =
+            reaches.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(block, _)| block);
+        let blocks = || self.points.chunks(BLOCK);
+        let mut reached = blocks().nth(first).map_or(f64::NEG_INFINITY, &mut look);
+        for (reach, points) in reaches.into_iter().zip(blocks()) {
+            if reach < reached {
+                continue;
+            }
+            reached = look(points);
+        }
+        best
+    }
+
+    /// The greatest product of any point with `direction`.
+    fn reach(&self, direction: DVec3) -> f64 {
+        self.farthest(direction).0
+    }
+}
+
+/// Always summed in this order.
+#[inline]
+fn product(p: DVec3, direction: DVec3) -> f64 {
+    p.x * direction.x + p.y * direction.y + p.z * direction.z
+}
+
+fn box_round(points: &[DVec3]) -> (DVec3, DVec3) {
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    points.iter().fold(nothing, |(low, high), p| (low.min(*p), high.max(*p)))
+}
+
+/// Eye, in the camera's axes, that sees all points within the given half angles.
+fn perspective_eye(points: &Cloud, (tx, ty): (f64, f64), diagonal: f64) -> DVec3 {
+    // Positions of the four planes: right, left, top, bottom; and of the nearest point.
+    let reach = |x, y, z| points.reach(DVec3::new(x, y, z));
+    let (r, l) = (reach(1.0, 0.0, -tx), reach(-1.0, 0.0, -tx));
+    let (t, b) = (reach(0.0, 1.0, -ty), reach(0.0, -1.0, -ty));
+    let near = reach(0.0, 0.0, -1.0);
+    let z = (-(r + l) / (2.0 * tx)).min(-(t + b) / (2.0 * ty)).min(-near - NEAREST_EYE * diagonal);
+    DVec3::new(centred(points, tx, z, DVec3::X), centred(points, ty, z, DVec3::Y), z)
+}
+
+/// Where the eye must be along the axis `side`, at the depth `eye_z`, for the picture of the points
+/// to leave as much free on the one side as on the other.
+///
+/// The narrowest angle that holds the points is the zero of a convex, falling function of its
+/// tangent, `max(x - t z) + max(-x - t z) + 2 t eye_z`; Newton's method from 0 never oversteps it.
+fn centred(points: &Cloud, widest: f64, eye_z: f64, side: DVec3) -> f64 {
+    let mut t = 0.0;
+    let mut x = 0.0;
+    for _ in 0..CENTRING_STEPS {
+        let plus = points.farthest(side - t * DVec3::Z);
+        let minus = points.farthest(-side - t * DVec3::Z);
+        let excess = plus.0 + minus.0 + 2.0 * t * eye_z;
+        x = (plus.0 - minus.0) / 2.0;
+        let fall = plus.1 + minus.1 - 2.0 * eye_z;
+        let next = t + excess / fall;
+        if next <= t || next.is_nan() {
+            break;
+        }
+        t = next.min(widest);
+    }
+    x
+}
+
+/// Eye and picture height, in the camera's axes, of a parallel view of all points.
+fn parallel_eye(points: &Cloud, frame: (f64, f64), height: f64, diagonal: f64) -> (DVec3, f64) {
+    let [r, l, t, b, near] =
+        [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::NEG_Z].map(|axis| points.reach(axis));
+    let span = ((r + l) * height / frame.0).max((t + b) * height / frame.1);
+    let span = if span < LEAST_SPAN * diagonal { diagonal * height / frame.0.min(frame.1) } else { span };
+    (DVec3::new((r - l) / 2.0, (t - b) / 2.0, -near - diagonal), span)
+}
+
+/// World positions of all vertices that are drawn, part by part: those of triangles with an area and of wires with a length. What
+/// [`Scene::to_soup`] leaves out is left out here.
+#[must_use]
+pub fn world_points(scene: &Scene) -> Vec<DVec3> {
+    DrawnPoints::of(scene).points
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DAffine3;
+
+    use super::*;
+    use crate::scene::{Geometry, NamedView, Part, UpAxis};
+
+    /// Where a point is in the frame: 0 to 1 from left to right and from top to bottom.
+    fn place(camera: &Camera, p: DVec3) -> (f64, f64) {
+        let [right, up, forward] = camera.axes();
+        let d = p - camera.eye;
+        let half = match camera.projection {
+            Projection::Perspective { fov_y_deg } => tan(fov_y_deg.to_radians() / 2.0) * d.dot(forward),
+            Projection::Orthographic { height } => height / 2.0,
+        };
+        assert!(d.dot(forward) > 0.0, "behind the eye");
+        let aspect = camera.width / camera.height;
+        (0.5 + d.dot(right) / (2.0 * half * aspect), 0.5 - d.dot(up) / (2.0 * half))
+    }
+
+    /// Free shares of the frame: left, right, top, bottom.
+    fn free(camera: &Camera, points: &[DVec3]) -> [f64; 4] {
+        points.iter().fold([f64::INFINITY; 4], |[l, r, t, b], &p| {
+            let (x, y) = place(camera, p);
+            [l.min(x), r.min(1.0 - x), t.min(y), b.min(1.0 - y)]
+        })
+    }
+
+    fn cameras() -> Vec<Camera> {
+        let mut cameras: Vec<Camera> =
+            NamedView::ALL.into_iter().map(|view| Camera::named(view, UpAxis::Z)).collect();
+        for (azimuth, elevation) in [(35.0, 22.0), (200.0, -70.0), (0.0, 90.0), (-61.0, 3.0)] {
+            let camera = Camera::azimuth_elevation(azimuth, elevation, UpAxis::Z);
+            for fov_y_deg in [1.0, 35.0, 70.0] {
+                cameras.push(camera.with_projection(Projection::Perspective { fov_y_deg }));
+            }
+        }
+        let shapes = [(1000.0, 1000.0), (1600.0, 400.0), (190.0, 277.0)];
+        shapes.into_iter().flat_map(|(w, h)| cameras.iter().map(move |c| c.with_frame(w, h))).collect()
+    }
+
+    /// An uneven, slanted cloud of points.
+    fn cloud(offset: DVec3, scale: f64) -> Vec<DVec3> {
+        let mut state = 7_u64;
+        let mut random = || {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        let mut point = || {
+            let (x, y, z) = (random(), random(), random());
+            offset + scale * DVec3::new(3.0 * x, y * y + 0.3 * x, 2.0 * z * x)
+        };
+        (0..500).map(|_| point()).collect()
+    }
+
+    #[test]
+    fn the_model_touches_the_margin_and_is_centred() {
+        for camera in cameras() {
+            let points = cloud(DVec3::ZERO, 1.0);
+            let fitted = camera.fit_points(&points, MARGIN);
+            assert_eq!(fitted.validate(), Ok(()));
+            let [l, r, t, b] = free(&fitted, &points);
+            assert!((l - r).abs() < 1e-9 && (t - b).abs() < 1e-9, "not centred: {l} {r} {t} {b} {camera:?}");
+            let side = camera.width.min(camera.height);
+            let (across, down) = (MARGIN * side / camera.width, MARGIN * side / camera.height);
+            assert!(l > across - 1e-9 && t > down - 1e-9, "outside: {l} {t} {camera:?}");
+            assert!(l < across + 1e-9 || t < down + 1e-9, "not tight: {l} {t} {camera:?}");
+        }
+    }
+
+    #[test]
+    fn the_line_of_sight_stays() {
+        for camera in cameras() {
+            let fitted = camera.fit_points(&cloud(DVec3::new(5.0, -3.0, 1.0), 1.0), MARGIN);
+            let turn = camera.axes().into_iter().zip(fitted.axes()).map(|(a, b)| (a - b).length());
+            assert!(turn.into_iter().all(|turn| turn < 1e-9));
+        }
+    }
+
+    #[test]
+    fn size_and_place_of_the_model_change_nothing() {
+        for (offset, scale) in [(4.6e6, 10.0), (0.0, 3e-6), (1e9, 3e9)] {
+            for camera in cameras() {
+                let points = cloud(DVec3::splat(offset), scale);
+                let there = free(&camera.fit_points(&points, MARGIN), &points);
+                let points = cloud(DVec3::ZERO, 1.0);
+                let here = free(&camera.fit_points(&points, MARGIN), &points);
+                assert!(here.into_iter().zip(there).all(|(a, b)| (a - b).abs() < 1e-5), "{here:?} {there:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn flat_and_empty_models_are_framed() {
+        let single = [DVec3::new(3.0, 4.0, 5.0)];
+        let repeated = [DVec3::ONE; 4];
+        let line = [DVec3::ZERO, DVec3::X];
+        let upright = [DVec3::ZERO, DVec3::Z, DVec3::Z * 3.0];
+        let sheet = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::X + DVec3::Y];
+        let holed = [DVec3::ZERO, DVec3::NAN, DVec3::ONE, DVec3::INFINITY];
+        for points in [&single[..], &repeated, &line, &upright, &sheet, &holed] {
+            for camera in cameras() {
+                let fitted = camera.fit_points(points, MARGIN);
+                assert_eq!(fitted.validate(), Ok(()), "{points:?} {camera:?}");
+                let finite: Vec<DVec3> = points.iter().copied().filter(|p| p.is_finite()).collect();
+                let inside = free(&fitted, &finite).into_iter().all(|free| free > 0.01);
+                assert!(inside, "{points:?} {camera:?} {fitted:?}");
+            }
+        }
+        let camera = Camera::three_quarter();
+        assert_eq!(camera.fit_points(&[], MARGIN), camera);
+        assert_eq!(camera.fit_points(&[DVec3::NAN], MARGIN), camera);
+    }
+
+    #[test]
+    fn only_what_is_drawn_is_framed() {
+        let geometry = Geometry {
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::splat(1e6), DVec3::Z],
+            triangles: vec![[0, 1, 2]],
+            wires: vec![[0, 4]],
+            ..Geometry::default()
+        };
+        let part = |name: &str, world_from_part| Part { name: name.to_owned(), geometry: 0, world_from_part };
+        let scene = Scene {
+            geometries: vec![geometry, Geometry::default()],
+            parts: vec![
+                part("a", DAffine3::IDENTITY),
+                part("b", DAffine3::from_translation(DVec3::splat(10.0))),
+            ],
+            ..Scene::default()
+        };
+        let points = world_points(&scene);
+        assert_eq!(points.len(), 8);
+        assert_eq!(bounds(&points), Some((DVec3::ZERO, DVec3::splat(11.0))));
+        let fitted = Camera::three_quarter().fit(&scene);
+        assert_eq!(fitted, Camera::three_quarter().fit_points(&points, MARGIN));
+    }
+}

@@ -1,0 +1,356 @@
+//! [`DrawnPoints`]: the points of a scene that count in its size: those of faces with an area and of wires with a length.
+//!
+//! Whether a face has an area is decided as the mesh decides it, by the scale of its part, whose box does not hold such
+//! faces either. Most models have none: then one look at each face is all there is to do.
+
+use std::borrow::Cow;
+use std::ops::Range;
+use std::sync::atomic::AtomicBool;
+use std::sync::atomic::Ordering::Relaxed;
+
+use crate::parallel::prelude::*;
+use glam::{DAffine3, DVec3};
+use rustc_hash::FxHashMap;
+
+use super::coordinate_limits::{bounds, is_drawable};
+use crate::mesh::normals::triangle_area::{has_area, has_own_area, largest_scale, scale_of};
+use crate::mesh::part_extents::origin;
+use crate::parallel::task_size::GRAIN;
+use crate::scene::{Geometry, Part, Scene};
+
+/// The points that are drawn, part by part.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct DrawnPoints {
+    /// World positions, each vertex of a part once.
+    pub points: Vec<DVec3>,
+    /// The parts that can be drawn, in the order of the scene.
+    pub parts: Vec<DrawnPart>,
+}
+
+/// What is drawn of a part.
+#[derive(Debug, Clone)]
+pub(crate) struct DrawnPart {
+    /// Its number in the scene.
+    #[cfg_attr(not(any(feature = "cli", feature = "page")), expect(dead_code))]
+    pub part: usize,
+    /// Its points among all.
+    pub points: Range<usize>,
+    /// The faces and wires of it that are left out.
+    #[cfg_attr(not(feature = "cli"), expect(dead_code))]
+    pub left_out: LeftOut,
+}
+
+/// Faces without area and wires without length.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub(crate) struct LeftOut {
+    pub faces: u64,
+    pub wires: u64,
+    /// The first corner of the first face, or else of the first wire, world.
+    pub first: Option<DVec3>,
+}
+
+impl LeftOut {
+    /// Whether nothing is left out.
+    #[cfg(feature = "cli")]
+    pub fn is_none(&self) -> bool {
+        self.faces + self.wires == 0
+    }
+}
+
+/// A part that can be placed.
+struct Placed<'a> {
+    part: usize,
+    geometry: &'a Geometry,
+    place: &'a DAffine3,
+}
+
+impl Placed<'_> {
+    fn at(&self, vertex: u32) -> DVec3 {
+        let own = self.geometry.positions.get(vertex as usize).copied().unwrap_or_default();
+        if *self.place == DAffine3::IDENTITY { own } else { self.place.transform_point3(own) }
+    }
+
+    fn corners(&self, triangle: &[u32; 3]) -> [DVec3; 3] {
+        triangle.map(|vertex| self.at(vertex))
+    }
+
+    fn is_long(&self, [a, b]: &[u32; 2]) -> bool {
+        self.at(*a) != self.at(*b)
+    }
+
+    /// The faces that may have no area, ascending; `scale` is at least that of the part.
+    fn suspects(&self, scale: f64) -> Vec<u32> {
+        let faces = self.geometry.triangles.par_iter().with_min_len(GRAIN).enumerate();
+        let suspects = faces.filter(|(_, t)| !has_area(self.corners(t), scale));
+        suspects.map(|(face, _)| face as u32).collect()
+    }
+
+    fn has_short_wires(&self) -> bool {
+        !self.geometry.wires.iter().all(|wire| self.is_long(wire))
+    }
+
+    /// Adds points of the geometry to those of the world.
+    fn add(&self, own: &[DVec3], to: &mut Vec<DVec3>) {
+        if *self.place == DAffine3::IDENTITY {
+            to.extend_from_slice(own);
+        } else {
+            to.par_extend(own.par_iter().with_min_len(GRAIN).map(|&p| self.place.transform_point3(p)));
+        }
+    }
+}
+
+impl DrawnPoints {
+    /// Those of a scene.
+    pub fn of(scene: &Scene) -> Self {
+        Self::of_parts(scene, |_| true)
+    }
+
+    /// Those of some of the parts of a scene.
+    pub fn of_parts(scene: &Scene, is_wanted: impl Fn(&Part) -> bool) -> Self {
+        let wanted = scene.parts.iter().enumerate().filter(|(_, part)| is_wanted(part));
+        let placed = wanted.filter_map(|(number, part)| {
+            let geometry = scene.geometry_of(part)?;
+            Some(Placed { part: number, geometry, place: &part.world_from_part })
+        });
+        Self::of_placed(placed.collect())
+    }
+
+    /// The points of a geometry, in its own space.
+    pub fn of_geometry(geometry: &Geometry) -> Vec<DVec3> {
+        Self::of_placed(vec![Placed { part: 0, geometry, place: &DAffine3::IDENTITY }]).points
+    }
+
+    fn of_placed(mut placed: Vec<Placed>) -> Self {
+        let mut all = Self::default();
+        // Instances of a shape share the list of its points.
+        let mut known: FxHashMap<*const Geometry, Cow<[DVec3]>> = FxHashMap::default();
+        placed.retain(|own| {
+            let first = all.points.len();
+            let used =
+                known.entry(std::ptr::from_ref(own.geometry)).or_insert_with(|| used_points(own.geometry));
+            own.add(used, &mut all.points);
+            let points = all.points.get(first..).unwrap_or_default();
+            // A part with coordinates that are no finite numbers is not drawn.
+            let is_drawn = points.par_iter().with_min_len(GRAIN).all(|&p| is_drawable(p));
+            if is_drawn {
+                let points = first..all.points.len();
+                all.parts.push(DrawnPart { part: own.part, points, left_out: LeftOut::default() });
+            } else {
+                all.points.truncate(first);
+            }
+            is_drawn
+        });
+        all.without_flat(&placed).unwrap_or(all)
+    }
+
+    /// The same without what has neither area nor length; none if all has, or nothing.
+    fn without_flat(&self, placed: &[Placed]) -> Option<Self> {
+        let (low, high) = bounds(&self.points)?;
+        let largest = largest_scale(low, high);
+        let doubtful = |own: &Placed| {
+            let suspects = own.suspects(largest);
+            let is_whole = suspects.is_empty() && !own.has_short_wires();
+            (!is_whole).then(|| Doubtful::of(own, suspects))
+        };
+        let doubtful: Vec<Option<Doubtful>> = placed.iter().map(doubtful).collect();
+        if doubtful.iter().all(Option::is_none) {
+            return None;
+        }
+        let whole = |part: &DrawnPart| bounds(self.points.get(part.points.clone()).unwrap_or_default());
+        let parts = || placed.iter().zip(&self.parts).zip(&doubtful);
+        let boxes = parts().filter_map(|((own, part), doubtful)| match doubtful {
+            Some(doubtful) => doubtful.bounds(own, has_own_area),
+            None => whole(part),
+        });
+        let (low, high) = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((low, high));
+        // From here on as the mesh measures: relative to its origin.
+        let origin = origin(low, high);
+        let mut all = Self::default();
+        for ((own, part), doubtful) in parts() {
+            let first = all.points.len();
+            let mut left_out = LeftOut::default();
+            if let Some(doubtful) = doubtful {
+                let counted = doubtful.bounds(own, |corners| has_own_area(corners.map(|p| p - origin)));
+                let scale = counted.or(whole(part)).map_or(0.0, |(l, h)| scale_of(l - origin, h - origin));
+                let has_area = |corners: [DVec3; 3]| has_area(corners.map(|p| p - origin), scale);
+                own.add(&doubtful.counted(own, has_area), &mut all.points);
+                left_out = doubtful.left_out(own, has_area);
+            } else {
+                all.points.extend_from_slice(self.points.get(part.points.clone()).unwrap_or_default());
+            }
+            all.parts.push(DrawnPart { part: own.part, points: first..all.points.len(), left_out });
+        }
+        if all.points.is_empty() {
+            // Nothing has an area: a camera looks at it all the same.
+            all.points.clone_from(&self.points);
+            for (part, whole) in all.parts.iter_mut().zip(&self.parts) {
+                part.points = whole.points.clone();
+            }
+        }
+        Some(all)
+    }
+}
+
+/// A part with faces that may have no area, or with wires of no length.
+struct Doubtful {
+    /// The faces that may have no area, ascending.
+    suspects: Vec<u32>,
+    /// For each vertex whether another face or a wire with a length uses it.
+    used: Vec<bool>,
+    /// The box around these vertices, world; empty without any.
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Doubtful {
+    fn of(own: &Placed, suspects: Vec<u32>) -> Self {
+        let mut is_suspect = vec![false; own.geometry.triangles.len()];
+        suspects.iter().for_each(|face| is_suspect[*face as usize] = true);
+        let used = used(own.geometry, |face| !is_suspect[face], |wire| own.is_long(wire));
+        let vertices = used.par_iter().enumerate().with_min_len(GRAIN).filter(|(_, used)| **used);
+        let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let grow = |(low, high): (DVec3, DVec3), (vertex, _): (usize, &bool)| {
+            let p = own.at(vertex as u32);
+            (low.min(p), high.max(p))
+        };
+        let join = |a: (DVec3, DVec3), b: (DVec3, DVec3)| (a.0.min(b.0), a.1.max(b.1));
+        let (low, high) = vertices.fold(|| nothing, grow).reduce(|| nothing, join);
+        Self { suspects, used, low, high }
+    }
+
+    /// The suspects for which `counts` holds, or does not.
+    fn those<'a>(
+        &'a self,
+        own: &'a Placed,
+        counts: impl Fn([DVec3; 3]) -> bool + 'a,
+        wanted: bool,
+    ) -> impl Iterator<Item = &'a [u32; 3]> {
+        let faces = self.suspects.iter().map(|face| &own.geometry.triangles[*face as usize]);
+        faces.filter(move |t| counts(own.corners(t)) == wanted)
+    }
+
+    /// The box around all but the suspects for which `counts` does not hold, world.
+    fn bounds(&self, own: &Placed, counts: impl Fn([DVec3; 3]) -> bool) -> Option<(DVec3, DVec3)> {
+        let real = self.those(own, counts, true).flatten();
+        let real = real.filter(|corner| (**corner as usize) < self.used.len());
+        let (low, high) = real.fold((self.low, self.high), |(low, high), corner| {
+            let p = own.at(*corner);
+            (low.min(p), high.max(p))
+        });
+        (low.x <= high.x).then_some((low, high))
+    }
+
+    /// The vertices of all but the suspects for which `counts` does not hold, in the space of the part.
+    fn counted(&self, own: &Placed, counts: impl Fn([DVec3; 3]) -> bool) -> Vec<DVec3> {
+        let mut used = self.used.clone();
+        for corner in self.those(own, counts, true).flatten() {
+            if let Some(used) = used.get_mut(*corner as usize) {
+                *used = true;
+            }
+        }
+        let kept = own.geometry.positions.iter().zip(used).filter(|(_, used)| *used);
+        kept.map(|(p, _)| *p).collect()
+    }
+
+    fn left_out(&self, own: &Placed, has_area: impl Fn([DVec3; 3]) -> bool) -> LeftOut {
+        let is_short = |wire: &&[u32; 2]| !own.is_long(wire);
+        let wires = || own.geometry.wires.iter().filter(is_short);
+        let first_face = self.those(own, &has_area, false).next().map(|t| own.at(t[0]));
+        LeftOut {
+            faces: self.those(own, &has_area, false).count() as u64,
+            wires: wires().count() as u64,
+            first: first_face.or_else(|| wires().next().map(|wire| own.at(wire[0]))),
+        }
+    }
+}
+
+/// The positions that triangles or wires use, each once; usually all.
+pub(crate) fn used_points(geometry: &Geometry) -> Cow<'_, [DVec3]> {
+    let used = used(geometry, |_| true, |_| true);
+    if used.iter().all(|used| *used) {
+        return Cow::Borrowed(&geometry.positions);
+    }
+    geometry.positions.iter().zip(used).filter_map(|(&p, used)| used.then_some(p)).collect()
+}
+
+/// For each position whether some of the triangles, by number, or of the wires use it.
+fn used(
+    geometry: &Geometry,
+    faces: impl Fn(usize) -> bool + Sync,
+    wires: impl Fn(&[u32; 2]) -> bool,
+) -> Vec<bool> {
+    let used: Vec<AtomicBool> = geometry.positions.iter().map(|_| AtomicBool::new(false)).collect();
+    let mark = |corner: &u32| {
+        if let Some(used) = used.get(*corner as usize) {
+            used.store(true, Relaxed);
+        }
+    };
+    let counted =
+        geometry.triangles.par_iter().with_min_len(GRAIN).enumerate().filter(|(face, _)| faces(*face));
+    counted.for_each(|(_, corners)| corners.iter().for_each(mark));
+    geometry.wires.iter().filter(|ends| wires(ends)).for_each(|ends| ends.iter().for_each(mark));
+    used.into_iter().map(AtomicBool::into_inner).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::cameras::framing::world_points;
+
+    /// A tetrahedron, and far away a face without area, a face of one place and a wire without length.
+    fn scene(far: f64) -> Scene {
+        let at = |x: f64, y: f64| DVec3::new(far + x, far * 0.7 + y, 0.3 * far);
+        let positions = vec![
+            DVec3::ZERO,
+            DVec3::X,
+            DVec3::Y,
+            DVec3::Z,
+            at(0.0, 0.0),
+            at(1.0, 0.5),
+            at(2.0, 1.0),
+            at(5.0, 5.0),
+            DVec3::ONE * -far,
+        ];
+        let triangles = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3], [4, 5, 6], [7, 7, 7]];
+        let geometry = Geometry { positions, triangles, wires: vec![[7, 7]], ..Geometry::default() };
+        let part = Part { name: "a".to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY };
+        Scene { geometries: vec![geometry], parts: vec![part], ..Scene::default() }
+    }
+
+    #[test]
+    fn what_has_no_area_and_no_length_does_not_count() {
+        for far in [0.5, 1e3, -1e7] {
+            let scene = scene(far);
+            let drawn = DrawnPoints::of(&scene);
+            assert_eq!(drawn.points, [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z], "{far}");
+            let left_out = drawn.parts[0].left_out;
+            assert_eq!((left_out.faces, left_out.wires), (2, 1));
+            assert_eq!(left_out.first, Some(scene.geometries[0].positions[4]));
+            assert_eq!(scene.bounds(), Some((DVec3::ZERO, DVec3::ONE)));
+            // The mesh leaves out the same.
+            let cleaning = crate::mesh::Mesh::build(scene.to_soup()).cleaning;
+            assert_eq!((cleaning.degenerate > 0, cleaning.collapsed, cleaning.short_wires), (true, 1, 1));
+        }
+    }
+
+    #[test]
+    fn instances_count_where_they_stand() {
+        let mut scene = scene(1e4);
+        let place = DAffine3::from_translation(DVec3::new(3.0, 0.0, 0.0)) * DAffine3::from_rotation_z(0.4);
+        scene.parts.push(Part { name: "b".to_owned(), geometry: 0, world_from_part: place });
+        let mut alone = scene.clone();
+        alone.geometries[0].triangles.truncate(4);
+        alone.geometries[0].wires.clear();
+        assert_eq!(world_points(&scene), world_points(&alone));
+        let drawn = DrawnPoints::of_parts(&scene, |part| part.name == "b");
+        assert_eq!((drawn.parts[0].part, drawn.points.len()), (1, 4));
+    }
+
+    #[test]
+    fn a_scene_without_any_area_is_framed_all_the_same() {
+        let mut scene = scene(10.0);
+        scene.geometries[0].triangles.drain(..4);
+        assert_eq!(world_points(&scene).len(), 4);
+        assert_eq!(DrawnPoints::of(&scene).parts[0].left_out.faces, 2);
+    }
+}

@@ -1,0 +1,201 @@
+//! Warns of coordinates whose steps are too coarse for the size of the model, as where a house stands at its place on the map
+//! and its file holds single precision.
+//!
+//! The step of a part is that of single precision at its largest coordinates. In text the numbers show it: either all of them are in
+//! single precision, or they have few decimals. Whole numbers in text are taken to be exact.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use crate::geometry::numbers::tolerance::COARSE_OF_MODEL;
+use crate::parallel::task_size::GRAIN;
+use crate::scene::{Geometry, Scene};
+
+/// The scene, with a warning if its coordinates are too coarse.
+pub(crate) fn checked(mut scene: Scene) -> Scene {
+    warn(&mut scene);
+    scene
+}
+
+/// Warns if the coordinates of a part have steps that are seen where the model is drawn.
+pub(crate) fn warn(scene: &mut Scene) {
+    // Near the origin every format is fine enough, and few models are far from it.
+    let far: Vec<bool> = scene.geometries.iter().map(is_far).collect();
+    if !far.contains(&true) {
+        return;
+    }
+    let Some((low, high)) = scene.bounds() else { return };
+    let size = (high - low).length();
+    let steps: Vec<DVec3> = scene
+        .geometries
+        .iter()
+        .zip(&far)
+        .map(|(geometry, far)| if *far { steps(geometry) } else { DVec3::ZERO })
+        .collect();
+    let mut worst = (COARSE_OF_MODEL * size, "");
+    let mut count = 0_u64;
+    for part in &scene.parts {
+        let Some(step) = scene.geometry_of(part).and_then(|_| steps.get(part.geometry)) else { continue };
+        let turned = part.world_from_part.matrix3;
+        let step = turned.x_axis.abs() * step.x + turned.y_axis.abs() * step.y + turned.z_axis.abs() * step.z;
+        let step = step.max_element();
+        if step > COARSE_OF_MODEL * size {
+            count += 1;
+            if step > worst.0 {
+                worst = (step, part.name.as_str());
+            }
+        }
+    }
+    if count == 0 {
+        return;
+    }
+    let others = match count - 1 {
+        0 => String::new(),
+        others => format!("; {others} more parts like it"),
+    };
+    let (step, name, size) = (short(worst.0), worst.1, short(size));
+    scene.warnings.note(format!(
+        "part `{name}`: its coordinates have steps of {step}, too coarse for a model with a size of {size}: edges are off by as much; \
+         move the model near the origin before it is exported{others}"
+    ));
+}
+
+/// Whether steps of single precision at the largest coordinates would be seen on the geometry alone.
+fn is_far(geometry: &Geometry) -> bool {
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = geometry
+        .positions
+        .par_iter()
+        .with_min_len(GRAIN)
+        .fold(|| nothing, |(low, high), p| (low.min(*p), high.max(*p)))
+        .reduce(|| nothing, |a, b| (a.0.min(b.0), a.1.max(b.1)));
+    let largest = low.abs().max(high.abs()).max_element();
+    largest.is_finite() && single_step(largest) > COARSE_OF_MODEL * (high - low).length()
+}
+
+/// The steps of the coordinates along each axis; 0 where they are all alike.
+fn steps(geometry: &Geometry) -> DVec3 {
+    let all =
+        |holds: &dyn Fn(f64) -> bool| geometry.positions.iter().all(|p| p.to_array().into_iter().all(holds));
+    let is_single = geometry.single_precision
+        || (all(&|value| f64::from(value as f32) == value) && !all(&|value| value.fract() == 0.0));
+    let along = |axis: usize| {
+        let values = geometry.positions.iter().map(|p| p.to_array()[axis]);
+        let (low, high) = values
+            .clone()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
+        if low >= high {
+            return 0.0;
+        }
+        let is_text = !geometry.single_precision;
+        // Two places of a box may have few digits because they need no more.
+        if is_text && values.clone().all(|value| value == low || value == high) {
+            return 0.0;
+        }
+        if is_single {
+            return single_step(low.abs().max(high.abs()));
+        }
+        let divides = |step: f64| values.clone().all(|value| is_multiple(value, step));
+        if divides(1.0) {
+            return 0.0;
+        }
+        // Double precision holds no more decimals of what is far from the origin.
+        (1..=6).map(|digits| 0.1_f64.powi(digits)).find(|step| divides(*step)).unwrap_or(0.0)
+    };
+    DVec3::new(along(0), along(1), along(2))
+}
+
+/// Whether a number is a multiple of a step, except for the rounding of double precision.
+fn is_multiple(value: f64, step: f64) -> bool {
+    let times = value / step;
+    (times - times.round()).abs() <= 4.0 * f64::EPSILON * times.abs()
+}
+
+/// The distance of a number in single precision from the next one.
+fn single_step(value: f64) -> f64 {
+    let value = value as f32;
+    f64::from(value.next_up()) - f64::from(value)
+}
+
+/// A number with three digits that count.
+fn short(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DAffine3;
+
+    use super::*;
+    use crate::scene::Part;
+
+    /// A house of 10.37 by 8.11 by 6 that is turned, at a place.
+    fn house(at: DVec3, single_precision: bool, round: impl Fn(f64) -> f64) -> Scene {
+        let corner = |k: u32| {
+            let [x, y, z] = [10.37, 8.11, 6.0];
+            let p = DVec3::new(x * f64::from(k & 1), y * f64::from(k >> 1 & 1), z * f64::from(k >> 2));
+            let turned = DVec3::new(0.8 * p.x - 0.6 * p.y, 0.6 * p.x + 0.8 * p.y, p.z / 3.0);
+            DVec3::from_array((at + turned).to_array().map(&round))
+        };
+        let geometry = Geometry {
+            positions: (0..8).map(corner).collect(),
+            triangles: vec![[0, 1, 2], [1, 3, 2], [4, 6, 5], [5, 6, 7]],
+            single_precision,
+            ..Geometry::default()
+        };
+        let part = Part { name: "house".into(), geometry: 0, world_from_part: DAffine3::IDENTITY };
+        let mut scene = Scene { geometries: vec![geometry], parts: vec![part], ..Scene::default() };
+        warn(&mut scene);
+        scene
+    }
+
+    const MAP: DVec3 = DVec3::new(451_234.0, 5_412_345.0, 410.0);
+
+    #[test]
+    fn single_precision_far_from_the_origin_is_told() {
+        let single = |value: f64| f64::from(value as f32);
+        let lines = house(MAP, true, single).warnings.lines();
+        assert_eq!(lines.len(), 1);
+        for word in ["part `house`", "steps of 0.5,", "size of 18", "move the model near the origin"] {
+            assert!(lines[0].contains(word), "{word}: {}", lines[0]);
+        }
+        assert!(house(DVec3::ZERO, true, single).warnings.is_empty());
+        // A tenth of a millimetre at ten metres.
+        assert!(house(DVec3::new(1000.0, 0.0, 0.0), true, single).warnings.is_empty());
+    }
+
+    #[test]
+    fn few_decimals_far_from_the_origin_are_told() {
+        let tenths = |value: f64| (value * 10.0).round() / 10.0;
+        assert!(house(MAP, false, tenths).warnings.lines()[0].contains("steps of 0.1,"));
+        let single = |value: f64| f64::from(value as f32);
+        assert!(house(MAP, false, single).warnings.lines()[0].contains("steps of 0.5,"));
+        for fine in [|value: f64| (value * 1e6).round() / 1e6, |value: f64| value, f64::round] {
+            assert!(house(MAP, false, fine).warnings.is_empty(), "{:?}", house(MAP, false, fine).warnings);
+        }
+        assert!(house(DVec3::ZERO, false, tenths).warnings.is_empty());
+        // A box along the axes has places with few decimals, and is exact.
+        let mut scene = house(DVec3::ZERO, false, |value| value);
+        for (k, position) in scene.geometries[0].positions.iter_mut().enumerate() {
+            let side = |bit: usize| if k >> bit & 1 == 0 { 0.5 } else { 10.5 };
+            *position = MAP + DVec3::new(side(0), side(1), side(2));
+        }
+        warn(&mut scene);
+        assert!(scene.warnings.is_empty(), "{}", scene.warnings);
+    }
+
+    #[test]
+    fn what_nodes_move_is_as_fine_as_before() {
+        let mut scene = house(DVec3::ZERO, true, |value| f64::from(value as f32));
+        scene.parts[0].world_from_part = DAffine3::from_translation(MAP);
+        warn(&mut scene);
+        assert!(scene.warnings.is_empty());
+        // A model that is itself large is drawn small.
+        let mut scene = house(MAP, true, |value| f64::from(value as f32));
+        scene.warnings = crate::scene::Warnings::default();
+        let far = DAffine3::from_translation(DVec3::new(1e5, 0.0, 0.0));
+        scene.parts.push(Part { world_from_part: far, ..scene.parts[0].clone() });
+        warn(&mut scene);
+        assert!(scene.warnings.is_empty());
+    }
+}

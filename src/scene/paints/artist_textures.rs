@@ -1,0 +1,126 @@
+//! [`ArtistTextures`]: pictures that a style names, whose changes of colour are drawn as lines on the surfaces of a model.
+
+use std::fmt;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::varying_surface::Varied;
+use crate::colour::pixel_picture::Picture;
+use crate::geometry::names::glob::Glob;
+use crate::mesh::{MaterialId, PaintId};
+use crate::scene::textures::Texture;
+use crate::scene::{Material, Scene};
+
+/// A picture whose changes of colour are drawn as lines.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ArtistTexture {
+    /// A pattern for the names of the materials that it lies on.
+    pub materials: String,
+    /// Its file.
+    pub path: PathBuf,
+    /// What is in the file, once it is read.
+    #[serde(skip)]
+    pub picture: Option<Arc<Picture>>,
+}
+
+/// Pictures whose changes of colour are drawn as lines: one for all materials, or some for materials by name. Of several whose
+/// patterns fit, the one with the longest counts.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct ArtistTextures(pub Vec<ArtistTexture>);
+
+impl ArtistTextures {
+    /// The picture of a material.
+    fn of(&self, material: &Material) -> Option<&Arc<Picture>> {
+        let fits = |own: &&ArtistTexture| Glob::new(own.materials.as_str()).matches(&material.name);
+        // Of patterns of one length the first.
+        self.0.iter().rev().filter(fits).max_by_key(|own| own.materials.len())?.picture.as_ref()
+    }
+
+    /// The picture of each material that has one, in at most so many colours, whose paints are their numbers.
+    pub(crate) fn on(&self, scene: &Scene, count: usize) -> Vec<(MaterialId, Varied)> {
+        if self.0.is_empty() {
+            return Vec::new();
+        }
+        let without = Material::default();
+        let last = scene.materials.len();
+        let mut shown_by: Vec<Vec<[usize; 2]>> = vec![Vec::new(); last + 1];
+        for (index, geometry) in scene.geometries.iter().enumerate() {
+            for triangle in 0..geometry.corner_uvs.len().min(geometry.triangles.len()) {
+                let material = geometry.material_of(triangle).map_or(last, |id| (id as usize).min(last));
+                shown_by[material].push([index, triangle]);
+            }
+        }
+        let materials = scene.materials.iter().chain([&without]).enumerate();
+        let inked = materials.filter_map(|(id, material)| {
+            let picture = self.of(material).filter(|_| !shown_by[id].is_empty())?;
+            let texture = Texture::showing(scene, material, picture);
+            let shown = texture.seen_on(scene, &shown_by[id]);
+            let colours = texture.few(&shown, count);
+            // Behind them what all looks like from afar.
+            let paints = (0..=colours.len()).map(PaintId::from).collect();
+            let mean = texture.mean(&shown);
+            Some((id.into(), Varied::new(Some(texture.painted(shown, &colours, mean)), None, paints)))
+        });
+        inked.collect()
+    }
+}
+
+impl<'de> Deserialize<'de> for ArtistTextures {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(Paths)
+    }
+}
+
+/// Reads one path, or a table of patterns and paths.
+struct Paths;
+
+impl<'de> Visitor<'de> for Paths {
+    type Value = ArtistTextures;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("the path of a picture, or a table of material names and paths")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, path: &str) -> Result<ArtistTextures, E> {
+        let all = ArtistTexture { materials: "*".to_owned(), path: path.into(), picture: None };
+        Ok(ArtistTextures(if path.is_empty() { Vec::new() } else { vec![all] }))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<ArtistTextures, A::Error> {
+        let mut all = Vec::new();
+        while let Some((materials, path)) = map.next_entry()? {
+            all.push(ArtistTexture { materials, path, picture: None });
+        }
+        Ok(ArtistTextures(all))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_longest_pattern_that_fits_names_the_picture() {
+        let picture = |width: usize| {
+            Some(Arc::new(Picture {
+                width,
+                height: 1,
+                pixels: vec![crate::colour::srgb::Colour::WHITE; width],
+            }))
+        };
+        let of = |materials: &str, width: usize| ArtistTexture {
+            materials: materials.to_owned(),
+            path: PathBuf::new(),
+            picture: picture(width),
+        };
+        let all = ArtistTextures(vec![of("*", 1), of("bo*", 2), of("b*", 3)]);
+        let width = |name: &str| {
+            let material = Material { name: name.to_owned(), ..Material::default() };
+            all.of(&material).map(|picture| picture.width)
+        };
+        assert_eq!(["body", "base", "leg"].map(width), [Some(2), Some(3), Some(1)]);
+    }
+}

@@ -1,0 +1,187 @@
+//! Paints of triangles that show pictures, or colours that pass into each other.
+
+use super::triangle_colour::{Coloured, Factor, light};
+use super::triangle_paints::{Paint, Paints};
+use super::varying_surface::Varied;
+use super::vertex_colours::{self, Tints};
+use crate::colour::srgb::Colour;
+use crate::mesh::PaintId;
+use crate::scene::textures::palette::palette_clusters::{ALIKE, difference, mean, of_palette};
+use crate::scene::textures::{self, Texture};
+use crate::scene::{Alpha, Scene};
+
+/// The greatest channel of the colour by which it is told what tones make of dark ones: no darker than tones tell apart.
+const DARK_PROBE: f64 = 0.3;
+
+/// Colours that differ by no more than this in any channel are one, but for how they were stored.
+const SAME: u32 = 8;
+
+impl Paints {
+    /// Adds the paints of a material whose triangles show a picture. Those that are of one colour of a palette have that; all
+    /// others are painted point by point.
+    pub(crate) fn add_picture(
+        &mut self,
+        scene: &Scene,
+        material: usize,
+        triangles: &[Coloured],
+        texture: Texture,
+        count: usize,
+        factor: &Factor,
+    ) {
+        let seen: Vec<(Colour, bool)> =
+            triangles.iter().filter_map(|own| Some((own.shown?, own.spread < ALIKE))).collect();
+        let places: Vec<[usize; 2]> = triangles.iter().map(|own| [own.geometry, own.triangle]).collect();
+        let shown = texture.shown(scene, material, &places);
+        let swatches = of_palette(&seen);
+        let mut colours = match &swatches {
+            Some(swatches) => swatches.clone(),
+            None => texture.few(&shown, count),
+        };
+        colours.sort_unstable();
+        colours.dedup();
+        let tinted: Vec<Colour> = colours.iter().map(|colour| factor.tint(*colour)).collect();
+        let known = self.of_colours(material, &tinted);
+        let with_paint: Vec<(Colour, PaintId)> = colours
+            .iter()
+            .zip(&tinted)
+            .filter_map(|(own, tinted)| Some((*own, *known.get(tinted)?)))
+            .collect();
+        let paint_of = |colour: Colour| {
+            with_paint.iter().min_by_key(|(own, _)| difference(*own, colour)).map(|(_, paint)| *paint)
+        };
+        // What lies between colours is parted where the picture has it, not where its triangles meet.
+        let is_near =
+            |own: &Coloured| colours.iter().any(|c| own.shown.is_some_and(|s| difference(*c, s) <= SAME));
+        let is_whole = |own: &Coloured| {
+            with_paint.len() < 2 || (swatches.is_some() && own.spread <= SAME && is_near(own))
+        };
+        if triangles.iter().all(is_whole) {
+            for own in triangles {
+                if let Some(paint) = own.shown.and_then(paint_of) {
+                    self.paint(scene, own, paint);
+                }
+            }
+            return;
+        }
+        let picture = PaintId::from(self.list.len());
+        let whole = texture.mean(&shown);
+        self.list.push(Paint { material: material.into(), colour: factor.tint(whole) });
+        for own in triangles {
+            let own_paint = own.shown.filter(|_| is_whole(own)).and_then(paint_of);
+            self.paint(scene, own, own_paint.unwrap_or(picture));
+        }
+        let (colours, mut paints): (Vec<Colour>, Vec<PaintId>) = with_paint.into_iter().unzip();
+        // Behind them what all looks like from afar.
+        paints.push(picture);
+        let painted = texture.painted(shown, &colours, whole);
+        self.varied.push((picture, Varied::new(Some(painted), None, paints)));
+    }
+
+    /// Adds the paints of a material whose corners have colours that pass into each other on its triangles. Where most triangles
+    /// are of one colour, those keep it, and others are parted between the same colours.
+    pub(crate) fn add_tints(
+        &mut self,
+        scene: &Scene,
+        material: usize,
+        triangles: &[Coloured],
+        count: usize,
+        factor: &Factor,
+    ) {
+        let seen: Vec<(Colour, bool)> = triangles.iter().map(|own| (factor.of(own), own.is_flat())).collect();
+        let swatches = of_palette(&seen);
+        let opaque = |colour: Colour| Colour { a: factor.base.a, ..colour };
+        let mut colours = match &swatches {
+            Some(swatches) => swatches.clone(),
+            None => {
+                let (samples, areas) = vertex_colours::samples(scene, triangles, factor);
+                textures::few(&samples, &areas, count).into_iter().map(opaque).collect()
+            }
+        };
+        colours.sort_unstable();
+        colours.dedup();
+        if colours.is_empty() {
+            return;
+        }
+        let known = self.of_colours(material, &colours);
+        let varied = PaintId::from(self.list.len());
+        self.list.push(Paint { material: material.into(), colour: opaque(mean(&seen)) });
+        for (number, own) in triangles.iter().enumerate() {
+            let swatch = swatches.as_ref().map(|swatches| swatches[number]).filter(|_| own.is_flat());
+            self.paint(scene, own, swatch.and_then(|s| known.get(&s).copied()).unwrap_or(varied));
+        }
+        let paints = colours.iter().filter_map(|colour| known.get(colour).copied()).collect();
+        let tints = Tints::new(factor.light(), &colours);
+        self.varied.push((varied, Varied::new(None, Some(tints), paints)));
+        self.tinted = true;
+    }
+
+    /// Adds the paints of a material whose triangles show a picture that the colours of their corners multiply: each falls into
+    /// few colours by itself.
+    pub(crate) fn add_tinted_picture(
+        &mut self,
+        scene: &Scene,
+        material: usize,
+        triangles: &[Coloured],
+        texture: Texture,
+        count: usize,
+        factor: &Factor,
+    ) {
+        let places: Vec<[usize; 2]> = triangles
+            .iter()
+            .filter(|own| own.shown.is_some())
+            .map(|own| [own.geometry, own.triangle])
+            .collect();
+        let shown = texture.shown(scene, material, &places);
+        let of_picture = texture.few(&shown, count);
+        let plain = Factor { base: Colour::WHITE, multiplies: false };
+        let (samples, areas) = vertex_colours::samples(scene, triangles, &plain);
+        let of_tints = textures::few(&samples, &areas, count);
+        // Behind the colours of the picture what it looks like from afar, and what shows none of it.
+        let whole = texture.mean(&shown);
+        let rows = of_picture.iter().chain([&whole]).map(|colour| Some(light(*colour))).chain([None]);
+        let products: Vec<Colour> = rows
+            .flat_map(|row| of_tints.iter().map(move |tint| factor.product([row, Some(light(*tint))])))
+            .collect();
+        let known = self.of_colours(material, &products);
+        let varied = PaintId::from(self.list.len());
+        let seen: Vec<(Colour, bool)> = triangles.iter().map(|own| (factor.of(own), false)).collect();
+        let colour = Colour { a: factor.base.a, ..mean(&seen) };
+        self.list.push(Paint { material: material.into(), colour });
+        triangles.iter().for_each(|own| self.paint(scene, own, varied));
+        let paints = products.iter().filter_map(|colour| known.get(colour).copied()).collect();
+        let painted = texture.painted(shown, &of_picture, whole);
+        let tints = Tints::new(glam::Vec3::ONE, &of_tints);
+        self.varied.push((varied, Varied::new(Some(painted), Some(tints), paints)));
+        self.tinted = true;
+    }
+
+    /// Adds the paint of a material whose triangles show a picture as it is, in the mean colour of that.
+    pub(crate) fn add_image(
+        &mut self,
+        scene: &Scene,
+        material: usize,
+        triangles: &[Coloured],
+        texture: Texture,
+        factor: &Factor,
+    ) {
+        let places: Vec<[usize; 2]> = triangles.iter().map(|own| [own.geometry, own.triangle]).collect();
+        let seen = texture.mean_light(&texture.shown(scene, material, &places)).unwrap_or(Colour::WHITE);
+        let mean = factor.tint(seen);
+        // Of one hue, so that what tones do to each channel can be told.
+        let greatest = mean.channels().into_iter().fold(0.0, f64::max).max(0.05);
+        let bright = |level: f64| {
+            let channels = mean.channels().map(|c| c.max(0.1 * greatest) / greatest * level);
+            Colour { a: mean.a, ..Colour::from_channels(channels) }
+        };
+        let [paint, dark, light] = [mean, bright(DARK_PROBE), bright(1.0)].map(|colour| {
+            self.list.push(Paint { material: material.into(), colour });
+            PaintId::from(self.list.len() - 1)
+        });
+        for own in triangles {
+            self.paint(scene, own, paint);
+        }
+        let weighed = scene.materials.get(material).is_some_and(|own| own.alpha != Alpha::Opaque);
+        let base = factor.multiplies.then_some(factor.base);
+        self.images.push(texture.imaged((material.into(), paint, [dark, light]), base, weighed));
+    }
+}

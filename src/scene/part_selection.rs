@@ -1,0 +1,106 @@
+//! Choosing parts by name.
+
+use super::Scene;
+
+impl Scene {
+    /// Keeps the parts whose names match one of `only` (all, if it is empty) and none of `hide`.
+    ///
+    /// `*` stands for any characters, `?` for any one; case counts.
+    pub fn keep_parts(&mut self, only: &[String], hide: &[String]) {
+        let matches = |globs: &[String], name: &str| globs.iter().any(|glob| glob_matches(glob, name));
+        let stays = |name: &str| (only.is_empty() || matches(only, name)) && !matches(hide, name);
+        let keep: Vec<bool> = self.parts.iter().map(|part| stays(&part.name)).collect();
+        self.retain_parts(&keep);
+    }
+
+    /// Keeps the parts that are told; gives for each part the number that it has now, or would have.
+    pub(crate) fn retain_parts(&mut self, keep: &[bool]) -> Vec<usize> {
+        let stays = |part: usize| keep.get(part).copied().unwrap_or(false);
+        let mut place = 0;
+        let places: Vec<usize> = (0..self.parts.len())
+            .map(|part| {
+                place += usize::from(stays(part));
+                place - usize::from(stays(part))
+            })
+            .collect();
+        let mut part = 0..;
+        self.parts.retain(|_| part.next().is_some_and(stays));
+        if let Some(movers) = &mut self.movers {
+            movers.retain_mut(|mover| {
+                let place = places.get(mover.part).copied().filter(|_| stays(mover.part));
+                place.inspect(|place| mover.part = *place).is_some()
+            });
+        }
+        places
+    }
+}
+
+/// Whether the whole name fits the pattern.
+#[must_use]
+pub fn glob_matches(glob: &str, name: &str) -> bool {
+    let (glob, name): (Vec<char>, Vec<char>) = (glob.chars().collect(), name.chars().collect());
+    let (mut g, mut n) = (0, 0);
+    // After a failure the last star takes one character more: no other choice need be undone.
+    let mut star = None;
+    while n < name.len() {
+        match glob.get(g) {
+            Some('*') => {
+                star = Some((g, n));
+                g += 1;
+            }
+            Some(c) if *c == '?' || name.get(n) == Some(c) => (g, n) = (g + 1, n + 1),
+            _ => match &mut star {
+                Some((at, taken)) => {
+                    *taken += 1;
+                    (g, n) = (*at + 1, *taken);
+                }
+                None => return false,
+            },
+        }
+    }
+    glob.iter().skip(g).all(|c| *c == '*')
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DAffine3;
+
+    use super::super::Part;
+    use super::*;
+
+    #[test]
+    fn globs() {
+        for (glob, name) in [
+            ("*", ""),
+            ("a", "a"),
+            ("a*", "abc"),
+            ("*c", "abcc"),
+            ("a*b*c", "axbxbc"),
+            ("?é?", "aéb"),
+            ("**a", "a"),
+        ] {
+            assert!(glob_matches(glob, name), "{glob} {name}");
+        }
+        for (glob, name) in [("", "a"), ("a", "A"), ("?", ""), ("a*b", "ac"), ("a?", "a"), ("*a*b", "ba")] {
+            assert!(!glob_matches(glob, name), "{glob} {name}");
+        }
+        assert!(!glob_matches(&"*a".repeat(40), &"a".repeat(39)));
+    }
+
+    #[test]
+    fn parts_are_chosen() {
+        let part = |name: &str| Part { name: name.into(), geometry: 0, world_from_part: DAffine3::IDENTITY };
+        let scene = Scene { parts: ["wheel 1", "wheel 2", "axle"].map(part).into(), ..Scene::default() };
+        let kept = |only: &[&str], hide: &[&str]| {
+            let mut scene = scene.clone();
+            scene.keep_parts(
+                &only.iter().map(|s| s.to_string()).collect::<Vec<_>>(),
+                &hide.iter().map(|s| s.to_string()).collect::<Vec<_>>(),
+            );
+            scene.parts.into_iter().map(|p| p.name).collect::<Vec<_>>()
+        };
+        assert_eq!(kept(&[], &[]).len(), 3);
+        assert_eq!(kept(&["wheel*"], &["*2"]), ["wheel 1"]);
+        assert_eq!(kept(&[], &["wheel ?"]), ["axle"]);
+    }
+}

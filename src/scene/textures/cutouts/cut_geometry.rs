@@ -1,0 +1,175 @@
+//! [`Rebuilt`]: a geometry put together again from whole triangles and pieces of cut ones.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+use super::triangle_cut::{Pieces, Place};
+use crate::mesh::EdgeMark;
+use crate::scene::Geometry;
+
+const NONE: u32 = u32::MAX;
+
+/// A geometry in the making.
+pub(crate) struct Rebuilt<'a> {
+    from: &'a Geometry,
+    to: Geometry,
+    /// The triangle that each of the new ones was, or was a piece of.
+    origins: Vec<u32>,
+    /// Vertices at crossings, by the corners of their side and the bits of the part of it.
+    on_sides: FxHashMap<([u32; 2], u64), u32>,
+}
+
+impl<'a> Rebuilt<'a> {
+    /// The vertices and wires of a geometry, without its triangles.
+    pub fn of(from: &'a Geometry) -> Self {
+        let to = Geometry {
+            positions: from.positions.clone(),
+            normals: from.normals.clone(),
+            uvs: from.uvs.clone(),
+            colours: from.colours.clone(),
+            wires: from.wires.clone(),
+            material: from.material,
+            single_precision: from.single_precision,
+            lattice_step: from.lattice_step,
+            ..Geometry::default()
+        };
+        Self { from, to, origins: Vec::new(), on_sides: FxHashMap::default() }
+    }
+
+    /// Adds a triangle as it was.
+    pub fn keep(&mut self, triangle: usize) {
+        self.origins.push(triangle as u32);
+        self.to.triangles.push(self.from.triangles[triangle]);
+        self.to.triangle_material.extend(self.from.triangle_material.get(triangle));
+        self.to.corner_normals.extend(self.from.corner_normals.get(triangle));
+        self.to.corner_uvs.extend(self.from.corner_uvs.get(triangle));
+        self.to.edge_marks.extend(self.from.edge_marks.get(triangle));
+    }
+
+    /// Adds the pieces of a triangle; with each side its crossings (the bits of the parts of it), and whether its first corner
+    /// comes first in space.
+    pub fn add(&mut self, triangle: usize, pieces: &Pieces, sides: [(&Vec<u64>, bool); 3]) {
+        let from = self.from;
+        let corners = from.triangles[triangle];
+        let shares: Vec<[f64; 3]> = pieces.places.iter().map(|place| shares_of(*place, sides)).collect();
+        let vertices: Vec<u32> = pieces
+            .places
+            .iter()
+            .zip(&shares)
+            .map(|(place, shares)| match *place {
+                Place::Corner(k) => corners[usize::from(k)],
+                Place::Inside(_) => self.vertex(corners, *shares),
+                Place::Side(k, number) => {
+                    let (first, second) = (corners[usize::from(k)], corners[(usize::from(k) + 1) % 3]);
+                    let (crossings, is_forward) = sides[usize::from(k)];
+                    let ends = if is_forward { [first, second] } else { [second, first] };
+                    let part = f64::from_bits(crossings[number as usize]);
+                    if let Some(known) = self.on_sides.get(&(ends, part.to_bits())) {
+                        return *known;
+                    }
+                    // From its ends alone, so that the neighbour has the same.
+                    let new = self.vertex([ends[0], ends[1], ends[0]], [1.0 - part, part, 0.0]);
+                    self.on_sides.insert((ends, part.to_bits()), new);
+                    new
+                }
+            })
+            .collect();
+        let normals = from.corner_normals.get(triangle).map(|of| {
+            let corners = of.map(|n| {
+                from.normals.get(n as usize).map(|n| DVec3::from_array(n.map(f64::from)).normalize_or_zero())
+            });
+            self.blended(&pieces.places, &shares, *of, corners, |to, normal: DVec3| {
+                to.normals.push(normal.to_array().map(|x| x as f32));
+                to.normals.len()
+            })
+        });
+        let uvs = from.corner_uvs.get(triangle).map(|of| {
+            let corners = of
+                .map(|uv| from.uvs.get(uv as usize).map(|[u, v]| DVec3::new((*u).into(), (*v).into(), 0.0)));
+            self.blended(&pieces.places, &shares, *of, corners, |to, uv: DVec3| {
+                to.uvs.push([uv.x as f32, uv.y as f32]);
+                to.uvs.len()
+            })
+        });
+        for piece in &pieces.triangles {
+            self.origins.push(triangle as u32);
+            self.to.triangles.push(piece.map(|i| vertices[i as usize]));
+            self.to.triangle_material.extend(from.triangle_material.get(triangle));
+            self.to.corner_normals.extend(normals.as_ref().map(|of| piece.map(|i| of[i as usize])));
+            self.to.corner_uvs.extend(uvs.as_ref().map(|of| piece.map(|i| of[i as usize])));
+            self.to.edge_marks.extend(from.edge_marks.get(triangle).map(|marks| {
+                [0, 1, 2].map(|k| {
+                    let ends = [piece[k], piece[(k + 1) % 3]].map(|i| pieces.places[i as usize]);
+                    (0..3)
+                        .find(|side| ends.iter().all(|end| lies_on(*end, *side)))
+                        .map_or(EdgeMark::Unmarked, |side| marks[side])
+                })
+            }));
+        }
+    }
+
+    /// A new vertex between three others.
+    fn vertex(&mut self, corners: [u32; 3], shares: [f64; 3]) -> u32 {
+        let [a, b, c] = corners.map(|corner| self.from.positions[corner as usize]);
+        self.to.positions.push(a * shares[0] + b * shares[1] + c * shares[2]);
+        if !self.from.colours.is_empty() {
+            let mut colour = [0.0; 4];
+            for (corner, share) in corners.iter().zip(shares) {
+                let of = self.from.colours.get(*corner as usize).copied().unwrap_or([1.0; 4]);
+                colour.iter_mut().zip(of).for_each(|(sum, channel)| *sum += channel * share as f32);
+            }
+            self.to.colours.push(colour);
+        }
+        self.to.positions.len() as u32 - 1
+    }
+
+    /// What corners have, at each place: the numbers of what is blended of it, or none where a corner has none.
+    fn blended(
+        &mut self,
+        places: &[Place],
+        shares: &[[f64; 3]],
+        numbers: [u32; 3],
+        corners: [Option<DVec3>; 3],
+        add: impl Fn(&mut Geometry, DVec3) -> usize,
+    ) -> Vec<u32> {
+        let of_place = |(place, shares): (&Place, &[f64; 3])| match (*place, corners) {
+            (Place::Corner(k), _) => numbers[usize::from(k)],
+            (_, [Some(a), Some(b), Some(c)]) => {
+                add(&mut self.to, a * shares[0] + b * shares[1] + c * shares[2]) as u32 - 1
+            }
+            _ => NONE,
+        };
+        places.iter().zip(shares).map(of_place).collect()
+    }
+
+    /// The geometry, and for each of its triangles which it was, or was a piece of.
+    pub fn done(self) -> (Geometry, Vec<u32>) {
+        (self.to, self.origins)
+    }
+}
+
+/// How much of each corner a place has.
+fn shares_of(place: Place, sides: [(&Vec<u64>, bool); 3]) -> [f64; 3] {
+    let mut shares = [0.0; 3];
+    match place {
+        Place::Inside(inside) => return inside,
+        Place::Corner(k) => shares[usize::from(k)] = 1.0,
+        Place::Side(k, number) => {
+            let (crossings, is_forward) = sides[usize::from(k)];
+            let part = f64::from_bits(crossings[number as usize]);
+            let part = if is_forward { part } else { 1.0 - part };
+            shares[usize::from(k)] = 1.0 - part;
+            shares[(usize::from(k) + 1) % 3] = part;
+        }
+    }
+    shares
+}
+
+/// Whether a place lies on the side after a corner.
+fn lies_on(place: Place, side: usize) -> bool {
+    match place {
+        Place::Corner(k) => usize::from(k) == side || usize::from(k) == (side + 1) % 3,
+        Place::Side(k, _) => usize::from(k) == side,
+        Place::Inside(_) => false,
+    }
+}

@@ -1,0 +1,80 @@
+//! [`trace`]: the borders between what is opaque in a mask and what is clear, in the plane of its texels.
+
+use super::opacity_mask::Mask;
+use crate::geometry::plane::marching_squares::level_lines;
+use crate::scene::textures::texel_plane::Traced;
+
+/// How far the pieces of a border lie beside it, texels.
+const STRAIGHT: f64 = 1e-3;
+
+/// A picture whose texels part opaque from clear more often than this has no borders.
+const MOST_CROSSINGS: usize = 1 << 22;
+
+/// Traces the borders of a mask, with what is opaque on their left (x to the right, y upwards); none if there are too many.
+pub(crate) fn trace(mask: &Mask) -> Option<Traced> {
+    let (reach, periods) = (mask.texels.reach(), mask.texels.periods());
+    let lines = level_lines(&|i, j| mask.texel(i, j), reach, STRAIGHT, MOST_CROSSINGS)?;
+    Some(Traced { lines, parted: Vec::new(), reach, periods })
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
+
+    use super::*;
+    use crate::scene::material::Wrap;
+    use crate::scene::textures::texel_plane::texel_borders::Outline;
+
+    fn outline(mask: &Mask, tolerance: f64) -> Outline {
+        Outline::new(&trace(mask).unwrap(), tolerance)
+    }
+
+    fn disc(size: usize, radius: f64) -> Vec<u8> {
+        let middle = (size as f64 - 1.0) / 2.0;
+        let at = |k: usize| DVec2::new((k % size) as f64 - middle, (k / size) as f64 - middle).length();
+        (0..size * size).map(|k| (127.5 + 255.0 * (at(k) - radius)).clamp(0.0, 255.0) as u8).collect()
+    }
+
+    #[test]
+    fn a_round_hole_is_round() {
+        let mask = Mask::of_opacities(64, disc(64, 20.3), Wrap::Repeat);
+        let outline = outline(&mask, 0.02);
+        let middle = DVec2::splat(31.5);
+        assert!(outline.segments.len() > 40 && outline.segments.len() < 240, "{}", outline.segments.len());
+        for [a, b] in &outline.segments {
+            let off = (a.distance(middle) - 20.3).abs().max(((*a + *b) / 2.0).distance(middle) - 20.3);
+            assert!(off < 0.1, "{off}");
+            // Opaque is outside.
+            assert!((*b - *a).perp_dot(middle - *a) < 0.0);
+        }
+        // Three periods on, the same.
+        let far = outline.near(DVec2::splat(192.0), DVec2::splat(256.0)).unwrap();
+        assert_eq!(far.len(), outline.segments.len());
+    }
+
+    #[test]
+    fn borders_go_on_over_the_seam_or_beyond() {
+        // The left half is opaque.
+        let half = |wrap| Mask::of_opacities(4, [255, 255, 0, 0].repeat(4), wrap);
+        let repeated = outline(&half(Wrap::Repeat), 0.1);
+        assert_eq!(repeated.segments.len(), 2);
+        assert!(repeated.segments.iter().all(|[a, b]| (a.y - b.y).abs() == 4.0));
+        let clamped = outline(&half(Wrap::Clamp), 0.1);
+        let far = clamped.near(DVec2::new(0.0, 500.0), DVec2::new(3.0, 600.0)).unwrap();
+        assert!(far.iter().all(|[a, b]| a.x == 1.5 && b.x == 1.5) && !far.is_empty());
+        assert_eq!(outline(&half(Wrap::Mirror), 0.1).segments.len(), 2);
+    }
+
+    #[test]
+    fn a_picture_of_one_column_has_borders_along_it() {
+        let mask = Mask::of_opacities(1, vec![0, 0, 255, 255], Wrap::Clamp);
+        let near = outline(&mask, 0.1).near(DVec2::new(-0.3, 0.0), DVec2::new(0.2, 3.0)).unwrap();
+        assert!(!near.is_empty() && near.iter().flatten().all(|p| p.y == 1.5));
+    }
+
+    #[test]
+    fn texture_coordinates_that_run_on_for_ever_are_too_many() {
+        let outline = outline(&Mask::of_opacities(4, [255, 255, 0, 0].repeat(4), Wrap::Repeat), 0.1);
+        assert!(outline.near(DVec2::new(0.0, 0.0), DVec2::new(9e8, 1e-3)).is_none());
+    }
+}

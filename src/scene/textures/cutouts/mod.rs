@@ -1,0 +1,296 @@
+//! Cut-outs: removes the transparent parts of a material's picture from its triangles, so that contours,
+//! visibility, regions, shadows and hatching see real holes.
+//!
+//! 1. [`opacity_mask`] reads the opacity of each texel and the level from which it counts as opaque.
+//! 2. [`mask_borders`] traces the border between opaque and clear with bilinear interpolation, in the texel
+//!    plane.
+//! 3. [`border_detail`] chooses how far the border may be simplified.
+//! 4. The crossings of borders with triangle sides are computed once per side, so that neighbours still meet.
+//! 5. [`triangle_cut`] cuts each triangle by a constrained Delaunay triangulation and keeps the opaque
+//!    pieces.
+//! 6. [`cut_geometry`] assembles the geometry from whole triangles and pieces.
+
+mod border_detail;
+mod cut_geometry;
+mod mask_borders;
+mod opacity_mask;
+mod triangle_cut;
+
+use std::borrow::Cow;
+use std::hash::Hash;
+
+use crate::parallel::prelude::*;
+use glam::DVec2;
+use rustc_hash::FxHashMap;
+
+use self::cut_geometry::Rebuilt;
+use self::opacity_mask::{Mask, Masked};
+use self::triangle_cut::{Pieces, TexelTriangle};
+use crate::scene::textures::texel_plane::side_crossings::{TexelSide, in_order, turn};
+use crate::scene::textures::texel_plane::texel_borders::{Outline, Segment};
+use crate::scene::{Geometry, Scene, Warnings};
+
+/// A scene without what the pictures of its materials leave clear.
+pub struct Cut<'a> {
+    /// What is left; borrowed where all is.
+    pub scene: Cow<'a, Scene>,
+    /// For each geometry that was cut, which triangle each of its new ones was, or was a piece of.
+    pub origins: Vec<Option<Vec<u32>>>,
+    /// What could not be cut.
+    pub warnings: Warnings,
+}
+
+/// Takes out of a scene what the pictures of its materials leave clear.
+#[must_use]
+pub fn cut(scene: &Scene) -> Cut<'_> {
+    let mut warnings = Warnings::default();
+    let read: Vec<_> = scene.materials.par_iter().map(|material| Masked::of(scene, material)).collect();
+    let mut stencils = Vec::with_capacity(read.len());
+    for (id, (masked, material)) in read.into_iter().zip(&scene.materials).enumerate() {
+        let stencil = match masked {
+            Ok(Masked::Nowhere) => Ok(Stencil::Whole),
+            Ok(Masked::Everywhere) => Ok(Stencil::Clear),
+            Ok(Masked::Where(mask)) => match border_detail::outline(scene, id, &mask) {
+                Some(outline) => Ok(Stencil::Cut(Box::new((mask, outline)))),
+                None => Err("its picture has too much detail".to_owned()),
+            },
+            Err(message) => Err(message),
+        };
+        stencils.push(stencil.unwrap_or_else(|message| {
+            warnings.note(format!("nothing is cut out of the material `{}`: {message}", material.name));
+            Stencil::Whole
+        }));
+    }
+    if stencils.iter().all(|stencil| matches!(stencil, Stencil::Whole)) {
+        return Cut { scene: Cow::Borrowed(scene), origins: Vec::new(), warnings };
+    }
+    let mut cut = scene.clone();
+    let mut origins = Vec::with_capacity(cut.geometries.len());
+    let mut too_many = 0;
+    for geometry in &mut cut.geometries {
+        let (rebuilt, whole) = cut_geometry(geometry, &stencils);
+        too_many += whole;
+        let (rebuilt, of_pieces) = rebuilt.unzip();
+        origins.push(of_pieces);
+        if let Some(rebuilt) = rebuilt {
+            *geometry = rebuilt;
+        }
+    }
+    if too_many > 0 {
+        warnings.note(format!("{too_many} triangles show too much of a cut-out picture to be cut along it"));
+    }
+    Cut { scene: Cow::Owned(cut), origins, warnings }
+}
+
+/// What is left of the triangles of a material.
+enum Stencil {
+    Whole,
+    Clear,
+    Cut(Box<(Mask, Outline)>),
+}
+
+/// The corners of a triangle in the plane of the texels; none where it shows nothing of the picture.
+fn texels_of(geometry: &Geometry, triangle: usize, mask: &Mask) -> Option<[DVec2; 3]> {
+    let [a, b, c] =
+        geometry.corner_uvs.get(triangle)?.map(|uv| mask.texels.place(*geometry.uvs.get(uv as usize)?));
+    Some([a?, b?, c?])
+}
+
+/// A side of a triangle, by the places of its ends in space.
+type SideKey = [[u64; 3]; 2];
+
+/// What is known of a triangle before its neighbours are.
+enum Look<'a> {
+    Whole,
+    Gone,
+    Crossed(Box<Crossed<'a>>),
+    /// More borders than are cut along.
+    TooMany,
+}
+
+/// A triangle that borders pass through.
+struct Crossed<'a> {
+    mask: &'a Mask,
+    corners: [DVec2; 3],
+    sides: [TexelSide; 3],
+    borders: Vec<Segment>,
+    /// Where they cross its sides.
+    parts: [Vec<f64>; 3],
+}
+
+/// A geometry without what is clear and where its triangles are from, unless nothing is; and how many triangles had to be left
+/// whole.
+fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<(Geometry, Vec<u32>)>, usize) {
+    let stencil = |triangle: usize| {
+        let material = geometry.material_of(triangle).and_then(|id| stencils.get(id as usize));
+        material.unwrap_or(&Stencil::Whole)
+    };
+    let count = geometry.triangles.len();
+    let is_sound = geometry.triangles.as_flattened().iter().all(|v| (*v as usize) < geometry.positions.len());
+    if !is_sound || (0..count).all(|triangle| matches!(stencil(triangle), Stencil::Whole)) {
+        return (None, 0);
+    }
+    // Triangles that show the same of a picture, as the leaves of a tree do, are looked at and cut once.
+    let shows = alike((0..count).map(|triangle| shown(geometry, triangle, stencil(triangle))));
+    let looks: Vec<Look> = shows
+        .firsts
+        .par_iter()
+        .map(|triangle| match stencil(*triangle) {
+            Stencil::Whole => Look::Whole,
+            Stencil::Clear => Look::Gone,
+            Stencil::Cut(cut) => look(geometry, *triangle, &cut.0, &cut.1),
+        })
+        .collect();
+    let look_of = |triangle: usize| &looks[shows.kind[triangle] as usize];
+    let crossings = crossings(geometry, look_of);
+    let none = Vec::new();
+    let of_sides = |triangle: usize| {
+        side_keys(geometry, triangle)
+            .map(|(key, is_forward)| (crossings.get(&key).unwrap_or(&none), is_forward))
+    };
+    let cut_like = alike((0..count).map(|triangle| (shows.kind[triangle], of_sides(triangle))));
+    let pieces: Vec<Option<Pieces>> = cut_like
+        .firsts
+        .par_iter()
+        .map(|triangle| {
+            let of_sides = of_sides(*triangle);
+            let crossings = of_sides
+                .map(|(crossings, _)| crossings.iter().map(|bits| f64::from_bits(*bits)).collect::<Vec<_>>());
+            let crossings = crossings.each_ref().map(Vec::as_slice);
+            match look_of(*triangle) {
+                Look::Gone => Some(Pieces::default()),
+                Look::Crossed(crossed) => {
+                    let Crossed { mask, corners, sides, borders, .. } = crossed.as_ref();
+                    TexelTriangle { corners: *corners, sides: *sides, crossings }.cut(borders, Some(mask))
+                }
+                _ if crossings.iter().all(|crossings| crossings.is_empty()) => None,
+                // A neighbour is cut along a side: there the triangle gets its points, so that both still meet.
+                _ => {
+                    let corners = [DVec2::ZERO, DVec2::X, DVec2::Y];
+                    let sides = sides(corners, of_sides.map(|side| side.1));
+                    TexelTriangle { corners, sides, crossings }.cut(&[], None)
+                }
+            }
+        })
+        .collect();
+    let mut rebuilt = Rebuilt::of(geometry);
+    for triangle in 0..count {
+        match &pieces[cut_like.kind[triangle] as usize] {
+            None => rebuilt.keep(triangle),
+            Some(pieces) => rebuilt.add(triangle, pieces, of_sides(triangle)),
+        }
+    }
+    let left_whole = |triangle: &usize| match look_of(*triangle) {
+        Look::TooMany => true,
+        Look::Crossed(_) => pieces[cut_like.kind[*triangle] as usize].is_none(),
+        Look::Whole | Look::Gone => false,
+    };
+    let too_many = (0..count).filter(left_whole).count();
+    (Some(rebuilt.done()), too_many)
+}
+
+/// What a triangle shows of a picture: nothing of any, or its material, its corners there, and which ends of its sides
+/// come first in space.
+type Shown = Option<(u32, [[u32; 2]; 3], [bool; 3])>;
+
+/// What a triangle shows of its material's picture; of what is clear all over, none.
+fn shown(geometry: &Geometry, triangle: usize, stencil: &Stencil) -> (bool, Shown) {
+    let corners = geometry.corner_uvs.get(triangle).map(|corners| {
+        corners.map(|uv| geometry.uvs.get(uv as usize).map_or([u32::MAX; 2], |uv| uv.map(f32::to_bits)))
+    });
+    match stencil {
+        Stencil::Whole => (true, None),
+        Stencil::Clear => (false, None),
+        Stencil::Cut(_) => {
+            let is_forward = side_keys(geometry, triangle).map(|key| key.1);
+            let material = geometry.material_of(triangle).unwrap_or(u32::MAX);
+            (true, Some((material, corners.unwrap_or([[u32::MAX; 2]; 3]), is_forward)))
+        }
+    }
+}
+
+/// Which of many things are alike.
+struct Alike {
+    /// The kind of each.
+    kind: Vec<u32>,
+    /// The first of each kind.
+    firsts: Vec<usize>,
+}
+
+fn alike<T: Eq + Hash>(all: impl Iterator<Item = T>) -> Alike {
+    let mut known: FxHashMap<T, u32> = FxHashMap::default();
+    let mut alike = Alike { kind: Vec::new(), firsts: Vec::new() };
+    for (number, one) in all.enumerate() {
+        let next = alike.firsts.len() as u32;
+        let kind = *known.entry(one).or_insert(next);
+        if kind == next {
+            alike.firsts.push(number);
+        }
+        alike.kind.push(kind);
+    }
+    alike
+}
+
+/// What a mask leaves of a triangle, seen alone.
+fn look<'a>(geometry: &Geometry, triangle: usize, mask: &'a Mask, outline: &Outline) -> Look<'a> {
+    let Some(corners) = texels_of(geometry, triangle, mask) else { return Look::Whole };
+    let [a, b, c] = corners;
+    let whole_or_gone = || if mask.is_opaque((a + b + c) / 3.0) { Look::Whole } else { Look::Gone };
+    if turn(a, b, c) == 0.0 {
+        return whole_or_gone();
+    }
+    let Some(mut borders) = outline.near(a.min(b).min(c), a.max(b).max(c)) else { return Look::TooMany };
+    let sides = sides(corners, side_keys(geometry, triangle).map(|key| key.1));
+    let mut parts: [Vec<f64>; 3] = Default::default();
+    borders.retain(|border| {
+        let crossed = sides.map(|side| side.crossing(*border).map(|(part, _)| part));
+        parts.iter_mut().zip(crossed).for_each(|(parts, part)| parts.extend(part));
+        crossed.iter().any(Option::is_some)
+            || border.iter().any(|end| sides.iter().all(|side| side.admits(*end)))
+    });
+    if borders.is_empty() {
+        return whole_or_gone();
+    }
+    Look::Crossed(Box::new(Crossed { mask, corners, sides, borders, parts }))
+}
+
+/// The sides of a triangle in the plane of the texels, each from the end that comes first in space.
+fn sides(corners: [DVec2; 3], is_forward: [bool; 3]) -> [TexelSide; 3] {
+    [0, 1, 2].map(|k| {
+        let (a, b) = (corners[k], corners[(k + 1) % 3]);
+        let (from, to) = if is_forward[k] { (a, b) } else { (b, a) };
+        TexelSide { from, to, inside: turn(from, to, corners[(k + 2) % 3]) >= 0.0 }
+    })
+}
+
+/// The sides of a triangle by the places of their ends, and whether each begins with the end that comes first in space.
+fn side_keys(geometry: &Geometry, triangle: usize) -> [(SideKey, bool); 3] {
+    let ends = geometry.triangles[triangle].map(|corner| geometry.positions[corner as usize]);
+    [0, 1, 2].map(|k| {
+        let [a, b] = [ends[k], ends[(k + 1) % 3]].map(|p| (p + glam::DVec3::ZERO).to_array());
+        let is_forward = a.partial_cmp(&b).is_none_or(std::cmp::Ordering::is_le);
+        let [a, b] = [a, b].map(|p| p.map(f64::to_bits));
+        (if is_forward { [a, b] } else { [b, a] }, is_forward)
+    })
+}
+
+/// Where the sides of all triangles are crossed, from whichever of the triangles beside them: the bits of the parts.
+fn crossings<'a>(geometry: &Geometry, look: impl Fn(usize) -> &'a Look<'a>) -> FxHashMap<SideKey, Vec<u64>> {
+    let mut all: FxHashMap<SideKey, Vec<f64>> = FxHashMap::default();
+    for triangle in 0..geometry.triangles.len() {
+        let Look::Crossed(crossed) = look(triangle) else { continue };
+        for (parts, (key, _)) in crossed.parts.iter().zip(side_keys(geometry, triangle)) {
+            if !parts.is_empty() {
+                all.entry(key).or_default().extend(parts);
+            }
+        }
+    }
+    let bits = |mut parts: Vec<f64>| {
+        in_order(&mut parts);
+        parts.into_iter().map(f64::to_bits).collect()
+    };
+    all.into_iter().map(|(key, parts)| (key, bits(parts))).collect()
+}
+
+#[cfg(test)]
+mod tests;

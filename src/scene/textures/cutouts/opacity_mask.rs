@@ -1,0 +1,130 @@
+//! [`Mask`]: where the picture of a material leaves it clear.
+
+use glam::DVec2;
+
+use crate::colour::pixel_picture::Picture;
+use crate::scene::material::Alpha;
+use crate::scene::textures;
+use crate::scene::textures::texel_plane::Texels;
+use crate::scene::{Material, Scene};
+
+/// How opaque a picture is, texel by texel, and from what on it counts as opaque.
+///
+/// Between the middles of four texels opacity is bilinear, as when a texture is magnified.
+pub(crate) struct Mask {
+    pub texels: Texels,
+    opacity: Vec<u8>,
+    /// Between two whole numbers, so that no texel lies upon it.
+    level: f64,
+}
+
+/// What a material is without a look at each of its triangles.
+pub(crate) enum Masked {
+    /// Nothing of it is cut away.
+    Nowhere,
+    /// All of it is.
+    Everywhere,
+    /// Its picture says where.
+    Where(Mask),
+}
+
+impl Masked {
+    /// What a material leaves clear; an error if its picture is needed and cannot be read.
+    pub fn of(scene: &Scene, material: &Material) -> Result<Self, String> {
+        let constant = f64::from(material.colour.a) / 255.0;
+        let (picture, is_own) = match (&material.opacity_map, &material.alpha) {
+            (Some(path), _) => (textures::beside(scene, path).transpose()?, true),
+            (None, Alpha::Opaque) => return Ok(Self::Nowhere),
+            (None, _) if constant == 0.0 => return Ok(Self::Everywhere),
+            (None, _) => (textures::picture_of(scene, material).transpose()?, false),
+        };
+        let Some(picture) = picture else { return Ok(Self::Nowhere) };
+        let opacity = opacities(&picture, is_own);
+        let (least, most) = opacity.iter().fold((255, 0), |(a, b), o| (a.min(*o), b.max(*o)));
+        let level = match material.alpha {
+            Alpha::Mask { cutoff } => f64::from(cutoff) * 255.0,
+            // A picture that is wholly clear nowhere is glass with dirt on it. The edge of another one is where it is half as
+            // opaque as it gets.
+            Alpha::Blend if least > 0 => return Ok(Self::Nowhere),
+            Alpha::Blend => f64::from(most) / 2.0,
+            Alpha::Opaque => 127.5,
+        };
+        let level = level.ceil() - 0.5;
+        if f64::from(least) > level {
+            return Ok(Self::Nowhere);
+        }
+        if f64::from(most) < level || most == 0 {
+            return Ok(Self::Everywhere);
+        }
+        Ok(Self::Where(Mask { texels: Texels::of(scene, material, &picture), opacity, level }))
+    }
+}
+
+/// How opaque each texel is: its alpha; of a picture made for opacity that has none, how light it is.
+fn opacities(picture: &Picture, is_own: bool) -> Vec<u8> {
+    let pixels = &picture.pixels;
+    if is_own && pixels.iter().all(|c| c.a == 255) {
+        let grey = |c: &crate::colour::srgb::Colour| {
+            ((2126 * u32::from(c.r) + 7152 * u32::from(c.g) + 722 * u32::from(c.b) + 5000) / 10_000) as u8
+        };
+        return pixels.iter().map(grey).collect();
+    }
+    pixels.iter().map(|c| c.a).collect()
+}
+
+impl Mask {
+    /// By how much the texel at a whole number of steps is more opaque than it must be; never 0.
+    pub fn texel(&self, column: i64, row: i64) -> f64 {
+        let opacity = self.opacity.get(self.texels.index(column, row));
+        opacity.map_or(-1.0, |o| f64::from(*o) - self.level)
+    }
+
+    /// Whether a point of the plane is opaque.
+    pub fn is_opaque(&self, p: DVec2) -> bool {
+        let (low, part) = (p.floor(), p - p.floor());
+        let (i, j) = (low.x as i64, low.y as i64);
+        let along = |row: i64| {
+            let (left, right) = (self.texel(i, row), self.texel(i + 1, row));
+            left + (right - left) * part.x
+        };
+        let (top, bottom) = (along(j), along(j + 1));
+        top + (bottom - top) * part.y >= 0.0
+    }
+}
+
+#[cfg(test)]
+impl Mask {
+    /// A mask of given opacities that repeats, cut at half.
+    pub fn of_opacities(width: usize, opacity: Vec<u8>, wrap: crate::scene::material::Wrap) -> Self {
+        let texels = Texels {
+            size: [width, opacity.len() / width],
+            wrap: [wrap; 2],
+            upward: false,
+            placing: crate::scene::material::Placing::default(),
+        };
+        Self { texels, opacity, level: 127.5 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::material::Wrap;
+
+    #[test]
+    fn pictures_go_on_as_they_are_told() {
+        let texels = |wrap| {
+            let mask = Mask::of_opacities(3, vec![0, 100, 200], wrap);
+            (-3..6).map(|k| (mask.texel(k, 0) + 127.5) as u8).collect::<Vec<_>>()
+        };
+        assert_eq!(texels(Wrap::Repeat), [0, 100, 200, 0, 100, 200, 0, 100, 200]);
+        assert_eq!(texels(Wrap::Clamp), [0, 0, 0, 0, 100, 200, 200, 200, 200]);
+        assert_eq!(texels(Wrap::Mirror), [200, 100, 0, 0, 100, 200, 200, 100, 0]);
+    }
+
+    #[test]
+    fn opacity_is_bilinear_between_texels() {
+        let mask = Mask::of_opacities(2, vec![255, 0, 255, 0], Wrap::Clamp);
+        assert!(mask.is_opaque(DVec2::new(0.49, 0.7)) && !mask.is_opaque(DVec2::new(0.51, 0.7)));
+    }
+}

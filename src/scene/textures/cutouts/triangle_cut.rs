@@ -1,0 +1,249 @@
+//! Cuts one triangle along the borders of a mask.
+
+use glam::DVec2;
+use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
+
+use super::opacity_mask::Mask;
+use crate::scene::textures::texel_plane::side_crossings::{TexelSide, turn};
+use crate::scene::textures::texel_plane::texel_borders::Segment;
+
+/// Where a corner of a piece lies on the triangle that was cut.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Place {
+    /// At one of its corners.
+    Corner(u8),
+    /// On the side after a corner, at one of the crossings of that side.
+    Side(u8, u32),
+    /// Within it: the shares of its three corners.
+    Inside([f64; 3]),
+}
+
+/// A triangle in the plane of the texels.
+pub(crate) struct TexelTriangle<'a> {
+    pub corners: [DVec2; 3],
+    /// The side after each corner.
+    pub sides: [TexelSide; 3],
+    /// Where each side is crossed, the crossings of its neighbours among them: parts of the side, ascending.
+    pub crossings: [&'a [f64]; 3],
+}
+
+/// What is left of a triangle: the places that its pieces use, and the pieces, turned as it is.
+#[derive(Debug, Default)]
+pub(crate) struct Pieces {
+    pub places: Vec<Place>,
+    pub triangles: Vec<[u32; 3]>,
+}
+
+type Faces = ConstrainedDelaunayTriangulation<Point2<f64>>;
+
+/// A triangulation in the making.
+#[derive(Default)]
+struct Net {
+    faces: Faces,
+    /// Where each vertex lies on the triangle.
+    places: Vec<Place>,
+}
+
+type VertexHandle = spade::handles::FixedVertexHandle;
+
+const UNKNOWN: u32 = u32::MAX;
+
+impl TexelTriangle<'_> {
+    /// The parts of the triangle that a mask leaves, or all of it in pieces where there is none. `None` if it cannot be
+    /// cut.
+    pub fn cut(&self, borders: &[Segment], mask: Option<&Mask>) -> Option<Pieces> {
+        let mut net = Net::default();
+        let corners = self.add_sides(&mut net)?;
+        let mut drawn = Vec::new();
+        for border in borders {
+            self.add_border(&mut net, &corners, *border, &mut drawn)?;
+        }
+        let Net { faces: net, places } = net;
+        let (component, count) = components(&net);
+        let kept = self.kept(&net, &component, count, &drawn, mask);
+        let turned = turn(self.corners[0], self.corners[1], self.corners[2]) < 0.0;
+        let mut pieces = Pieces::default();
+        let mut number = vec![UNKNOWN; net.num_vertices()];
+        for face in net.inner_faces().filter(|face| kept[face.index()]) {
+            let mut triangle = face.vertices().map(|vertex| {
+                let number = &mut number[vertex.index()];
+                if *number == UNKNOWN {
+                    *number = pieces.places.len() as u32;
+                    pieces.places.push(places[vertex.index()]);
+                }
+                *number
+            });
+            if turned {
+                triangle.swap(1, 2);
+            }
+            pieces.triangles.push(triangle);
+        }
+        Some(pieces)
+    }
+
+    /// Adds the corners and the crossings of the sides, and what joins them round the triangle; returns, side by side, the
+    /// crossings with the ends before and behind them.
+    fn add_sides(&self, net: &mut Net) -> Option<[Vec<VertexHandle>; 3]> {
+        let mut corners = Vec::with_capacity(3);
+        for (k, corner) in self.corners.iter().enumerate() {
+            corners.push(net.insert(*corner, Place::Corner(k as u8))?);
+        }
+        let mut rows: [Vec<VertexHandle>; 3] = Default::default();
+        for (k, row) in rows.iter_mut().enumerate() {
+            let side = self.sides[k];
+            let (first, last) = (corners[k], corners[(k + 1) % 3]);
+            let is_forward = side.from == self.corners[k];
+            row.push(if is_forward { first } else { last });
+            for (number, part) in self.crossings[k].iter().enumerate() {
+                let at = side.from + (side.to - side.from) * *part;
+                row.push(net.insert(at, Place::Side(k as u8, number as u32))?);
+            }
+            row.push(if is_forward { last } else { first });
+        }
+        for row in &rows {
+            for pair in row.windows(2) {
+                net.join(pair[0], pair[1]);
+            }
+        }
+        Some(rows)
+    }
+
+    /// Adds what lies of a border within the triangle, and notes it.
+    fn add_border(
+        &self,
+        net: &mut Net,
+        rows: &[Vec<VertexHandle>; 3],
+        border: Segment,
+        drawn: &mut Vec<[VertexHandle; 2]>,
+    ) -> Option<()> {
+        let mut met: Vec<(f64, VertexHandle)> = Vec::new();
+        for (k, side) in self.sides.iter().enumerate() {
+            let Some((part, along)) = side.crossing(border) else { continue };
+            let own = self.crossings[k];
+            let nearest = match part {
+                0.0 => 0,
+                1.0 => own.len() + 1,
+                _ => {
+                    let after = own.partition_point(|other| *other < part);
+                    let is_before =
+                        after > 0 && own.get(after).is_none_or(|next| part - own[after - 1] < *next - part);
+                    after + usize::from(!is_before)
+                }
+            };
+            met.push((along, *rows[k].get(nearest)?));
+        }
+        for (end, along) in [(border[0], 0.0), (border[1], 1.0)] {
+            if self.sides.iter().all(|side| side.admits(end)) {
+                met.push((along, net.insert(end, Place::Inside(self.shares(end)))?));
+            }
+        }
+        met.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for pair in met.chunks_exact(2) {
+            let [from, to] = [pair[0].1, pair[1].1];
+            if net.join(from, to) {
+                drawn.push([from, to]);
+            }
+        }
+        Some(())
+    }
+
+    /// How much of each corner a point has.
+    fn shares(&self, p: DVec2) -> [f64; 3] {
+        let [a, b, c] = self.corners;
+        let shares = [turn(b, c, p), turn(c, a, p), turn(a, b, p)];
+        let whole: f64 = shares.iter().sum();
+        shares.map(|share| share / whole)
+    }
+
+    /// Which faces are left: those on the left of a border, and of its component. Where no border is drawn the mask is asked
+    /// once; where borders contradict each other, face by face.
+    fn kept(
+        &self,
+        net: &Faces,
+        component: &[u32],
+        count: u32,
+        drawn: &[[VertexHandle; 2]],
+        mask: Option<&Mask>,
+    ) -> Vec<bool> {
+        let mut says: Vec<[bool; 2]> = vec![[false; 2]; count as usize];
+        for [from, to] in drawn {
+            let Some(edge) = net.get_edge_from_neighbors(*from, *to) else { continue };
+            says[component[edge.face().index()] as usize][1] = true;
+            says[component[edge.rev().face().index()] as usize][0] = true;
+        }
+        let is_opaque = |p: DVec2| mask.is_none_or(|mask| mask.is_opaque(p));
+        let without = is_opaque(self.corners.iter().sum::<DVec2>() / 3.0);
+        let mut kept = vec![false; component.len()];
+        for face in net.inner_faces() {
+            let own = component[face.index()];
+            kept[face.index()] = own != 0
+                && match says[own as usize] {
+                    [false, true] => true,
+                    [true, false] => false,
+                    [false, false] => without,
+                    [true, true] => {
+                        let centre = face.center();
+                        is_opaque(DVec2::new(centre.x, centre.y))
+                    }
+                };
+        }
+        kept
+    }
+}
+
+impl Net {
+    /// Adds a vertex; where one is already it stays what it was.
+    fn insert(&mut self, at: DVec2, place: Place) -> Option<VertexHandle> {
+        let vertex = self.faces.insert(spade::mitigate_underflow(Point2::new(at.x, at.y))).ok()?;
+        if vertex.index() == self.places.len() {
+            self.places.push(place);
+        }
+        Some(vertex)
+    }
+
+    /// Joins two vertices unless that would cross what is joined already; whether they are joined now.
+    fn join(&mut self, from: VertexHandle, to: VertexHandle) -> bool {
+        let can_be = from != to && self.faces.can_add_constraint(from, to);
+        if can_be {
+            self.faces.add_constraint(from, to);
+        }
+        can_be
+    }
+}
+
+/// Which faces hang together without a joined edge between them, and how many such sets there are; the first is outside.
+fn components(net: &Faces) -> (Vec<u32>, u32) {
+    let mut component = vec![UNKNOWN; net.num_all_faces()];
+    let mut stack = Vec::new();
+    component[net.outer_face().index()] = 0;
+    // From outside: through the sides of the hull that are no side of the triangle.
+    for edge in net.convex_hull() {
+        let inner = edge.rev().face();
+        let inner = if inner.is_outer() { edge.face() } else { inner };
+        if !edge.is_constraint_edge() && component[inner.index()] == UNKNOWN {
+            component[inner.index()] = 0;
+            stack.push(inner.fix());
+        }
+    }
+    let mut count = 1;
+    let mut rest = net.inner_faces();
+    loop {
+        while let Some(face) = stack.pop() {
+            let face = net.face(face);
+            let own = component[face.index()];
+            let Some(inner) = face.as_inner() else { continue };
+            for edge in inner.adjacent_edges() {
+                let other = edge.rev().face();
+                if !edge.is_constraint_edge() && component[other.index()] == UNKNOWN {
+                    component[other.index()] = own;
+                    stack.push(other.fix());
+                }
+            }
+        }
+        let Some(seed) = rest.find(|face| component[face.index()] == UNKNOWN) else { break };
+        component[seed.index()] = count;
+        count += 1;
+        stack.push(seed.adjacent_edges()[0].face().fix());
+    }
+    (component, count)
+}

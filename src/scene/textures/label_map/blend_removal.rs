@@ -1,0 +1,108 @@
+//! [`settle`]: texels that blend the colours of their neighbours are no third colour.
+//!
+//! Where a picture passes from one colour to another its texels have colours in between, and some of these may be nearest to a
+//! colour that is not there at all: a thin rim of it would be painted round everything.
+
+use crate::parallel::prelude::*;
+
+use super::soft_assignment::Guess;
+use crate::colour::oklab::{Oklab, distance2};
+use crate::parallel::task_size::GRAIN;
+use crate::scene::textures::texel_plane::Texels;
+
+/// How far from the straight way between two colours a blend of them may lie.
+const BESIDE: f32 = 0.07;
+
+/// Gives blends one of the two colours that they blend, with how far they lie on the way to the other.
+pub(crate) fn settle(
+    texels: &Texels,
+    palette: &[Oklab],
+    labs: &[Option<Oklab>],
+    guesses: &[Guess],
+) -> Vec<Guess> {
+    let width = texels.size[0];
+    let at =
+        |texel: usize, i: i64, j: i64| texels.index((texel % width) as i64 + i, (texel / width) as i64 + j);
+    // Whether a texel is of one colour with a square of four.
+    let is_core = |texel: usize| {
+        let own = guesses[texel].nearest;
+        let is_own = |i: i64, j: i64| guesses[at(texel, i, j)].nearest == own;
+        [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+            .iter()
+            .any(|(i, j)| is_own(*i, 0) && is_own(0, *j) && is_own(*i, *j))
+    };
+    let is_even = |texel: usize| {
+        let own = guesses[texel];
+        own.way == 0.0 && texels.beside(texel).iter().all(|next| guesses[*next].nearest == own.nearest)
+    };
+    let cores: Vec<bool> = (0..guesses.len())
+        .into_par_iter()
+        .with_min_len(GRAIN)
+        .map(|texel| is_even(texel) || is_core(texel))
+        .collect();
+    let of = |texel: usize| {
+        let own = guesses[texel];
+        let Some(lab) = labs[texel].filter(|_| !is_even(texel)) else { return own };
+        let around = ROUND.map(|(i, j)| at(texel, i, j));
+        let around = || around.into_iter().filter(|next| cores[*next]).map(|next| guesses[next].nearest);
+        let is_own = cores[texel];
+        let mut best: Option<(f32, Guess)> = None;
+        for first in around().chain([own.nearest]).filter(|first| is_own == (*first == own.nearest)) {
+            for second in around().filter(|second| *second != first && (is_own || *second != own.nearest)) {
+                let (beside, way) = beside(lab, palette[first as usize], palette[second as usize]);
+                if way <= 0.5 && best.as_ref().is_none_or(|(least, _)| beside < *least) {
+                    best = Some((beside, Guess { nearest: first, second, way }));
+                }
+            }
+        }
+        match best {
+            Some((far, guess)) if far < BESIDE => guess,
+            _ => Guess { way: 0.0, ..own },
+        }
+    };
+    (0..guesses.len()).into_par_iter().with_min_len(GRAIN).map(of).collect()
+}
+
+/// The texels around one.
+const ROUND: [(i64, i64); 8] = [(-1, -1), (0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0)];
+
+/// How far a colour lies beside the straight way between two, and how far along it.
+fn beside(lab: Oklab, a: Oklab, b: Oklab) -> (f32, f32) {
+    let along: f32 = (0..3).map(|c| (lab[c] - a[c]) * (b[c] - a[c])).sum();
+    let way = (along / distance2(a, b).max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+    let foot: Oklab = std::array::from_fn(|c| a[c] + (b[c] - a[c]) * way);
+    (distance2(lab, foot).sqrt(), way)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::material::Wrap;
+
+    #[test]
+    fn a_rim_between_black_and_white_is_not_grey() {
+        let palette = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 0.0, 0.0]];
+        let texels = Texels {
+            size: [7, 4],
+            wrap: [Wrap::Clamp; 2],
+            upward: false,
+            placing: crate::scene::material::Placing::default(),
+        };
+        let row = [0.0, 0.0, 0.0, 0.6, 1.0, 1.0, 1.0];
+        let labs: Vec<Option<Oklab>> = (0..28).map(|k| Some([row[k % 7], 0.0, 0.0])).collect();
+        let guess = |k: usize| match row[k % 7] {
+            0.0 => Guess { nearest: 0, second: 2, way: 0.0 },
+            1.0 => Guess { nearest: 1, second: 2, way: 0.0 },
+            _ => Guess { nearest: 2, second: 1, way: 0.2 },
+        };
+        let guesses: Vec<Guess> = (0..28).map(guess).collect();
+        let settled = settle(&texels, &palette, &labs, &guesses);
+        assert_eq!((settled[10].nearest, settled[10].second), (1, 0));
+        assert!((settled[10].way - 0.4).abs() < 1e-6);
+        // A stripe that is two texels wide is there.
+        let wide: Vec<Guess> =
+            (0..28).map(|k| Guess { nearest: [0, 0, 2, 2, 1, 1, 1][k % 7], second: 0, way: 0.0 }).collect();
+        let settled = settle(&texels, &palette, &labs, &wide);
+        assert_eq!((settled[9].nearest, settled[10].nearest), (2, 2));
+    }
+}

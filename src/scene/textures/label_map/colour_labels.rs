@@ -1,0 +1,232 @@
+//! [`Labels`]: which of a few colours each texel of a picture is painted with, and each point between them.
+
+use crate::parallel::prelude::*;
+use glam::DVec2;
+
+use super::soft_assignment::Guess;
+use super::texel_assignments::{Guesses, MOST_REACH};
+use crate::geometry::numbers::portable_math;
+use crate::scene::textures::texel_plane::Texels;
+
+/// Colours that have a share in a texel, at most.
+const SHARES: usize = 4;
+
+/// In [`Labels::mixed`]: all of the texel is of its colour.
+const PURE: u32 = u32::MAX;
+
+type Shares = [(u8, f32); SHARES];
+
+/// Which of a few colours each texel of a picture is painted with, and each point between them.
+///
+/// Every texel has a share of each colour, blurred a little, and is painted with the one of which it has most. Between two
+/// texels shares are linear; borders go straight from one such place to the next, or to the point where three colours meet.
+#[derive(Debug, Clone)]
+pub(crate) struct Labels {
+    pub texels: Texels,
+    winners: Vec<u8>,
+    /// Where the shares of each texel are found.
+    mixed: Vec<u32>,
+    shares: Vec<Shares>,
+    /// Whether texels are blocks.
+    blocks: bool,
+}
+
+impl Labels {
+    /// Which colours texels have that are blocks: those that they are nearest to.
+    pub(crate) fn blocks(guesses: &Guesses) -> Self {
+        let winners: Vec<u8> = guesses.list.iter().map(|guess| guess.nearest).collect();
+        let mixed = vec![PURE; winners.len()];
+        Self { texels: guesses.texels, winners, mixed, shares: Vec::new(), blocks: true }
+    }
+
+    /// Which of so many colours texels have, from those they are near to, with shares blurred by a normal distribution of this
+    /// deviation, texels.
+    pub(crate) fn of(guesses: &Guesses, blur: f64, colours: usize) -> Self {
+        let texels = guesses.texels;
+        let width = texels.size[0];
+        let reach = if blur < 0.3 { 0 } else { (2.5 * blur).ceil().min(f64::from(MOST_REACH)) as i64 };
+        let bell: Vec<f32> = (0..=reach)
+            .map(|k| portable_math::exp(-((k * k) as f64) / (2.0 * blur * blur).max(1e-9)) as f32)
+            .collect();
+        let of = |sums: &mut Vec<f32>, texel: &usize| {
+            let (i, j) = ((texel % width) as i64, (texel / width) as i64);
+            sums.fill(0.0);
+            for y in -reach..=reach {
+                for x in -reach..=reach {
+                    let weight = bell[x.unsigned_abs() as usize] * bell[y.unsigned_abs() as usize];
+                    let Guess { nearest, second, way } = guesses.list[texels.index(i + x, j + y)];
+                    sums[nearest as usize] += weight * (1.0 - way);
+                    sums[second as usize] += weight * way;
+                }
+            }
+            greatest(sums)
+        };
+        let are_mixed = guesses.mixed(reach as u8);
+        let sums = || vec![0.0_f32; colours.max(1)];
+        let shares: Vec<Shares> = are_mixed.par_iter().with_min_len(1 << 8).map_init(sums, of).collect();
+        let mut labels = Self { shares, ..Self::blocks(guesses) };
+        labels.blocks = false;
+        for (at, texel) in are_mixed.into_iter().enumerate() {
+            labels.winners[texel] = labels.shares[at][0].0;
+            labels.mixed[texel] = at as u32;
+        }
+        labels
+    }
+
+    /// The colour of a texel.
+    pub(crate) fn winner(&self, texel: usize) -> u8 {
+        self.winners[texel]
+    }
+
+    /// Paints a texel with another colour.
+    pub(crate) fn repaint(&mut self, texel: usize, colour: u8) {
+        self.winners[texel] = colour;
+        self.mixed[texel] = PURE;
+    }
+
+    /// How much more a texel has of a colour than of another.
+    pub(crate) fn lead(&self, texel: usize, of: u8, before: u8) -> f64 {
+        let share = |colour: u8| match self.mixed[texel] {
+            PURE => f64::from(u8::from(self.winners[texel] == colour)),
+            at => self.shares[at as usize]
+                .iter()
+                .find(|(own, _)| *own == colour)
+                .map_or(0.0, |s| f64::from(s.1)),
+        };
+        share(of) - share(before)
+    }
+
+    /// The colour at a point of the plane.
+    pub fn at(&self, p: DVec2) -> u8 {
+        let (low, part) = (p.floor(), p - p.floor());
+        let cell = Cell::new(self, low.x as i64, low.y as i64);
+        cell.at(part)
+    }
+}
+
+/// The greatest of some sums, by their numbers, as shares of all.
+fn greatest(sums: &[f32]) -> Shares {
+    let all: f32 = sums.iter().sum();
+    let mut shares: Shares = [(0, 0.0); SHARES];
+    for (colour, sum) in sums.iter().enumerate() {
+        let mut next = (colour as u8, sum / all);
+        for share in &mut shares {
+            if next.1 > share.1 {
+                std::mem::swap(&mut next, share);
+            }
+        }
+    }
+    shares
+}
+
+/// The square between the middles of four texels: round it from the first, to the right and down.
+pub(crate) struct Cell<'a> {
+    labels: &'a Labels,
+    texels: [usize; 4],
+    pub colours: [u8; 4],
+}
+
+/// How a cell is parted.
+pub(crate) enum Parting {
+    /// It is not.
+    Not,
+    /// By borders from side to side.
+    Across(Vec<[usize; 2]>),
+    /// By borders from sides to a point where all meet.
+    Meeting(DVec2),
+}
+
+/// Places on sides are rounded to this part of a texel, so that they are the same from both ends of a picture.
+const STEPS: f64 = (1u64 << 20) as f64;
+
+impl<'a> Cell<'a> {
+    pub fn new(labels: &'a Labels, i: i64, j: i64) -> Self {
+        let texels = [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(x, y)| labels.texels.index(i + x, j + y));
+        Self { labels, texels, colours: texels.map(|texel| labels.winner(texel)) }
+    }
+
+    /// Whether all of it has one colour.
+    pub fn is_even(&self) -> bool {
+        self.colours == [self.colours[0]; 4]
+    }
+
+    /// Where two colours meet on a side, counted from its first corner on, in the unit square.
+    pub fn crossing(&self, side: usize) -> Option<DVec2> {
+        let next = (side + 1) % 4;
+        let [a, b] = [self.colours[side], self.colours[next]];
+        if a == b {
+            return None;
+        }
+        // From the left or the upper end, whichever cell asks.
+        let (first, second) = if side < 2 { (side, next) } else { (next, side) };
+        let [a, b] = [self.colours[first], self.colours[second]];
+        let ahead = self.labels.lead(self.texels[first], a, b);
+        let behind = self.labels.lead(self.texels[second], b, a);
+        let part = if ahead + behind > 0.0 { (ahead / (ahead + behind)).clamp(0.0, 1.0) } else { 0.5 };
+        let part = (part * STEPS).round() / STEPS;
+        let [from, to] = [CORNERS[first], CORNERS[second]];
+        Some(from + (to - from) * part)
+    }
+
+    /// How it is parted.
+    pub fn parting(&self) -> Parting {
+        if self.is_even() {
+            return Parting::Not;
+        }
+        if self.labels.blocks {
+            return Parting::Meeting(DVec2::splat(0.5));
+        }
+        let crossed: Vec<usize> = (0..4).filter(|side| self.crossing(*side).is_some()).collect();
+        let [a, b, c, d] = self.colours;
+        match crossed[..] {
+            [first, second] => Parting::Across(vec![[first, second]]),
+            [_, _, _, _] if a == c && b == d => {
+                let [p, q, r, s] = self.texels.map(|texel| self.labels.lead(texel, a, b));
+                // The value where the bilinear lead has its saddle.
+                let joins_a = (p * r - q * s) / (p + r - q - s) >= 0.0;
+                Parting::Across(if joins_a { vec![[0, 1], [2, 3]] } else { vec![[3, 0], [1, 2]] })
+            }
+            _ => {
+                let all: DVec2 = crossed.iter().filter_map(|side| self.crossing(*side)).sum();
+                Parting::Meeting(all / crossed.len() as f64)
+            }
+        }
+    }
+
+    /// The colour of a point of the unit square.
+    fn at(&self, p: DVec2) -> u8 {
+        match self.parting() {
+            Parting::Not => self.colours[0],
+            Parting::Across(ways) => {
+                // Whether the point lies on the side of the corner behind the first of two sides.
+                let is_behind = |[first, second]: &[usize; 2]| {
+                    let [Some(from), Some(to)] = [*first, *second].map(|side| self.crossing(side)) else {
+                        return false;
+                    };
+                    let turn = |q: DVec2| (to - from).perp_dot(q - from);
+                    turn(p) * turn(CORNERS[(first + 1) % 4]) > 0.0
+                };
+                match ways.iter().find(|way| is_behind(way)) {
+                    Some([first, _]) => self.colours[(first + 1) % 4],
+                    None => self.colours[ways[0][0]],
+                }
+            }
+            Parting::Meeting(middle) => {
+                // From the middle, corners lie between the borders on both their sides.
+                let on_side = |side: usize| {
+                    self.crossing(side).unwrap_or((CORNERS[side] + CORNERS[(side + 1) % 4]) / 2.0) - middle
+                };
+                let way = p - middle;
+                let is_of = |corner: &usize| {
+                    let (from, to) = (on_side((corner + 3) % 4), on_side(*corner));
+                    from.perp_dot(way) >= 0.0 && way.perp_dot(to) >= 0.0
+                };
+                (0..4).find(is_of).map_or(self.colours[0], |corner| self.colours[corner])
+            }
+        }
+    }
+}
+
+/// The corners of a cell.
+const CORNERS: [DVec2; 4] =
+    [DVec2::new(0.0, 0.0), DVec2::new(1.0, 0.0), DVec2::new(1.0, 1.0), DVec2::new(0.0, 1.0)];

@@ -1,0 +1,224 @@
+//! [`trace`]: the borders between the colours of a picture, in the plane of its texels.
+
+use glam::DVec2;
+use rustc_hash::FxHashMap;
+
+use super::colour_labels::{Cell, Labels, Parting};
+use crate::scene::textures::texel_plane::Traced;
+
+/// A picture with more pieces of border than this has none.
+const MOST_PIECES: usize = 1 << 22;
+
+/// Where borders end in a cell: on a side between neighbouring texels (the column and row of the first, and whether the second
+/// lies below it), or in the middle of the cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+enum Place {
+    Side(u32, u32, bool),
+    Middle(u32, u32),
+}
+
+/// Traces the borders between colours; none if there are too many.
+pub(crate) fn trace(labels: &Labels) -> Option<Traced> {
+    let (reach, periods) = (labels.texels.reach(), labels.texels.periods());
+    let mut pieces: Vec<Piece> = Vec::new();
+    let columns: Vec<usize> = (0..=reach[0] as i64).map(|i| labels.texels.index(i, 0)).collect();
+    for j in 0..reach[1] as u32 {
+        let rows = [0, 1].map(|down| labels.texels.index(0, i64::from(j) + down));
+        for i in 0..reach[0] as u32 {
+            let colour = |row: usize, right: usize| labels.winner(rows[row] + columns[i as usize + right]);
+            let own = colour(0, 0);
+            if [(0, 1), (1, 0), (1, 1)].iter().all(|(row, right)| colour(*row, *right) == own) {
+                continue;
+            }
+            let cell = Cell::new(labels, i.into(), j.into());
+            let at = DVec2::new(f64::from(i), f64::from(j));
+            let place = |side: usize| match side {
+                0 => Place::Side(i, j, false),
+                1 => Place::Side(i + 1, j, true),
+                2 => Place::Side(i, j + 1, false),
+                _ => Place::Side(i, j, true),
+            };
+            let end = |side: usize| Some((place(side), at + cell.crossing(side)?));
+            let parted = |side: usize| {
+                let [a, b] = [cell.colours[side], cell.colours[(side + 1) % 4]];
+                [a.min(b), a.max(b)]
+            };
+            match cell.parting() {
+                Parting::Not => {}
+                Parting::Across(ways) => {
+                    pieces.extend(ways.iter().filter_map(|way| {
+                        Some(Piece { ends: [end(way[0])?, end(way[1])?], parted: parted(way[0]) })
+                    }));
+                }
+                Parting::Meeting(middle) => {
+                    let middle = (Place::Middle(i, j), at + middle);
+                    pieces.extend(
+                        (0..4).filter_map(|side| {
+                            Some(Piece { ends: [end(side)?, middle], parted: parted(side) })
+                        }),
+                    );
+                }
+            }
+        }
+        if pieces.len() > MOST_PIECES {
+            return None;
+        }
+    }
+    let (lines, parted) = linked(&pieces);
+    Some(Traced { lines, parted, reach, periods })
+}
+
+/// A piece of border in a cell.
+struct Piece {
+    ends: [(Place, DVec2); 2],
+    /// The two colours that it parts.
+    parted: [u8; 2],
+}
+
+/// Pieces end to end, from where three meet, or none goes on, to the next such place; and which colours each line parts.
+fn linked(pieces: &[Piece]) -> (Vec<Vec<DVec2>>, Vec<[u8; 2]>) {
+    let mut at: FxHashMap<Place, Vec<u32>> = FxHashMap::default();
+    for (number, piece) in pieces.iter().enumerate() {
+        for (place, _) in piece.ends {
+            at.entry(place).or_default().push(number as u32);
+        }
+    }
+    let mut used = vec![false; pieces.len()];
+    let (mut lines, mut parted) = (Vec::new(), Vec::new());
+    let mut follow = |first: usize, backward: bool| {
+        let mut line = Vec::new();
+        let (mut number, mut backward) = (first, backward);
+        while !std::mem::replace(&mut used[number], true) {
+            let piece = pieces[number].ends;
+            let [from, to] = if backward { [piece[1], piece[0]] } else { piece };
+            if line.is_empty() {
+                line.push(from.1);
+            }
+            line.push(to.1);
+            let next = match at.get(&to.0).map(Vec::as_slice) {
+                Some([a, b]) => Some(if *a as usize == number { *b } else { *a }),
+                _ => None,
+            };
+            let Some(next) = next else { break };
+            number = next as usize;
+            backward = pieces[number].ends[0].0 != to.0;
+        }
+        if line.len() > 1 {
+            lines.push(line);
+            parted.push(pieces[first].parted);
+        }
+    };
+    // Lines that end anywhere first, then rings.
+    for (number, piece) in pieces.iter().enumerate() {
+        for (end, (place, _)) in piece.ends.iter().enumerate() {
+            if at.get(place).is_some_and(|there| there.len() != 2) {
+                follow(number, end == 1);
+            }
+        }
+    }
+    (0..pieces.len()).for_each(|number| follow(number, false));
+    (lines, parted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::soft_assignment::Guess;
+    use super::super::texel_assignments::Guesses;
+    use super::*;
+    use crate::scene::material::Wrap;
+    use crate::scene::textures::texel_plane::Texels;
+
+    fn labels(size: [usize; 2], wrap: Wrap, blur: f64, of: impl Fn(DVec2) -> (u8, u8, f32)) -> Labels {
+        let at = |k: usize| DVec2::new((k % size[0]) as f64, (k / size[0]) as f64);
+        let guess = |k: usize| {
+            let (nearest, second, way) = of(at(k));
+            Guess { nearest, second, way }
+        };
+        let guesses: Vec<Guess> = (0..size[0] * size[1]).map(guess).collect();
+        let texels = Texels {
+            size,
+            wrap: [wrap; 2],
+            upward: false,
+            placing: crate::scene::material::Placing::default(),
+        };
+        Labels::of(&Guesses::new(texels, guesses), blur, 3)
+    }
+
+    /// A disc in the middle of 48 texels, softened over one, as colour 1 on 0.
+    fn disc(p: DVec2) -> (u8, u8, f32) {
+        let share = (p.distance(DVec2::splat(23.5)) - 15.2 + 0.5).clamp(0.0, 1.0) as f32;
+        if share < 0.5 { (1, 0, share) } else { (0, 1, 1.0 - share) }
+    }
+
+    #[test]
+    fn a_disc_is_one_ring_where_its_border_is() {
+        for blur in [0.0, 0.8] {
+            let traced = trace(&labels([48, 48], Wrap::Repeat, blur, disc)).unwrap();
+            assert_eq!(traced.lines.len(), 1);
+            let ring = &traced.lines[0];
+            assert_eq!(ring.first(), ring.last());
+            let off = ring.iter().map(|p| (p.distance(DVec2::splat(23.5)) - 15.2).abs()).fold(0.0, f64::max);
+            assert!(off < 0.12, "{off} texels off, blurred by {blur}");
+        }
+    }
+
+    #[test]
+    fn three_colours_meet_in_a_point() {
+        let third = |p: DVec2| match (p.x < 4.0, p.y < 4.0) {
+            (true, _) => (0, 0, 0.0),
+            (false, true) => (1, 1, 0.0),
+            (false, false) => (2, 2, 0.0),
+        };
+        let traced = trace(&labels([8, 8], Wrap::Clamp, 0.0, third)).unwrap();
+        assert_eq!(traced.lines.len(), 3);
+        let meeting = DVec2::new(3.5, 3.5);
+        let ends = |line: &Vec<DVec2>| [line[0], line[line.len() - 1]];
+        assert!(traced.lines.iter().all(|line| ends(line).iter().any(|end| end.distance(meeting) < 0.2)));
+    }
+
+    #[test]
+    fn colours_differ_on_both_sides_of_borders_and_nowhere_else() {
+        // Patches without order, of three colours, over the seams too.
+        let patch = |p: DVec2| {
+            let dice =
+                (p.x as u64 / 3 * 7919 + p.y as u64 / 3 * 104_729).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 33;
+            ((dice % 3) as u8, 0, 0.0)
+        };
+        for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp] {
+            let labels = labels([21, 18], wrap, 0.6, patch);
+            let traced = trace(&labels).unwrap();
+            assert!(traced.lines.len() > 5, "{}", traced.lines.len());
+            let beside = |a: DVec2, b: DVec2| {
+                let across = (b - a).perp().normalize_or_zero() * 1e-4;
+                [(a + b) / 2.0 + across, (a + b) / 2.0 - across].map(|p| labels.at(p))
+            };
+            let pieces = || traced.lines.iter().flat_map(|line| line.windows(2));
+            // Every line knows its two colours.
+            for (line, parted) in traced.lines.iter().zip(&traced.parted) {
+                let long = line.windows(2).find(|pair| pair[0].distance(pair[1]) > 0.05);
+                let mut seen = long.map_or(*parted, |pair| beside(pair[0], pair[1]));
+                seen.sort_unstable();
+                assert_eq!(seen, *parted);
+            }
+            let wrong = pieces().filter(|pair| {
+                let [left, right] = beside(pair[0], pair[1]);
+                pair[0].distance(pair[1]) > 0.05 && left == right
+            });
+            assert_eq!(wrong.count(), 0, "{wrap:?}");
+            // Along a line of sight, colours change as often as borders are crossed, or both less often by pairs.
+            for row in 0..170 {
+                let y = f64::from(row) * 0.1 + 0.043;
+                let at = |k: u32| DVec2::new(f64::from(k) * 0.002 + 0.0007, y);
+                let changes = (0..10_000).filter(|k| labels.at(at(*k)) != labels.at(at(*k + 1))).count();
+                let crossed = pieces()
+                    .filter(|pair| {
+                        let part = (y - pair[0].y) / (pair[1].y - pair[0].y);
+                        let x = pair[0].x + (pair[1].x - pair[0].x) * part;
+                        (pair[0].y > y) != (pair[1].y > y) && x > at(0).x && x < at(10_000).x
+                    })
+                    .count();
+                assert_eq!(changes % 2, crossed % 2, "along y = {y}, {wrap:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! [`merge`]: specks of colour go to what is around them.
+
+use crate::parallel::prelude::*;
+
+use super::colour_labels::Labels;
+use crate::parallel::task_size::GRAIN;
+
+/// Paints what hangs together on fewer texels than this like the neighbour with which it shares most of its border, small ones
+/// first. Gives the number of texels that were specks at first.
+pub(crate) fn merge(labels: &mut Labels, least: f64) -> usize {
+    let first = merge_once(labels, least);
+    // Specks may lie within specks.
+    if first > 0 && merge_once(labels, least) > 0 {
+        merge_once(labels, least);
+    }
+    first
+}
+
+/// Gives the number of texels that were painted anew.
+fn merge_once(labels: &mut Labels, least: f64) -> usize {
+    let texels = labels.texels;
+    let mut small = small(labels, least);
+    small.sort_by_key(|speck| (speck.len(), speck[0]));
+    let mut changed = 0;
+    for speck in small {
+        let colour = labels.winner(speck[0]);
+        let mut shared: Vec<(u8, usize)> = Vec::new();
+        for next in speck.iter().flat_map(|texel| texels.beside(*texel)) {
+            let other = labels.winner(next);
+            if other == colour {
+                continue;
+            }
+            match shared.iter_mut().find(|(known, _)| *known == other) {
+                Some((_, length)) => *length += 1,
+                None => shared.push((other, 1)),
+            }
+        }
+        if let Some((other, _)) =
+            shared.iter().max_by_key(|(other, length)| (*length, std::cmp::Reverse(*other)))
+        {
+            speck.iter().for_each(|texel| labels.repaint(*texel, *other));
+            changed += speck.len();
+        }
+    }
+    changed
+}
+
+/// What hangs together on fewer texels than this, each from its first texel on.
+///
+/// It is sought from borders, and what has grown as large is left at once, so that most of a picture is never looked at.
+fn small(labels: &Labels, least: f64) -> Vec<Vec<usize>> {
+    let texels = labels.texels;
+    let count = texels.size[0] * texels.size[1];
+    let at_border = |texel: &usize| {
+        texels.beside(*texel).iter().any(|next| labels.winner(*next) != labels.winner(*texel))
+    };
+    let border: Vec<usize> = (0..count).into_par_iter().with_min_len(GRAIN).filter(at_border).collect();
+    let mut known = vec![Known::Not; count];
+    let mut small: Vec<Vec<usize>> = Vec::new();
+    let mut own: Vec<usize> = Vec::new();
+    for first in border {
+        if known[first] != Known::Not {
+            continue;
+        }
+        let colour = labels.winner(first);
+        known[first] = Known::Small;
+        own.clear();
+        own.push(first);
+        let mut at = 0;
+        let mut is_small = true;
+        while is_small && at < own.len() && (own.len() as f64) < least {
+            for next in texels.beside(own[at]) {
+                if labels.winner(next) != colour {
+                    continue;
+                }
+                match known[next] {
+                    Known::Not => {
+                        known[next] = Known::Small;
+                        own.push(next);
+                    }
+                    Known::Small => {}
+                    Known::Large => is_small = false,
+                }
+            }
+            at += 1;
+        }
+        if is_small && (own.len() as f64) < least {
+            own.sort_unstable();
+            small.push(own.clone());
+        } else {
+            own.iter().for_each(|texel| known[*texel] = Known::Large);
+        }
+    }
+    small
+}
+
+/// What is known of a texel: nothing, that it is part of what is small, as far as that was followed, or of what is not.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Known {
+    Not,
+    Small,
+    Large,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::soft_assignment::Guess;
+    use super::super::texel_assignments::Guesses;
+    use super::*;
+    use crate::scene::material::Wrap;
+    use crate::scene::textures::texel_plane::Texels;
+
+    #[test]
+    fn specks_take_the_colour_around_them_over_seams_too() {
+        // A speck of four on the corners of the picture, which hang together, one of two, and a patch of nine.
+        let colour = |k: usize| match (k % 12, k / 12) {
+            (0 | 11, 0 | 11) => 1,
+            (5, 5 | 6) => 2,
+            (8..=10, 2..=4) => 1,
+            _ => 0,
+        };
+        let guesses: Vec<Guess> =
+            (0..144).map(|k| Guess { nearest: colour(k), second: 0, way: 0.0 }).collect();
+        let texels = Texels {
+            size: [12, 12],
+            wrap: [Wrap::Repeat; 2],
+            upward: false,
+            placing: crate::scene::material::Placing::default(),
+        };
+        let guesses = Guesses::new(texels, guesses);
+        let merged = |least: f64| {
+            let mut labels = Labels::of(&guesses, 0.0, 3);
+            merge(&mut labels, least);
+            [0, 5 * 12 + 5, 3 * 12 + 9].map(|texel| labels.winner(texel))
+        };
+        assert_eq!(merged(4.0), [1, 0, 1]);
+        assert_eq!(merged(5.0), [0, 0, 1]);
+        assert_eq!(merged(10.0), [0, 0, 0]);
+    }
+
+    /// What hangs together on fewer texels than this, by following all that hangs together.
+    fn small_by_all(labels: &Labels, least: f64) -> Vec<Vec<usize>> {
+        let count = labels.texels.size[0] * labels.texels.size[1];
+        let mut is_known = vec![false; count];
+        let mut small = Vec::new();
+        for first in 0..count {
+            let (mut own, mut open) = (Vec::new(), vec![first]);
+            while let Some(texel) = open.pop() {
+                if !std::mem::replace(&mut is_known[texel], true) {
+                    own.push(texel);
+                    let beside = labels.texels.beside(texel);
+                    open.extend(beside.iter().filter(|next| labels.winner(**next) == labels.winner(first)));
+                }
+            }
+            own.sort_unstable();
+            if !own.is_empty() && (own.len() as f64) < least {
+                small.push(own);
+            }
+        }
+        small
+    }
+
+    #[test]
+    fn specks_are_those_that_following_everything_finds() {
+        let dice = |k: usize| {
+            (k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(31).wrapping_mul(0x94d0_49bb)
+        };
+        for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp] {
+            for [patch, least] in [[1, 2], [1, 5], [2, 9], [3, 18], [9, 60], [40, 7]] {
+                let size = [31, 22];
+                let guess = |k: usize| {
+                    let colour = dice(k % size[0] / patch * 977 + k / size[0] / patch) >> 40;
+                    Guess { nearest: (colour % 3) as u8, second: 0, way: 0.0 }
+                };
+                let texels = Texels {
+                    size,
+                    wrap: [wrap; 2],
+                    upward: false,
+                    placing: crate::scene::material::Placing::default(),
+                };
+                let guesses = Guesses::new(texels, (0..size[0] * size[1]).map(guess).collect());
+                let labels = Labels::of(&guesses, 0.0, 3);
+                let mut found = small(&labels, least as f64);
+                found.sort_unstable_by_key(|speck| speck[0]);
+                assert_eq!(found, small_by_all(&labels, least as f64), "{wrap:?}, {patch}, {least}");
+            }
+        }
+    }
+}

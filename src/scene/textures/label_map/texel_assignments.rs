@@ -1,0 +1,84 @@
+//! [`Guesses`]: between which colours of a palette each texel of a picture lies, however large it is seen.
+
+use crate::parallel::prelude::*;
+
+use super::soft_assignment::Guess;
+use crate::parallel::task_size::GRAIN;
+use crate::scene::textures::texel_plane::Texels;
+
+/// Between which colours of a palette each texel of a picture lies, however large it is seen.
+#[derive(Debug)]
+pub(crate) struct Guesses {
+    pub texels: Texels,
+    pub list: Vec<Guess>,
+    /// For each texel how many steps to the side, up or down it is to one of another colour, less one; at most [`FAR`].
+    to_border: Vec<u8>,
+}
+
+/// Borders are not blurred over more texels than this.
+pub(crate) const MOST_REACH: u8 = 4;
+
+/// Of texels whose border is farther away than it can be blurred.
+const FAR: u8 = MOST_REACH + 1;
+
+impl Guesses {
+    pub fn new(texels: Texels, list: Vec<Guess>) -> Self {
+        let differs =
+            |texel: usize| texels.beside(texel).iter().any(|next| list[*next].nearest != list[texel].nearest);
+        let all = || (0..list.len()).into_par_iter().with_min_len(GRAIN);
+        let mut to_border: Vec<u8> = all().map(|texel| if differs(texel) { 0 } else { FAR }).collect();
+        let mut ring: Vec<usize> = all().filter(|texel| to_border[*texel] == 0).collect();
+        for steps in 1..FAR {
+            let mut next = Vec::new();
+            for texel in ring.iter().flat_map(|texel| texels.beside(*texel)) {
+                if to_border[texel] == FAR {
+                    to_border[texel] = steps;
+                    next.push(texel);
+                }
+            }
+            ring = next;
+        }
+        Self { texels, list, to_border }
+    }
+
+    /// In their order, the texels that a blur reaching over so many others mixes with another colour, or that are mixed by
+    /// themselves where there is none.
+    pub fn mixed(&self, reach: u8) -> Vec<usize> {
+        let is_mixed =
+            |texel: &usize| self.to_border[*texel] <= reach || (reach == 0 && self.list[*texel].way != 0.0);
+        (0..self.list.len()).into_par_iter().with_min_len(GRAIN).filter(is_mixed).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::material::{Placing, Wrap};
+
+    #[test]
+    fn texels_are_mixed_as_far_from_borders_as_a_blur_reaches() {
+        // Patches of three colours over 23 x 17 texels; some are mixed by themselves.
+        let guess = |k: usize| {
+            let dice = (k % 23 / 6 * 7919 + k / 23 / 5 * 104_729).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 33;
+            Guess { nearest: (dice % 3) as u8, second: 0, way: if k % 7 == 3 { 0.2 } else { 0.0 } }
+        };
+        for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp] {
+            let texels =
+                Texels { size: [23, 17], wrap: [wrap; 2], upward: false, placing: Placing::default() };
+            let list: Vec<Guess> = (0..23 * 17).map(guess).collect();
+            let guesses = Guesses::new(texels, list.clone());
+            // The reference grows what differs by one step after the other.
+            let mut near: Vec<bool> = (0..list.len())
+                .map(|k| texels.beside(k).iter().any(|next| list[*next].nearest != list[k].nearest))
+                .collect();
+            for reach in 0..=MOST_REACH {
+                let expected: Vec<usize> =
+                    (0..list.len()).filter(|k| near[*k] || (reach == 0 && list[*k].way != 0.0)).collect();
+                assert_eq!(guesses.mixed(reach), expected, "{wrap:?}, {reach}");
+                near = (0..near.len())
+                    .map(|k| near[k] || texels.beside(k).iter().any(|next| near[*next]))
+                    .collect();
+            }
+        }
+    }
+}

@@ -1,0 +1,224 @@
+//! The base-colour texture of a material, reduced to a few flat colours or embedded as it is.
+//!
+//! 1. The picture is decoded and placed in the texel plane ([`texel_plane`]).
+//! 2. [`texel_coverage`] weighs each texel by the surface area on which it is visible.
+//! 3. [`palette`] finds the flat colours of a palette texture, or else a few representative colours.
+//! 4. [`label_map`] gives each texel one of these colours and traces the borders between them.
+//! 5. With `fill = "image"` [`embedded_texture`] resamples the picture for the drawing instead.
+//!
+//! [`cutouts`] uses the same plane to cut transparent texels out of the triangles. [`texture_options`] has
+//! the style keys; [`result_cache`] keeps assignments and maps between views.
+
+pub(crate) mod cutouts;
+mod embedded_texture;
+mod label_map;
+pub(crate) mod palette;
+mod result_cache;
+mod texel_coverage;
+pub(crate) mod texel_plane;
+pub mod texture_options;
+
+use std::path::Path;
+
+pub(crate) use embedded_texture::Imaged;
+pub(crate) use label_map::colour_map::ColourMap;
+pub(crate) use label_map::painted_texture::Painted;
+pub(crate) use palette::colour_kmeans::few;
+
+use self::label_map::texel_assignments::Guesses;
+use self::palette::palette_clusters::{ALIKE, difference};
+use self::result_cache::Kept;
+use super::model_folder::read_beside;
+use super::{Alpha, Filter, Material, Scene};
+use crate::colour::oklab;
+use crate::colour::pixel_picture::Picture;
+use crate::colour::srgb::Colour;
+use crate::mesh::{MaterialId, PaintId};
+use texel_plane::Texels;
+
+/// The picture of a base colour.
+pub(crate) struct Texture {
+    picture: Picture,
+    texels: Texels,
+    filter: Filter,
+}
+
+/// Places of a triangle that are looked at to tell whether it is of one colour, at most, along each of its sides.
+const LOOKS: f64 = 48.0;
+
+impl Texture {
+    /// The texture of a material; none if it has none or if it is not PNG, JPEG or WebP, an error if it
+    /// cannot be read.
+    pub fn of(scene: &Scene, material: &Material) -> Option<Result<Self, String>> {
+        let picture = picture_of(scene, material)?;
+        Some(picture.map(|picture| {
+            let picture = picture.at_most(MOST_TEXELS);
+            Self { texels: Texels::of(scene, material, &picture), picture, filter: material.filter }
+        }))
+    }
+
+    /// The colour that stands for a triangle: of its centroid and three points between that and
+    /// its corners, the one that differs least from the others; and how far all of the triangle but its rim differs from it, up
+    /// to [`ALIKE`].
+    pub fn of_triangle(&self, corners: [[f32; 2]; 3]) -> (Colour, u32) {
+        let mut corners = corners;
+        // Whichever corner the triangle begins with, the points are the same to the last bit.
+        corners.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then_with(|| a[1].total_cmp(&b[1])));
+        let [a, b, c] = corners.map(|uv| self.texels.place(uv).unwrap_or_default());
+        let at = |wa: f64, wb: f64, wc: f64| self.at(a * wa + b * wb + c * wc);
+        let third = 1.0 / 3.0;
+        let samples = [at(third, third, third), at(0.8, 0.1, 0.1), at(0.1, 0.8, 0.1), at(0.1, 0.1, 0.8)];
+        let strange = |sample: &Colour| samples.iter().map(|other| difference(*sample, *other)).sum::<u32>();
+        let colour = samples.into_iter().min_by_key(strange).unwrap_or(samples[0]);
+        let mut far = samples.iter().map(|sample| difference(*sample, colour)).max().unwrap_or_default();
+        // Texel by texel, or in so many steps.
+        let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+        let steps = longest.min(LOOKS).ceil().max(1.0);
+        for i in 0..=steps as u32 {
+            for j in 0..=steps as u32 - i {
+                if far >= ALIKE {
+                    return (colour, ALIKE);
+                }
+                let (wa, wb) = (0.1 + 0.7 * f64::from(i) / steps, 0.1 + 0.7 * f64::from(j) / steps);
+                far = far.max(difference(at(wa, wb, 1.0 - wa - wb), colour));
+            }
+        }
+        (colour, far.min(ALIKE))
+    }
+
+    /// The nearest texel.
+    fn at(&self, place: glam::DVec2) -> Colour {
+        let nearest = (place + 0.5).floor();
+        let texel = self.texels.index(nearest.x as i64, nearest.y as i64);
+        self.picture.pixels[texel]
+    }
+
+    /// A picture laid on a material that need not know it.
+    pub fn showing(scene: &Scene, material: &Material, picture: &Picture) -> Self {
+        let picture = picture.clone().at_most(MOST_TEXELS);
+        Self { texels: Texels::of(scene, material, &picture), picture, filter: Filter::Smooth }
+    }
+
+    /// On how much of the surface each texel is seen, clear ones too; `triangles` as in [`Texture::shown`].
+    pub fn seen_on(&self, scene: &Scene, triangles: &[[usize; 2]]) -> Vec<f32> {
+        texel_coverage::shown(scene, triangles, &self.texels)
+    }
+
+    /// On how much of the surface of a material each texel is seen: none of those that are clear. `triangles` are those that
+    /// show the picture: the geometry of each, in ascending order, and its number there.
+    pub fn shown(&self, scene: &Scene, material: usize, triangles: &[[usize; 2]]) -> Vec<f32> {
+        let mut shown = self.seen_on(scene, triangles);
+        let least = match scene.materials.get(material).map(|material| material.alpha) {
+            Some(Alpha::Mask { cutoff }) => cutoff * 255.0,
+            Some(Alpha::Blend) => 127.5,
+            Some(Alpha::Opaque) | None => return shown,
+        };
+        for (shown, colour) in shown.iter_mut().zip(&self.picture.pixels) {
+            if f32::from(colour.a) < least {
+                *shown = 0.0;
+            }
+        }
+        shown
+    }
+
+    /// The mean light of all that is seen.
+    pub fn mean_light(&self, shown: &[f32]) -> Option<Colour> {
+        let table = oklab::linear_table();
+        let (mut sum, mut all) = ([0.0_f64; 3], 0.0_f64);
+        for (shown, Colour { r, g, b, .. }) in shown.iter().zip(&self.picture.pixels) {
+            let light = [*r, *g, *b].map(|c| f64::from(table[usize::from(c)]) * f64::from(*shown));
+            sum.iter_mut().zip(light).for_each(|(sum, light)| *sum += light);
+            all += f64::from(*shown);
+        }
+        let [r, g, b] = sum.map(|sum| (sum / all) as f32);
+        (all > 0.0).then(|| Colour::from_linear([r, g, b, 1.0]))
+    }
+
+    /// This texture as it is: `base` multiplies it, and where `weighed` clear texels are not mixed with others.
+    pub fn imaged(
+        self,
+        paints: (MaterialId, PaintId, [PaintId; 2]),
+        base: Option<Colour>,
+        weighed: bool,
+    ) -> Imaged {
+        Imaged::new(paints, self.texels, self.picture, base, weighed)
+    }
+
+    /// At most so many colours that stand for all that is seen.
+    pub fn few(&self, shown: &[f32], count: usize) -> Vec<Colour> {
+        palette::colour_kmeans::few(&self.picture.pixels, shown, count)
+    }
+
+    /// What all that is seen looks like from afar.
+    pub fn mean(&self, shown: &[f32]) -> Colour {
+        palette::colour_kmeans::few(&self.picture.pixels, shown, 1).first().copied().unwrap_or(Colour::WHITE)
+    }
+
+    /// This texture in a few colours, and in the mean.
+    pub fn painted(self, shown: Vec<f32>, colours: &[Colour], mean: Colour) -> Painted {
+        let most = KEPT * shown.len();
+        Painted {
+            texels: self.texels,
+            colours: self.picture.pixels,
+            shown,
+            palette: colours.iter().map(|colour| oklab::of(*colour)).collect(),
+            mean: oklab::of(mean),
+            filter: self.filter,
+            guesses: Kept::new(most, |guesses: &Guesses| guesses.list.len()),
+            maps: Kept::new(most, ColourMap::texels),
+        }
+    }
+}
+
+/// What views before made of a picture is kept up to so many times its size: enough for all of its scales together.
+const KEPT: usize = 2;
+
+/// Larger pictures lose what no drawing shows.
+const MOST_TEXELS: usize = 1 << 22;
+
+/// The picture of a material's base colour; none if it has none, an error if it cannot be read.
+pub(crate) fn picture_of(scene: &Scene, material: &Material) -> Option<Result<Picture, String>> {
+    match (&material.picture, &material.texture) {
+        (Some(bytes), _) => Some(Picture::decode(bytes)),
+        (None, Some(path)) => beside(scene, path),
+        (None, None) => None,
+    }
+}
+
+/// The picture in a file beside the model; none if the model is no file.
+pub(crate) fn beside(scene: &Scene, path: &str) -> Option<Result<Picture, String>> {
+    scene.file.as_ref().map(|file| from_file(file, path))
+}
+
+fn from_file(model: &Path, path: &str) -> Result<Picture, String> {
+    let bytes = read_beside(model, path).map_err(|error| error.message)?;
+    Picture::decode(&bytes).map_err(|message| format!("{path} {message}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::material::Wrap;
+    use super::*;
+
+    #[test]
+    fn pixels_are_found_and_repeat() {
+        let (a, b, c, d) =
+            (Colour::rgb(1, 0, 0), Colour::rgb(2, 0, 0), Colour::rgb(3, 0, 0), Colour::rgb(4, 0, 0));
+        let picture = Picture { width: 2, height: 2, pixels: vec![a, b, c, d] };
+        let texels = Texels {
+            size: [2, 2],
+            wrap: [Wrap::Repeat; 2],
+            upward: false,
+            placing: super::super::material::Placing::default(),
+        };
+        let mut texture = Texture { picture, texels, filter: Filter::Smooth };
+        let at = |texture: &Texture, uv| texture.at(texture.texels.place(uv).unwrap());
+        assert_eq!([[0.1, 0.1], [0.9, 0.1], [1.1, -0.1]].map(|uv| at(&texture, uv)), [a, b, c]);
+        assert_eq!(texture.of_triangle([[f32::NAN; 2]; 3]), (a, 0));
+        texture.texels.upward = true;
+        assert_eq!([[0.1, 0.1], [0.9, 0.9]].map(|uv| at(&texture, uv)), [c, b]);
+        assert_eq!(texture.of_triangle([[0.6, 0.6], [0.9, 0.6], [0.6, 0.9]]), (b, 0));
+        // One corner beyond the border does not count.
+        assert_eq!(texture.of_triangle([[0.2, 0.6], [0.9, 0.6], [0.9, 0.9]]).0, b);
+    }
+}

@@ -1,0 +1,151 @@
+//! [`few`]: a few colours that stand for all of a picture.
+//!
+//! Source: Arthur and Vassilvitskii, "k-means++", SODA 2007, with the farthest colour in place of a chosen one, and Lloyd,
+//! "Least squares quantization in PCM", 1982.
+
+use crate::colour::oklab::{self, Oklab, distance2, linear_table};
+use crate::colour::srgb::Colour;
+
+/// Bits of a channel by which colours are told apart at first.
+const BITS: u32 = 5;
+
+/// Rounds of moving colours to the middle of what they stand for.
+const ROUNDS: usize = 24;
+
+/// Colours nearer to each other than this look alike.
+const ALIKE: f32 = 0.035;
+
+/// Colours that all look nearly the same, with how much is seen of them.
+#[derive(Clone, Copy, Default)]
+struct Bin {
+    light: [f64; 3],
+    weight: f64,
+}
+
+/// At most `count` colours for those of texels, each of which is seen on so much of the surface; the lightest first.
+pub(crate) fn few(colours: &[Colour], shown: &[f32], count: usize) -> Vec<Colour> {
+    let bins = bins(colours, shown);
+    let labs: Vec<Oklab> = bins.iter().map(|bin| oklab::of_linear(bin.light.map(|c| c as f32))).collect();
+    // Small things are drawn too: what is seen on a hundredth of the surface counts for a tenth.
+    let weights: Vec<f32> = bins.iter().map(|bin| bin.weight.sqrt() as f32).collect();
+    let mut centres = farthest(&labs, &weights, count.max(1));
+    let mut nearest = vec![0; labs.len()];
+    for _ in 0..ROUNDS {
+        let mut sums = vec![([0.0_f64; 3], 0.0_f64); centres.len()];
+        for ((lab, weight), nearest) in labs.iter().zip(&weights).zip(&mut nearest) {
+            *nearest = closest(&centres, *lab);
+            let (sum, all) = &mut sums[*nearest];
+            sum.iter_mut().zip(lab).for_each(|(sum, c)| *sum += f64::from(*c) * f64::from(*weight));
+            *all += f64::from(*weight);
+        }
+        for (centre, (sum, all)) in centres.iter_mut().zip(sums) {
+            if all > 0.0 {
+                *centre = sum.map(|sum| (sum / all) as f32);
+            }
+        }
+    }
+    let mut means = vec![Bin::default(); centres.len()];
+    for (bin, nearest) in bins.iter().zip(nearest) {
+        let mean = &mut means[nearest];
+        mean.light.iter_mut().zip(bin.light).for_each(|(sum, c)| *sum += c * bin.weight);
+        mean.weight += bin.weight;
+    }
+    let mut found: Vec<Colour> = means
+        .iter()
+        .filter(|mean| mean.weight > 0.0)
+        .map(|mean| {
+            let [r, g, b] = mean.light.map(|sum| (sum / mean.weight) as f32);
+            Colour::from_linear([r, g, b, 1.0])
+        })
+        .collect();
+    found.sort_unstable_by(|a, b| b.luma().total_cmp(&a.luma()).then(a.cmp(b)));
+    found.dedup();
+    found
+}
+
+/// The colours of texels that are seen, put together with those that differ in their last bits only.
+fn bins(colours: &[Colour], shown: &[f32]) -> Vec<Bin> {
+    let table = linear_table();
+    let mut bins = vec![Bin::default(); 1 << (3 * BITS)];
+    for (colour, shown) in colours.iter().zip(shown).filter(|(_, shown)| **shown > 0.0) {
+        let channels = [colour.r, colour.g, colour.b];
+        let key = channels.iter().fold(0, |key, c| key << BITS | usize::from(*c) >> (8 - BITS));
+        let bin = &mut bins[key];
+        let weight = f64::from(*shown);
+        bin.light.iter_mut().zip(channels).for_each(|(sum, c)| *sum += f64::from(table[c as usize]) * weight);
+        bin.weight += weight;
+    }
+    bins.retain(|bin| bin.weight > 0.0);
+    for bin in &mut bins {
+        bin.light = bin.light.map(|sum| sum / bin.weight);
+    }
+    bins
+}
+
+/// Colours far from each other: the most frequent one, then again and again the one that is worst stood for.
+fn farthest(labs: &[Oklab], weights: &[f32], count: usize) -> Vec<Oklab> {
+    let most = |values: &mut dyn Iterator<Item = f32>| {
+        let mut best: Option<(usize, f32)> = None;
+        for (k, value) in values.enumerate() {
+            if best.is_none_or(|(_, most)| value > most) {
+                best = Some((k, value));
+            }
+        }
+        best.map(|(k, _)| k)
+    };
+    let Some(first) = most(&mut weights.iter().copied()) else { return Vec::new() };
+    let mut centres = vec![labs[first]];
+    let mut far: Vec<f32> = labs.iter().map(|lab| distance2(*lab, labs[first])).collect();
+    while centres.len() < count {
+        let mut worst = far
+            .iter()
+            .zip(weights)
+            .map(|(far, weight)| if *far < ALIKE * ALIKE { 0.0 } else { far * weight });
+        let Some(next) = most(&mut worst).filter(|next| far[*next] >= ALIKE * ALIKE) else { break };
+        centres.push(labs[next]);
+        far.iter_mut().zip(labs).for_each(|(far, lab)| *far = far.min(distance2(*lab, labs[next])));
+    }
+    centres
+}
+
+/// The number of the nearest of some colours; of equally near ones the first.
+pub(crate) fn closest(centres: &[Oklab], lab: Oklab) -> usize {
+    let mut best = (0, f32::INFINITY);
+    for (k, centre) in centres.iter().enumerate() {
+        let far = distance2(*centre, lab);
+        if far < best.1 {
+            best = (k, far);
+        }
+    }
+    best.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_colours_stay_what_they_are_and_small_ones_count() {
+        let (red, blue, white) = (Colour::rgb(200, 0, 0), Colour::rgb(0, 0, 200), Colour::WHITE);
+        let mut colours = vec![red; 5000];
+        colours.extend(vec![blue; 4000]);
+        colours.extend(vec![white; 40]);
+        assert_eq!(few(&colours, &vec![1.0; colours.len()], 6), [white, red, blue]);
+        // What is not seen does not count.
+        let shown: Vec<f32> = colours.iter().map(|c| if *c == blue { 0.0 } else { 1.0 }).collect();
+        assert_eq!(few(&colours, &shown, 6), [white, red]);
+        assert!(few(&colours, &vec![0.0; colours.len()], 6).is_empty());
+    }
+
+    #[test]
+    fn a_ramp_is_cut_into_even_steps() {
+        let ramp: Vec<Colour> = (0..=255).map(|v| Colour::rgb(v, v, v)).collect();
+        let steps = few(&ramp, &[1.0; 256], 4);
+        assert_eq!(steps.len(), 4);
+        let lightness: Vec<f32> = steps.iter().map(|c| oklab::of(*c)[0]).collect();
+        assert!(
+            lightness.windows(2).all(|pair| (0.15..0.35).contains(&(pair[0] - pair[1]))),
+            "{lightness:?}"
+        );
+    }
+}

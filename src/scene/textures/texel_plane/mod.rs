@@ -1,0 +1,133 @@
+//! The plane of a picture's texels: where texture coordinates lie in it, and how the picture repeats.
+//!
+//! Cut-outs and painted surfaces trace borders in this plane and carry them over to the triangles.
+//!
+//! Files: [`texel_borders`] traced borders, simplified and indexed by a grid; [`side_crossings`] where
+//! borders cross the sides of a triangle, identical for both triangles that share a side.
+
+pub(crate) mod side_crossings;
+pub(crate) mod texel_borders;
+
+use glam::DVec2;
+
+use crate::colour::pixel_picture::Picture;
+use crate::scene::material::{Placing, Wrap};
+use crate::scene::{Material, Scene};
+
+/// How the texels of a picture lie in the plane, and how the picture goes on beyond its borders.
+///
+/// The middle of the first texel lies at the origin, x runs along a row and y from the top row down.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Texels {
+    /// Texels in a row, and rows; at least 1.
+    pub size: [usize; 2],
+    /// How the picture goes on along x and along y.
+    pub wrap: [Wrap; 2],
+    /// Whether v grows from the bottom row up, as in OBJ and PLY, or from the top row down.
+    pub upward: bool,
+    /// Where the material puts the picture on its coordinates.
+    pub placing: Placing,
+}
+
+impl Texels {
+    /// Those of the picture of a material.
+    pub fn of(scene: &Scene, material: &Material, picture: &Picture) -> Self {
+        let size = [picture.width, picture.height];
+        let Material { wrap, placing, .. } = *material;
+        Self { size, wrap, upward: scene.format != "glTF", placing }
+    }
+
+    /// Where a pair of texture coordinates lies in the plane; none if it is no place.
+    pub fn place(&self, uv: [f32; 2]) -> Option<DVec2> {
+        let Placing { scale, offset } = self.placing;
+        let [u, v] = [0, 1]
+            .map(|k| if self.placing == Placing::default() { uv[k] } else { uv[k] * scale[k] + offset[k] });
+        let v = if self.upward { 1.0 - f64::from(v) } else { f64::from(v) };
+        let [width, height] = self.size.map(|count| count as f64);
+        let place = DVec2::new(f64::from(u) * width - 0.5, v * height - 0.5);
+        // Beyond this many texels single precision no longer tells them apart.
+        (place.is_finite() && place.abs().max_element() < 1e9).then_some(place)
+    }
+
+    /// The same picture after this many texels, along x and along y; none where the border goes on instead.
+    pub fn periods(&self) -> [Option<usize>; 2] {
+        [0, 1].map(|k| match self.wrap[k] {
+            Wrap::Repeat => Some(self.size[k]),
+            Wrap::Mirror => Some(2 * self.size[k]),
+            Wrap::Clamp => None,
+        })
+    }
+
+    /// How many cells between texels and their neighbours there are before the same comes again, along x and along y.
+    pub fn reach(&self) -> [usize; 2] {
+        let periods = self.periods();
+        // Where the border goes on for ever one cell is enough to see in which way.
+        [0, 1].map(|k| periods[k].unwrap_or((self.size[k] - 1).max(1)))
+    }
+
+    /// The numbers of the texels to the right of one, to its left, below it and above it.
+    #[inline]
+    pub fn beside(&self, texel: usize) -> [usize; 4] {
+        let [width, height] = self.size;
+        let (column, row) = (texel % width, texel / width);
+        if column > 0 && row > 0 && column + 1 < width && row + 1 < height {
+            return [texel + 1, texel - 1, texel + width, texel - width];
+        }
+        let (column, row) = (column as i64, row as i64);
+        [(1, 0), (-1, 0), (0, 1), (0, -1)].map(|(i, j)| self.index(column + i, row + j))
+    }
+
+    /// The number of the texel a whole number of steps from the first, along x and along y.
+    #[inline]
+    pub fn index(&self, column: i64, row: i64) -> usize {
+        let [width, height] = self.size;
+        wrapped(row, height as i64, self.wrap[1]) * width + wrapped(column, width as i64, self.wrap[0])
+    }
+}
+
+/// Which of `count` texels in a row stands at a place.
+#[inline]
+fn wrapped(at: i64, count: i64, wrap: Wrap) -> usize {
+    if (0..count).contains(&at) {
+        return at as usize;
+    }
+    let within = match wrap {
+        Wrap::Repeat => at.rem_euclid(count),
+        Wrap::Clamp => at.clamp(0, count - 1),
+        Wrap::Mirror => {
+            let at = at.rem_euclid(2 * count);
+            at.min(2 * count - 1 - at)
+        }
+    };
+    within as usize
+}
+
+/// The borders between what differs in a picture, one period of them.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Traced {
+    /// End to end. Those that are no rings end where three meet, or where the picture is repeated or goes on for ever.
+    pub lines: Vec<Vec<DVec2>>,
+    /// The numbers of the two colours that each line parts, or empty.
+    pub parted: Vec<[u8; 2]>,
+    /// How far the cells between texels reach, along x and along y.
+    pub reach: [usize; 2],
+    /// Where the same comes again, along x and along y.
+    pub periods: [Option<usize>; 2],
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn middles_of_texels_are_whole_numbers() {
+        let texels =
+            Texels { size: [2, 2], wrap: [Wrap::Repeat; 2], upward: false, placing: Placing::default() };
+        assert_eq!(texels.place([0.25, 0.75]), Some(DVec2::new(0.0, 1.0)));
+        assert_eq!(texels.place([f32::NAN, 0.0]), None);
+        assert_eq!(Texels { upward: true, ..texels }.place([0.25, 0.75]), Some(DVec2::ZERO));
+        let placing = Placing { scale: [2.0, 1.0], offset: [0.5, 0.0] };
+        assert_eq!(Texels { placing, ..texels }.place([0.25, 0.75]), Some(DVec2::new(1.5, 1.0)));
+        assert_eq!([-1, 0, 1, 2].map(|k| texels.index(k, 1)), [3, 2, 3, 2]);
+    }
+}

@@ -1,0 +1,81 @@
+//! Where borders in a picture cross the sides of a triangle, the same for both triangles that share one.
+
+use glam::DVec2;
+use robust::{Coord, orient2d};
+
+use super::texel_borders::Segment;
+
+/// Nearer than this to an end of a side, as a share of it, is the end.
+const AT_END: f64 = 1e-9;
+
+/// Twice the area of a triangle, positive where it turns from x to y; the sign is exact.
+pub(crate) fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    let at = |p: DVec2| Coord { x: p.x, y: p.y };
+    orient2d(at(a), at(b), at(c))
+}
+
+/// A side of a triangle in the plane of the texels, from the end that comes first in space to the other.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TexelSide {
+    pub from: DVec2,
+    pub to: DVec2,
+    /// Whether the triangle itself lies where [`turn`] is not negative.
+    pub inside: bool,
+}
+
+impl TexelSide {
+    /// Whether a point lies on the triangle's side of the line through it.
+    pub fn admits(&self, p: DVec2) -> bool {
+        (turn(self.from, self.to, p) >= 0.0) == self.inside
+    }
+
+    /// Where a border crosses the side: the part of the side before it, and the part of the border.
+    pub fn crossing(&self, [p, q]: Segment) -> Option<(f64, f64)> {
+        let (of_p, of_q) = (turn(self.from, self.to, p), turn(self.from, self.to, q));
+        if (of_p >= 0.0) == (of_q >= 0.0) {
+            return None;
+        }
+        let (of_from, of_to) = (turn(p, q, self.from), turn(p, q, self.to));
+        if (of_from >= 0.0) == (of_to >= 0.0) {
+            return None;
+        }
+        let part = of_from / (of_from - of_to);
+        let part = if part < AT_END {
+            0.0
+        } else if part > 1.0 - AT_END {
+            1.0
+        } else {
+            part
+        };
+        Some((part, of_p / (of_p - of_q)))
+    }
+}
+
+/// The crossings of a side in order, each once.
+pub(crate) fn in_order(parts: &mut Vec<f64>) {
+    parts.retain(|part| *part > 0.0 && *part < 1.0);
+    parts.sort_unstable_by(f64::total_cmp);
+    parts.dedup_by(|b, a| *b - *a < AT_END);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_side_is_crossed_at_the_same_place_from_both_of_its_triangles() {
+        let (from, to) = (DVec2::new(1.0, 2.0), DVec2::new(4.0, 8.0));
+        let border = [DVec2::new(0.0, 5.0), DVec2::new(5.0, 5.1)];
+        let parts = [true, false].map(|inside| TexelSide { from, to, inside }.crossing(border));
+        assert!(parts[0].is_some_and(|(part, _)| (0.5..0.53).contains(&part)));
+        assert_eq!(parts[0], parts[1]);
+        assert_eq!(TexelSide { from, to, inside: true }.crossing([from, from + DVec2::new(0.0, 9.0)]), None);
+    }
+
+    #[test]
+    fn crossings_are_ordered_and_ends_are_none() {
+        let mut parts = vec![1.0, 0.7, 0.2, 0.2 + 1e-12, 0.0];
+        in_order(&mut parts);
+        assert_eq!(parts, [0.2, 0.7]);
+    }
+}

@@ -1,0 +1,211 @@
+//! [`Outline`]: borders in the plane of a picture's texels, thinned to what is needed of them, by place.
+//!
+//! Source: Douglas and Peucker, "Algorithms for the reduction of the number of points", 1973.
+
+use glam::DVec2;
+
+use super::Traced;
+use crate::geometry::lists::csr_lists::{Grouped, grouped};
+
+/// A piece of border, in the direction in which it was traced.
+pub(crate) type Segment = [DVec2; 2];
+
+/// How far the lines go on beyond a picture whose border is repeated for ever, texels.
+const FAR: f64 = 2e9;
+
+/// Cells of the index along each side, at most.
+const MOST_CELLS: usize = 64;
+
+/// A line of more points than this is thinned in parts.
+const SPAN: usize = 512;
+
+/// Whoever asks for more pieces of border at once gets none.
+const MOST_SEGMENTS: usize = 100_000;
+
+/// Borders, one period of them, by place.
+#[derive(Debug)]
+pub(crate) struct Outline {
+    pub segments: Vec<Segment>,
+    /// The numbers of the two colours that each of them parts.
+    parted: Vec<[u8; 2]>,
+    /// Where the same comes again, along x and along y.
+    periods: [Option<f64>; 2],
+    across: [usize; 2],
+    cell: DVec2,
+    cells: Grouped<u32>,
+}
+
+impl Outline {
+    /// Traced borders, which may lie this far beside where they are exactly, texels.
+    pub fn new(traced: &Traced, tolerance: f64) -> Self {
+        let Traced { lines, parted: of_lines, reach, periods } = traced;
+        let (reach, periods) = (*reach, *periods);
+        let (mut segments, mut parted) = (Vec::new(), Vec::new());
+        for (number, line) in lines.iter().enumerate() {
+            let mut line = thinned(line, tolerance);
+            extend(&mut line, reach, periods);
+            segments.extend(line.windows(2).map(|pair| [pair[0], pair[1]]).filter(|[a, b]| a != b));
+            parted.resize(segments.len(), of_lines.get(number).copied().unwrap_or_default());
+        }
+        let across = reach.map(|count| (count / 4).clamp(1, MOST_CELLS));
+        let cell = DVec2::new(reach[0] as f64 / across[0] as f64, reach[1] as f64 / across[1] as f64);
+        let periods = periods.map(|period| period.map(|count| count as f64));
+        let mut outline = Self { segments, parted, periods, across, cell, cells: Grouped::default() };
+        outline.cells = grouped(across[0] * across[1], |put| {
+            for (number, [a, b]) in outline.segments.iter().enumerate() {
+                outline.each_cell(a.min(*b), a.max(*b), |cell| put(cell, number as u32));
+            }
+        });
+        outline
+    }
+
+    /// How many pieces of border a picture has.
+    pub fn count(&self) -> usize {
+        self.segments.len()
+    }
+
+    fn each_cell(&self, low: DVec2, high: DVec2, mut call: impl FnMut(usize)) {
+        let at = |p: DVec2| {
+            let place = p / self.cell;
+            [(place.x, self.across[0]), (place.y, self.across[1])]
+                .map(|(x, count)| (x.max(0.0) as usize).min(count - 1))
+        };
+        let ([left, top], [right, bottom]) = (at(low), at(high));
+        for row in top..=bottom {
+            (left..=right).for_each(|column| call(row * self.across[0] + column));
+        }
+    }
+
+    /// The pieces of border that may lie in a box; none if there are too many.
+    pub fn near(&self, low: DVec2, high: DVec2) -> Option<Vec<Segment>> {
+        self.near_as(low, high, |segment, _| segment)
+    }
+
+    /// The pieces of border that may lie in a box, each made something of together with the numbers of the two colours that it
+    /// parts; none if there are too many.
+    pub fn near_as<T>(
+        &self,
+        low: DVec2,
+        high: DVec2,
+        make: impl Fn(Segment, [u8; 2]) -> T,
+    ) -> Option<Vec<T>> {
+        let turns = |axis: usize| match self.periods[axis] {
+            Some(period) => ((low[axis] / period).floor() as i64, (high[axis] / period).floor() as i64),
+            None => (0, 0),
+        };
+        let ((left, right), (top, bottom)) = (turns(0), turns(1));
+        if (right - left + 1) * (bottom - top + 1) > MOST_SEGMENTS as i64 {
+            return None;
+        }
+        let mut found = Vec::new();
+        let mut numbers = Vec::new();
+        for y in top..=bottom {
+            for x in left..=right {
+                let moved = DVec2::new(
+                    x as f64 * self.periods[0].unwrap_or_default(),
+                    y as f64 * self.periods[1].unwrap_or_default(),
+                );
+                numbers.clear();
+                self.each_cell(low - moved, high - moved, |cell| {
+                    numbers.extend_from_slice(self.cells.of(cell))
+                });
+                numbers.sort_unstable();
+                numbers.dedup();
+                found.extend(
+                    numbers
+                        .iter()
+                        .map(|n| (self.segments[*n as usize].map(|p| p + moved), self.parted[*n as usize]))
+                        .filter(|([a, b], _)| a.min(*b).cmple(high).all() && a.max(*b).cmpge(low).all())
+                        .map(|(segment, parted)| make(segment, parted)),
+                );
+                if found.len() > MOST_SEGMENTS {
+                    return None;
+                }
+            }
+        }
+        Some(found)
+    }
+}
+
+/// Lets a line that ends at a border which is repeated for ever go on outwards.
+fn extend(line: &mut Vec<DVec2>, reach: [usize; 2], periods: [Option<usize>; 2]) {
+    let (Some(first), Some(last)) = (line.first().copied(), line.last().copied()) else { return };
+    if first == last {
+        return;
+    }
+    let beyond = |p: DVec2| {
+        (0..2).filter(|axis| periods[*axis].is_none()).find_map(|axis| {
+            let mut far = p;
+            far[axis] = if p[axis] == 0.0 {
+                -FAR
+            } else if p[axis] == reach[axis] as f64 {
+                FAR
+            } else {
+                return None;
+            };
+            Some(far)
+        })
+    };
+    if let Some(far) = beyond(first) {
+        line.insert(0, far);
+    }
+    line.extend(beyond(last));
+}
+
+/// A line without the points that lie within `tolerance` of the line without them; closed ones that are no wider than that are
+/// gone.
+fn thinned(line: &[DVec2], tolerance: f64) -> Vec<DVec2> {
+    let count = line.len();
+    let is_closed = line[0] == line[count - 1];
+    let mut kept = vec![false; count];
+    // A line that winds for ever would be gone through once a turn, so that long ones are thinned span by span.
+    let mut ends: Vec<usize> = (0..count - 1).step_by(SPAN).chain([count - 1]).collect();
+    if is_closed && count <= SPAN {
+        let from = |k: &usize| line[*k].distance_squared(line[0]);
+        let farthest = (1..count).max_by(|a, b| from(a).total_cmp(&from(b)).then(b.cmp(a)));
+        ends.extend(farthest);
+        ends.sort_unstable();
+    }
+    ends.iter().for_each(|end| kept[*end] = true);
+    let mut spans: Vec<[usize; 2]> = ends.windows(2).map(|pair| [pair[0], pair[1]]).collect();
+    while let Some([first, last]) = spans.pop() {
+        let (a, way) = (line[first], line[last] - line[first]);
+        let off = |p: DVec2| {
+            let along = ((p - a).dot(way) / way.length_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+            (p - a - way * along).length_squared()
+        };
+        let worst = (first + 1..last)
+            .map(|k| (off(line[k]), k))
+            .max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)));
+        if let Some((_, k)) = worst.filter(|(off, _)| *off > tolerance * tolerance) {
+            kept[k] = true;
+            spans.extend([[first, k], [k, last]]);
+        }
+    }
+    let thinned: Vec<DVec2> = line.iter().zip(kept).filter_map(|(p, kept)| kept.then_some(*p)).collect();
+    if is_closed && thinned.len() < 4 { Vec::new() } else { thinned }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn specks_thinner_than_the_tolerance_are_gone_and_long_lines_keep_their_shape() {
+        let speck: Vec<DVec2> =
+            [[0.0, 0.0], [3.0, 0.1], [6.0, 0.0], [3.0, -0.1], [0.0, 0.0]].map(DVec2::from).to_vec();
+        assert!(thinned(&speck, 0.2).is_empty() && thinned(&speck, 0.05).len() == 5);
+        let turn = |k: usize| std::f64::consts::TAU * (k % 3000) as f64 / 3000.0;
+        let ring: Vec<DVec2> = (0..=3000)
+            .map(|k| {
+                DVec2::new(
+                    crate::geometry::numbers::portable_math::cos(turn(k)),
+                    crate::geometry::numbers::portable_math::sin(turn(k)),
+                ) * 100.0
+            })
+            .collect();
+        let thin = thinned(&ring, 0.1);
+        assert!((60..120).contains(&thin.len()), "{}", thin.len());
+        assert!(thin.windows(2).all(|pair| (pair[0] + pair[1]).length() / 2.0 > 99.8));
+    }
+}

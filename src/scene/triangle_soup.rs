@@ -1,0 +1,399 @@
+//! Flattening: all instances of a scene into one [`Soup`] in world space, and what can be known of it before.
+
+use crate::parallel::prelude::*;
+use glam::{DAffine3, DMat3, DVec3};
+
+use super::{Geometry, Paints, Part, Scene};
+use crate::mesh::{EdgeMark, MaterialId, PaintId, PartId, Soup, Wire};
+use crate::parallel::task_size::GRAIN;
+use crate::scene::cameras::framing::{bounds, world_points};
+use crate::scene::extent::coordinate_limits::is_drawable;
+
+const NONE: u32 = u32::MAX;
+impl Scene {
+    /// All triangles and wires in world space.
+    ///
+    /// Part ids index [`Scene::parts`]; material ids index [`Scene::materials`], and what has no
+    /// material gets the id after the last. Mirrored parts have their winding turned round. Parts
+    /// that are scaled to nothing (or beyond all numbers) are left out.
+    #[must_use]
+    pub fn to_soup(&self) -> Soup {
+        self.flattened(None)
+    }
+
+    /// The triangles of all parts in world space, with the paint of each triangle.
+    #[must_use]
+    pub fn to_painted_soup(&self, paints: &Paints) -> Soup {
+        self.flattened(Some(paints))
+    }
+
+    /// The same of a scene whose shapes nobody asks for any more: they are gone afterwards, and a shape that is all there is
+    /// becomes the soup without a copy.
+    pub(crate) fn take_soup(&mut self, paints: Option<&Paints>) -> Soup {
+        let soup = match self.only_one().filter(|_| paints.is_none()) {
+            Some(only) => {
+                let mut from = std::mem::take(&mut self.geometries[only]);
+                // Single precision is a lattice as well, once it is known how large the numbers are.
+                from.lattice_step = from.step();
+                let (positions, triangles) =
+                    (std::mem::take(&mut from.positions), std::mem::take(&mut from.triangles));
+                let mut soup = Soup { positions, triangles, ..Soup::default() };
+                let appended = Appended { part: PartId::default(), vertex: 0, triangle: 0 };
+                append_attributes(
+                    &mut soup,
+                    &from,
+                    &DAffine3::IDENTITY,
+                    appended,
+                    self.materials.len() as u32,
+                );
+                soup
+            }
+            None => self.flattened(paints),
+        };
+        self.geometries.iter_mut().for_each(|geometry| *geometry = Geometry::default());
+        soup
+    }
+
+    /// The geometry of the only part, if it stands in the world as it is.
+    fn only_one(&self) -> Option<usize> {
+        let [part] = self.parts.as_slice() else { return None };
+        let geometry = self.geometry_of(part).filter(|_| part.world_from_part == DAffine3::IDENTITY)?;
+        (geometry.positions.len() < NONE as usize).then_some(part.geometry)
+    }
+
+    fn flattened(&self, paints: Option<&Paints>) -> Soup {
+        let mut soup = Soup::default();
+        let default_material = self.materials.len() as u32;
+        self.reserve(&mut soup);
+        for (id, part) in self.parts.iter().enumerate() {
+            if let Some(geometry) = self.geometry_of(part) {
+                append(&mut soup, geometry, &part.world_from_part, PartId::from(id), default_material);
+                if let Some(paints) = paints {
+                    append_paints(&mut soup, paints.of_geometry(part.geometry));
+                    if paints.tinted {
+                        append_colours(&mut soup, geometry, part.world_from_part.matrix3.determinant() < 0.0);
+                    }
+                }
+            }
+        }
+        soup
+    }
+
+    /// Makes room for all parts at once: lists that grow by themselves are copied again and again, and may be twice as large as
+    /// needed. Where there is not as much memory they grow all the same.
+    fn reserve(&self, soup: &mut Soup) {
+        let (mut positions, mut triangles) = (0, 0);
+        for geometry in self.parts.iter().filter_map(|part| self.geometry_of(part)) {
+            if positions + geometry.positions.len() < NONE as usize {
+                positions += geometry.positions.len();
+                triangles += geometry.triangles.len();
+            }
+        }
+        let rooms = [
+            soup.positions.try_reserve_exact(positions),
+            soup.triangles.try_reserve_exact(triangles),
+            soup.triangle_part.try_reserve_exact(triangles),
+            soup.triangle_material.try_reserve_exact(triangles),
+        ];
+        drop(rooms);
+    }
+
+    /// Box around all that is drawn, in world space: least and greatest coordinates. Faces without area and wires without
+    /// length do not count. None where nothing can be drawn.
+    #[must_use]
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        bounds(&world_points(self))
+    }
+
+    /// How many triangles are drawn, each instance counted.
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.parts.iter().filter_map(|part| self.geometry_of(part)).map(|g| g.triangles.len()).sum()
+    }
+
+    /// The geometry of a part that can be placed.
+    #[must_use]
+    pub fn geometry_of(&self, part: &Part) -> Option<&Geometry> {
+        let determinant = part.world_from_part.matrix3.determinant();
+        let can_be_placed = determinant != 0.0 && determinant.is_finite() && part.world_from_part.is_finite();
+        self.geometries.get(part.geometry).filter(|_| can_be_placed)
+    }
+}
+
+fn append(soup: &mut Soup, from: &Geometry, place: &DAffine3, part: PartId, default_material: u32) {
+    let first = soup.positions.len();
+    // Ids are 32 bits wide; what lies beyond them cannot be drawn.
+    if first + from.positions.len() >= NONE as usize {
+        return;
+    }
+    let is_identity = *place == DAffine3::IDENTITY;
+    if is_identity {
+        soup.positions.extend_from_slice(&from.positions);
+    } else {
+        let placed = from.positions.par_iter().with_min_len(GRAIN);
+        soup.positions.par_extend(placed.map(|&p| place.transform_point3(p)));
+        let own = soup.positions.get(first..).unwrap_or_default();
+        if !own.par_iter().with_min_len(GRAIN).all(|&p| is_drawable(p)) {
+            soup.positions.truncate(first);
+            return;
+        }
+    }
+    let turned = place.matrix3.determinant() < 0.0;
+    let first_triangle = soup.triangles.len();
+    append_corners(&mut soup.triangles, &from.triangles, first as u32, turned);
+    let appended = Appended { part, vertex: first, triangle: first_triangle };
+    append_attributes(soup, from, place, appended, default_material);
+}
+
+/// The part whose shape was appended last, and the first vertex and triangle of it.
+struct Appended {
+    part: PartId,
+    vertex: usize,
+    triangle: usize,
+}
+
+/// Appends what belongs to the vertices and triangles that were appended last.
+fn append_attributes(
+    soup: &mut Soup,
+    from: &Geometry,
+    place: &DAffine3,
+    appended: Appended,
+    default_material: u32,
+) {
+    let Appended { part, vertex: first, triangle: first_triangle } = appended;
+    let turned = place.matrix3.determinant() < 0.0;
+    let count = soup.triangles.len();
+
+    fill(&mut soup.triangle_part, count, part);
+    let material = from.material.unwrap_or(default_material);
+    if from.triangle_material.is_empty() {
+        fill(&mut soup.triangle_material, count, MaterialId(material));
+    } else {
+        soup.triangle_material.extend(from.triangle_material.iter().map(|&m| MaterialId(m)));
+        soup.triangle_material.resize(count, MaterialId(material));
+    }
+    append_normals(soup, from, place, first_triangle, turned);
+
+    let first_uv = soup.uvs.len() as u32;
+    soup.uvs.extend_from_slice(&from.uvs);
+    append_optional(&mut soup.corner_uvs, &from.corner_uvs, first_uv, turned, first_triangle, count);
+
+    if !from.edge_marks.is_empty() {
+        soup.edge_marks.resize(first_triangle, [EdgeMark::Unmarked; 3]);
+        let marks =
+            from.edge_marks.iter().map(|&[ab, bc, ca]| if turned { [ca, bc, ab] } else { [ab, bc, ca] });
+        soup.edge_marks.extend(marks);
+    }
+    if !soup.edge_marks.is_empty() {
+        soup.edge_marks.resize(count, [EdgeMark::Unmarked; 3]);
+    }
+    let first = first as u32;
+    soup.wires.extend(from.wires.iter().map(|&[a, b]| Wire {
+        vertices: [a, b].map(|i| i.saturating_add(first)),
+        part,
+        material: MaterialId(material),
+    }));
+    soup.single_precision |= from.single_precision;
+    let step = from.step() * longest_axis(place);
+    if step > 0.0 {
+        let part = part.index();
+        soup.steps.resize(soup.steps.len().max(part + 1), 0.0);
+        soup.steps[part] = step;
+    }
+}
+
+/// By how much a placement stretches lengths, at most along one of the axes of the shape.
+pub(crate) fn longest_axis(place: &DAffine3) -> f64 {
+    let axes = place.matrix3;
+    axes.x_axis.length().max(axes.y_axis.length()).max(axes.z_axis.length())
+}
+
+/// Appends `value` to a list that is shorter than `count`, up to that length.
+fn fill<T: Copy>(list: &mut Vec<T>, count: usize, value: T) {
+    list.resize(count, value);
+}
+
+/// Appends the paints of the triangles that were appended last; without any, those of their materials.
+fn append_paints(soup: &mut Soup, paints: &[PaintId]) {
+    let own = soup.triangle_material.iter().skip(soup.triangle_paint.len()).enumerate();
+    let of = own.map(|(i, material)| paints.get(i).copied().unwrap_or((*material).into()));
+    let of: Vec<PaintId> = of.collect();
+    soup.triangle_paint.extend(of);
+}
+
+/// Appends the colours of the corners of the triangles that were appended last; white where they have none.
+fn append_colours(soup: &mut Soup, from: &Geometry, turned: bool) {
+    let white = [1.0; 4];
+    let colour = |v: u32| {
+        let [r, g, b, _] = from.colour_of(v).unwrap_or(white);
+        [r, g, b]
+    };
+    let missing = soup.triangles.len() - soup.corner_colours.len();
+    let of = |&[a, b, c]: &[u32; 3]| if turned { [a, c, b].map(colour) } else { [a, b, c].map(colour) };
+    soup.corner_colours.extend(from.triangles.iter().take(missing).map(of));
+}
+
+fn append_corners(to: &mut Vec<[u32; 3]>, from: &[[u32; 3]], first: u32, turned: bool) {
+    let all = from;
+    let from = all.par_iter().with_min_len(GRAIN);
+    match (first, turned) {
+        (0, false) => to.extend_from_slice(all),
+        (_, false) => to.par_extend(from.map(|t| t.map(|i| i.saturating_add(first)))),
+        (_, true) => to.par_extend(from.map(|&[a, b, c]| [a, c, b].map(|i| i.saturating_add(first)))),
+    }
+}
+
+/// Appends corners of normals or texture coordinates, with none for the triangles that lack them.
+fn append_optional(
+    to: &mut Vec<[u32; 3]>,
+    from: &[[u32; 3]],
+    first: u32,
+    turned: bool,
+    first_triangle: usize,
+    count: usize,
+) {
+    if !from.is_empty() {
+        to.resize(first_triangle, [NONE; 3]);
+        append_corners(to, from, first, turned);
+    }
+    if !to.is_empty() {
+        to.resize(count, [NONE; 3]);
+    }
+}
+
+/// Normals go with the inverse transpose, so that they stay at right angles to the surface.
+fn append_normals(soup: &mut Soup, from: &Geometry, place: &DAffine3, first_triangle: usize, turned: bool) {
+    let first = soup.normals.len();
+    let count = soup.triangles.len();
+    let is_identity = place.matrix3 == DMat3::IDENTITY;
+    let turn = if is_identity { DMat3::IDENTITY } else { place.matrix3.inverse().transpose() };
+    soup.normals.par_extend(from.normals.par_iter().with_min_len(GRAIN).map(|&[x, y, z]| {
+        let normal = DVec3::new(x.into(), y.into(), z.into());
+        let normal = if is_identity { normal } else { turn * normal }.try_normalize();
+        normal.map_or([0.0; 3], |n| [n.x as f32, n.y as f32, n.z as f32])
+    }));
+    let all_sound = soup.normals[first..].par_iter().with_min_len(GRAIN).all(|normal| *normal != [0.0; 3]);
+    append_optional(
+        &mut soup.corner_normals,
+        &from.corner_normals,
+        first as u32,
+        turned,
+        first_triangle,
+        count,
+    );
+    if !all_sound {
+        for corner in soup.corner_normals.iter_mut().skip(first_triangle).flatten() {
+            if soup.normals.get(*corner as usize).is_some_and(|n| *n == [0.0; 3]) {
+                *corner = NONE;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Material;
+    use super::*;
+
+    fn triangle() -> Geometry {
+        Geometry {
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::splat(99.0)],
+            triangles: vec![[0, 1, 2]],
+            normals: vec![[0.0, 0.0, 2.0], [0.0; 3]],
+            corner_normals: vec![[0, 0, 1]],
+            edge_marks: vec![[EdgeMark::Hidden, EdgeMark::Hard, EdgeMark::Contour]],
+            ..Geometry::default()
+        }
+    }
+
+    fn scene(places: &[DAffine3]) -> Scene {
+        let part =
+            |(i, &world_from_part): (usize, _)| Part { name: format!("p{i}"), geometry: 0, world_from_part };
+        let parts = places.iter().enumerate().map(part).collect();
+        Scene {
+            geometries: vec![triangle()],
+            parts,
+            materials: vec![Material::default()],
+            ..Scene::default()
+        }
+    }
+
+    #[test]
+    fn identity_is_a_copy() {
+        let soup = scene(&[DAffine3::IDENTITY]).to_soup();
+        assert_eq!(soup.triangles, [[0, 1, 2]]);
+        assert_eq!(soup.normals[0], [0.0, 0.0, 1.0]);
+        assert_eq!(soup.corner_normals, [[0, 0, NONE]]);
+        assert_eq!(soup.triangle_material, [MaterialId(1)]);
+    }
+
+    #[test]
+    fn what_is_taken_is_what_would_be_copied() {
+        let mirror = DAffine3::from_scale(DVec3::new(1.0, 1.0, -4.0));
+        for places in [&[DAffine3::IDENTITY][..], &[mirror], &[mirror, DAffine3::IDENTITY]] {
+            let mut model = scene(places);
+            let copied = model.to_soup();
+            assert_eq!(format!("{:?}", model.take_soup(None)), format!("{copied:?}"));
+            assert!(model.geometries[0].positions.is_empty());
+        }
+    }
+
+    #[test]
+    fn mirrored_parts_are_turned_round() {
+        let mirror = DAffine3::from_scale(DVec3::new(1.0, 1.0, -4.0));
+        let soup = scene(&[DAffine3::from_translation(DVec3::Z), mirror]).to_soup();
+        assert_eq!(soup.triangles, [[0, 1, 2], [4, 6, 5]]);
+        assert_eq!(soup.triangle_part, [PartId(0), PartId(1)]);
+        assert_eq!(soup.positions[0], DVec3::Z);
+        assert_eq!(soup.corner_normals[1], [2, NONE, 2]);
+        assert_eq!(soup.normals[2], [0.0, 0.0, -1.0]);
+        assert_eq!(soup.edge_marks[1], [EdgeMark::Contour, EdgeMark::Hard, EdgeMark::Hidden]);
+    }
+
+    #[test]
+    fn normals_stay_at_right_angles() {
+        let mut model = scene(&[DAffine3::from_scale(DVec3::new(1.0, 3.0, 1.0))]);
+        model.geometries[0].normals[0] = [1.0, 1.0, 0.0];
+        let [x, y, _] = model.to_soup().normals[0];
+        assert!((x - 3.0 * y).abs() < 1e-6);
+    }
+
+    #[test]
+    fn parts_that_cannot_be_placed_are_left_out() {
+        let huge = DAffine3::from_scale(DVec3::splat(1e100));
+        let flat = DAffine3::from_scale(DVec3::new(1.0, 0.0, 1.0));
+        let model =
+            scene(&[DAffine3::from_scale(DVec3::ZERO), flat, huge, DAffine3::from_translation(DVec3::NAN)]);
+        let soup = model.to_soup();
+        assert!(soup.triangles.is_empty() && soup.positions.is_empty());
+        assert_eq!(model.bounds(), None);
+    }
+
+    #[test]
+    fn bounds_hold_what_is_drawn() {
+        let model = scene(&[DAffine3::IDENTITY, DAffine3::from_translation(DVec3::new(5.0, -1.0, 0.0))]);
+        assert_eq!(model.bounds(), Some((DVec3::new(0.0, -1.0, 0.0), DVec3::new(6.0, 1.0, 0.0))));
+        assert_eq!(model.triangle_count(), 2);
+        assert_eq!(Scene::default().bounds(), None);
+    }
+
+    #[test]
+    fn what_one_part_lacks_is_filled() {
+        let mut model = scene(&[DAffine3::IDENTITY; 2]);
+        let plain = Geometry {
+            positions: vec![DVec3::ZERO; 3],
+            triangles: vec![[0, 1, 2]],
+            wires: vec![[1, 2]],
+            ..Geometry::default()
+        };
+        model.geometries.push(plain);
+        model.parts[1].geometry = 1;
+        let soup = model.to_soup();
+        assert_eq!(soup.corner_normals[1], [NONE; 3]);
+        assert_eq!(soup.edge_marks[1], [EdgeMark::Unmarked; 3]);
+        assert_eq!(soup.wires, [Wire { vertices: [5, 6], part: PartId(1), material: MaterialId(1) }]);
+        model.parts.reverse();
+        let soup = model.to_soup();
+        assert_eq!(soup.corner_normals, [[NONE; 3], [0, 0, NONE]]);
+    }
+}

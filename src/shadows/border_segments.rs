@@ -1,0 +1,162 @@
+//! [`joined`]: the borders of shadows as segments on the surface that share their ends.
+
+use std::collections::BTreeMap;
+
+use glam::DVec3;
+
+use super::shadow_receivers::Borders;
+use super::upper_envelope::EdgePart;
+use crate::geometry::numbers::powers_of_two::power_of_two_below;
+use crate::mesh::{FaceId, Mesh};
+use crate::view::Frame;
+
+/// Segments on faces, joined where they share a point.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Joined {
+    /// Ends of the segments, local space.
+    pub points: Vec<DVec3>,
+    /// The face on which each lies, and its ends.
+    pub segments: Vec<(u32, [u32; 2])>,
+}
+
+/// Planes seen at this cosine or less are placed by interpolation.
+const GRAZING_COSINE: f64 = 1e-7;
+
+/// Joins the borders that the views of one light show.
+///
+/// Pieces share a point where the border goes on from one face to the next, where two pieces of the
+/// light's view share a node, and where loose ends meet: there the shadow of one edge goes on as that
+/// of another.
+pub(crate) fn joined(mesh: &Mesh, views: Vec<Borders>) -> Joined {
+    let mut all = Joined::default();
+    // How far from each point another may lie that is the same.
+    let mut reaches: Vec<f64> = Vec::new();
+    for borders in &views {
+        let frame = &borders.light.view.frame;
+        let mut at_node: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+        for (edge, runs) in borders.edges.iter().zip(&borders.runs) {
+            let mut before: Option<(f64, u32)> = None;
+            for run in runs {
+                let reach = mesh.extent(FaceId(run.face)).contact;
+                let [p, q] = [(run.start, run.nearness[0]), (run.end, run.nearness[1])]
+                    .map(|(t, nearness)| on_face(mesh, frame, run, edge.at(t), nearness))
+                    .map(|p| rounded(p, reach));
+                let start = match before {
+                    Some((end, point)) if end == run.start => all.near(&[point], p, reach),
+                    _ if run.start == 0.0 => {
+                        all.near(at_node.get(&edge.nodes[0]).map_or(&[], Vec::as_slice), p, reach)
+                    }
+                    _ => None,
+                };
+                let start = start.unwrap_or_else(|| all.add(p, reach, &mut reaches));
+                let known = if run.end == 1.0 {
+                    all.near(at_node.get(&edge.nodes[1]).map_or(&[], Vec::as_slice), q, reach)
+                } else {
+                    None
+                };
+                let end = known.unwrap_or_else(|| all.add(q, reach, &mut reaches));
+                for (t, node, point) in [(run.start, edge.nodes[0], start), (run.end, edge.nodes[1], end)] {
+                    if t == 0.0 || t == 1.0 {
+                        at_node.entry(node).or_default().push(point);
+                    }
+                }
+                if start != end {
+                    all.segments.push((run.face, [start, end]));
+                }
+                before = Some((run.end, end));
+            }
+        }
+    }
+    all.join_loose_ends(&reaches);
+    all
+}
+
+impl Joined {
+    fn add(&mut self, point: DVec3, reach: f64, reaches: &mut Vec<f64>) -> u32 {
+        self.points.push(point);
+        reaches.push(reach);
+        self.points.len() as u32 - 1
+    }
+
+    /// The first of some points that lies near a place.
+    fn near(&self, points: &[u32], place: DVec3, reach: f64) -> Option<u32> {
+        points.iter().copied().find(|point| self.points[*point as usize].distance(place) <= reach)
+    }
+
+    /// Joins points that end one segment each and lie near each other, and drops what is left of
+    /// no length.
+    fn join_loose_ends(&mut self, reaches: &[f64]) {
+        let greatest = reaches.iter().copied().fold(0.0, f64::max);
+        let mut uses = vec![0u32; self.points.len()];
+        for (_, ends) in &self.segments {
+            ends.iter().for_each(|end| uses[*end as usize] += 1);
+        }
+        let mut loose: Vec<u32> = (0..uses.len() as u32).filter(|k| uses[*k as usize] == 1).collect();
+        let place = |k: u32| self.points[k as usize];
+        loose.sort_by(|a, b| place(*a).x.total_cmp(&place(*b).x).then(a.cmp(b)));
+        let mut joined_to: Vec<u32> = (0..uses.len() as u32).collect();
+        for (i, a) in loose.iter().enumerate() {
+            if joined_to[*a as usize] != *a {
+                continue;
+            }
+            for b in &loose[i + 1..] {
+                if place(*b).x - place(*a).x > greatest {
+                    break;
+                }
+                let reach = reaches[*a as usize].max(reaches[*b as usize]);
+                if joined_to[*b as usize] == *b && place(*a).distance(place(*b)) <= reach {
+                    joined_to[*b as usize] = *a;
+                }
+            }
+        }
+        for (_, ends) in &mut self.segments {
+            *ends = ends.map(|end| joined_to[end as usize]);
+        }
+        self.segments.retain(|(_, ends)| ends[0] != ends[1]);
+        self.drop_unused();
+    }
+
+    fn drop_unused(&mut self) {
+        let mut place = vec![u32::MAX; self.points.len()];
+        for (_, ends) in &self.segments {
+            ends.iter().for_each(|end| place[*end as usize] = 0);
+        }
+        let mut kept = Vec::new();
+        for (point, place) in self.points.iter().zip(&mut place).filter(|(_, place)| **place == 0) {
+            *place = kept.len() as u32;
+            kept.push(*point);
+        }
+        self.points = kept;
+        for (_, ends) in &mut self.segments {
+            *ends = ends.map(|end| place[end as usize]);
+        }
+    }
+}
+
+/// A point rounded to a small part of the length within which points are one, so that what the light's
+/// frame does to the last digits does not show.
+fn rounded(p: DVec3, reach: f64) -> DVec3 {
+    let step = power_of_two_below(reach / 64.0);
+    (p / step).round() * step
+}
+
+/// The point of a face behind a point of the light's image, local space; `nearness` is where it lies as
+/// far as interpolation tells.
+fn on_face(mesh: &Mesh, frame: &Frame, run: &EdgePart, image: DVec3, nearness: f64) -> DVec3 {
+    let interpolated = local_from_image(frame, image, frame.depth_of(nearness));
+    let [a, b, c] = mesh.corners(FaceId(run.face));
+    let normal = (b - a).cross(c - a);
+    let ray = if frame.perspective { (interpolated - frame.eye).normalize_or_zero() } else { frame.forward };
+    let fall = normal.dot(ray);
+    if fall.abs() <= GRAZING_COSINE * normal.length() {
+        return interpolated;
+    }
+    interpolated + ray * (normal.dot(a - interpolated) / fall)
+}
+
+/// The local point at a place of the image and a depth.
+fn local_from_image(frame: &Frame, image: DVec3, depth: f64) -> DVec3 {
+    let k = if frame.perspective { frame.scale / depth } else { frame.scale };
+    let (x, y) = ((image.x - frame.width / 2.0) / k, (frame.height / 2.0 - image.y) / k);
+    frame.eye + frame.right * x + frame.up * y + frame.forward * depth
+}

@@ -1,0 +1,97 @@
+//! [`Shadows`]: cast shadows, as border lines on the surface and as a test for points.
+//!
+//! Algorithm (the visible parts of a view from the light are its lit parts; only their borders are carried
+//! back):
+//! 1. Every light that casts shadows gets one view of the mesh, or six if it is inside or near it.
+//! 2. The visible contours and borders of that view are the edges that cast shadows.
+//! 3. Each such edge is projected onto the nearest face behind it: the upper envelope of all faces there.
+//! 4. The projected parts are joined into segments on the surface that share their ends.
+//!
+//! Source: P. Atherton, K. Weiler and D. Greenberg, "Polygon shadow generation", SIGGRAPH 1978.
+//! Files, in reading order: [`light_views`] step 1; [`cast_edges`] step 2; [`shadow_receivers`],
+//! [`upper_envelope`] step 3; [`border_segments`] step 4; [`shadow_lines`] the result; [`point_shadows`] the
+//! test for points; [`face_orientation`] the outer side of each face.
+
+mod border_segments;
+mod cast_edges;
+mod face_orientation;
+mod light_views;
+mod point_shadows;
+pub mod shadow_lines;
+mod shadow_receivers;
+mod upper_envelope;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+pub use crate::light::Caster;
+pub use shadow_lines::{ShadowLines, ShadowSegment};
+
+use crate::lines::Surface;
+use crate::mesh::Mesh;
+use face_orientation::Outside;
+use light_views::LightView;
+
+/// No more lights than this cast shadows: as many as a mask has bits.
+pub const MOST_CASTERS: usize = 32;
+
+/// The shadows of some lights on a mesh.
+#[derive(Debug, Clone, Default)]
+pub struct Shadows {
+    /// Where the shadows end.
+    pub lines: ShadowLines,
+    casters: Vec<Caster>,
+    /// The views of each light.
+    views: Vec<Vec<LightView>>,
+    /// On which side of each face it is outside.
+    outside: Vec<Outside>,
+}
+
+impl Shadows {
+    /// The shadows of these lights, the first [`MOST_CASTERS`] of them.
+    #[must_use]
+    pub fn new(mesh: &Mesh, casters: &[Caster]) -> Self {
+        let casters = casters[..casters.len().min(MOST_CASTERS)].to_vec();
+        if mesh.triangles.is_empty() || casters.is_empty() {
+            return Self::default();
+        }
+        // In local space, so that models far from the origin keep their digits.
+        let surface = Surface { mesh: Mesh { origin: DVec3::ZERO, ..mesh.clone() }, ..Surface::default() };
+        let mut lines = ShadowLines::default();
+        let mut views = Vec::with_capacity(casters.len());
+        for (k, caster) in casters.iter().enumerate() {
+            let of_caster = light_views::views(&surface.mesh, caster);
+            let cast: Vec<_> =
+                of_caster.par_iter().map(|light| shadow_receivers::borders(&surface, light)).collect();
+            lines.add(k as u32, border_segments::joined(&surface.mesh, cast));
+            views.push(of_caster);
+        }
+        Self { lines, casters, views, outside: face_orientation::outside(mesh) }
+    }
+
+    /// The lights that casts these shadows; bit k of a mask is the k-th of them.
+    #[must_use]
+    pub fn casters(&self) -> &[Caster] {
+        &self.casters
+    }
+
+    /// Which lights do not reach a point (local space) on a face: bit k is set where another face
+    /// stands between it and light k.
+    ///
+    /// Faces of solids that are turned away from a light are dark by themselves; for them its bit is
+    /// never set. On sheets, of which either side may be seen, it is. For many points, [`Shadows::shadowed`] is much faster.
+    #[must_use]
+    pub fn unlit(&self, mesh: &Mesh, face: u32, point: DVec3) -> u32 {
+        self.shadowed(mesh, &[(face, point)])[0]
+    }
+
+    /// The masks of many points, each on a face: which lights do not reach them.
+    #[must_use]
+    pub fn shadowed(&self, mesh: &Mesh, points: &[(u32, DVec3)]) -> Vec<u32> {
+        let mut masks = vec![0; points.len()];
+        for (k, (caster, views)) in self.casters.iter().zip(&self.views).enumerate() {
+            point_shadows::mark(mesh, caster, views, &self.outside, points, 1 << k, &mut masks);
+        }
+        masks
+    }
+}

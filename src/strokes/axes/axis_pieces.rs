@@ -1,0 +1,74 @@
+//! Cuts an axis where nothing is drawn, such as in halos of nearer lines, and lifts the pen at corners.
+
+use super::stroke_axis::Axis;
+
+/// The hand lifts at corners that turn by more than this (cosine of 35 degrees).
+const LIFT_COSINE: f64 = 0.819;
+
+/// A part of an axis, and what its ends are.
+#[derive(Debug, Clone)]
+pub(crate) struct AxisPart {
+    pub axis: Axis,
+    pub ends: [End; 2],
+}
+
+/// What may happen at an end.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct End {
+    pub tapers: bool,
+    pub runs_on: bool,
+    /// How far the line goes on past the border of the frame, which cuts it; 0 inside the frame.
+    pub past: f64,
+}
+
+impl End {
+    /// The end at a gap.
+    const GAP: Self = Self { tapers: true, runs_on: false, past: 0.0 };
+    /// The end at a corner at which the pen is lifted.
+    const LIFTED: Self = Self { tapers: true, runs_on: true, past: 0.0 };
+}
+
+/// Lines with gaps in them are whole in between at least over this length, px.
+const SHORTEST_PX: f64 = 0.75;
+
+/// The parts of an axis outside of gaps (arc lengths, ascending, not beyond its ends but in a closed axis);
+/// with `lifts`, corners part them as well. `ends` are what the ends of an open axis are.
+pub(crate) fn parted(axis: &Axis, gaps: &[[f64; 2]], lifts: bool, ends: [End; 2], px: f64) -> Vec<AxisPart> {
+    let total = axis.length();
+    let mut cuts: Vec<([f64; 2], End)> = gaps.iter().map(|gap| (*gap, End::GAP)).collect();
+    if lifts {
+        let sharp = axis.corners.iter().filter(|c| {
+            let [comes, leaves] = axis.at_corner(**c);
+            comes.dot(leaves) < LIFT_COSINE
+        });
+        let inside = |arc: f64| gaps.iter().any(|[from, to]| *from <= arc && arc <= *to);
+        let at = sharp.map(|c| axis.arcs[*c]).filter(|arc| !inside(*arc));
+        cuts.extend(at.map(|arc| ([arc; 2], End::LIFTED)));
+        cuts.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+    }
+    if cuts.is_empty() {
+        return vec![AxisPart { axis: axis.clone(), ends }];
+    }
+    let mut pieces = Vec::new();
+    let mut add = |from: f64, to: f64, ends: [End; 2]| {
+        if to - from >= SHORTEST_PX * px {
+            pieces.push(AxisPart { axis: axis.cut(from, to), ends });
+        }
+    };
+    let (Some(first), Some(last)) = (axis.arcs.first(), axis.arcs.last()) else { return pieces };
+    if !axis.closed {
+        let (gap, end) = &cuts[0];
+        add(*first, gap[0], [ends[0], *end]);
+    }
+    for (i, (gap, end)) in cuts.iter().enumerate() {
+        match cuts.get(i + 1) {
+            Some((next, then)) => add(gap[1], next[0], [*end, *then]),
+            None if axis.closed => {
+                let (next, then) = &cuts[0];
+                add(gap[1], next[0] + total, [*end, *then]);
+            }
+            None => add(gap[1], *last, [*end, ends[1]]),
+        }
+    }
+    pieces
+}

@@ -1,0 +1,376 @@
+//! [`Brush`]: a shape that is laid along lines: drawn once over each line or again and again.
+//!
+//! Source: lines drawn with a shape of their own, Claes, Di Fiore, Vansichem and Van Reeth, Fast 3D cartoon
+//! rendering with improved quality by exploiting graphics hardware, 2001, fig. 5e; mapped by arc length as in
+//! Hsu and Lee, Drawing and animation using skeletal strokes, SIGGRAPH 1994.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use kurbo::{BezPath, PathEl, Point, Vec2};
+
+use super::brush_core;
+use super::brush_image::Copy;
+use super::brush_strip::Strip;
+use crate::chains::fit::bezier_fit::unit;
+use crate::colour::srgb::Colour;
+use crate::drawing::{ImagePiece, Length, Shows, Unit};
+use crate::geometry::numbers::portable_math::cos;
+use crate::geometry::plane::planar_distance::length;
+use crate::strokes::axes::stroke_axis::{Axis, add_stretch};
+use crate::strokes::outlines::stroke_outline::{Nib, outline};
+use crate::strokes::widths::width_profile::mean;
+
+/// A shape along a line. Its x runs along the line from 0 to 1; its y lies across it, -0.5 on the left edge
+/// of the pen and 0.5 on the right.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Brush {
+    /// The shape.
+    pub shape: BrushShape,
+    /// Whether it is drawn again and again instead of once over the whole line.
+    pub repeats: bool,
+    /// Length of one of those, about; 0: as long as it is in proportion to the pen's width.
+    pub length: Length,
+    /// What is drawn in its place where the line turns, if it is drawn again and again.
+    pub turns: Option<Turns>,
+}
+
+/// Shapes for pieces of a line that turn, by the angle from a piece to its successor.
+///
+/// Source: Lake, Marshall, Harris and Blackstein, Stylized rendering techniques for scalable real-time 3D animation, 2000, section
+/// 4.3, equation 3: straight, leftward and rightward strokes; there the pieces are edges of the mesh, here they are as long as the brush.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Turns {
+    /// Where the line turns to the left, as it runs.
+    pub left: BrushShape,
+    /// Where it turns to the right.
+    pub right: BrushShape,
+    /// Turns of no more than this many degrees are straight.
+    pub degrees: f64,
+}
+
+/// The shape of a brush.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BrushShape {
+    /// A filled path, and how much longer than wide it is.
+    Path(BezPath, f64),
+    /// How far the ink reaches to the left and to the right of the middle at places evenly along the line, in
+    /// widths of the pen (0 to 0.5), and how much longer than wide it is.
+    Profile(Vec<[f64; 2]>, f64),
+    /// A picture whose inside is traced, and how much longer than wide it is.
+    Picture(Strip, f64),
+    /// A picture that is shown itself, and how much longer than wide it is.
+    Image(Arc<Strip>, f64),
+}
+
+impl BrushShape {
+    /// How much longer than wide it is.
+    #[must_use]
+    pub const fn ratio(&self) -> f64 {
+        let (Self::Path(_, ratio)
+        | Self::Profile(_, ratio)
+        | Self::Picture(_, ratio)
+        | Self::Image(_, ratio)) = self;
+        *ratio
+    }
+
+    /// The shape as a path, for one that is so long and so wide on the page, in px.
+    pub(crate) fn path(&self, size: [f64; 2]) -> Cow<'_, BezPath> {
+        match self {
+            Self::Path(path, _) => Cow::Borrowed(path),
+            Self::Profile(profile, _) => Cow::Owned(edges(profile)),
+            Self::Picture(strip, _) => Cow::Owned(strip.path(size)),
+            Self::Image(strip, _) => Cow::Owned(strip.path(size)),
+        }
+    }
+}
+
+/// The edges of a profile as a path.
+fn edges(profile: &[[f64; 2]]) -> BezPath {
+    let count = profile.len().clamp(1, MOST_COLUMNS);
+    let at = |k: usize, side: usize| {
+        let x = (k as f64 / count as f64).min(1.0);
+        Point::new(x, sample(profile, x, side, false) * if side == 0 { -1.0 } else { 1.0 })
+    };
+    let there = (0..=count).map(|k| at(k, 0));
+    let back = (0..=count).rev().map(|k| at(k, 1));
+    let mut path = BezPath::new();
+    for (k, p) in there.chain(back).enumerate() {
+        if k == 0 { path.move_to(p) } else { path.line_to(p) }
+    }
+    path.close_path();
+    path
+}
+
+/// Edges of profiles have no more places than this.
+const MOST_COLUMNS: usize = 512;
+
+/// Most copies of a brush along a line.
+const MOST_COPIES: f64 = 10_000.0;
+
+/// How far the edges of a brush may lie from where they ought to, px.
+const TOLERANCE_PX: f64 = 0.06;
+
+/// Points on the edges of a brush are about this far apart, px.
+const STEP_PX: f64 = 1.0;
+
+/// Directions across a line are taken over this many times half the pen's width to either side.
+const TURN: f64 = 1.0;
+
+/// A brush turns by more than this at a corner of its own (cosine of 20 degrees).
+const CORNER_COSINE: f64 = 0.94;
+
+/// A line drawn with a brush.
+pub(crate) struct Brushed {
+    pub path: BezPath,
+    /// Its mean width.
+    pub width: f64,
+    /// The picture that is seen within its outline, how many pixels that has along and across, and in which pieces it is seen.
+    pub image: Option<(Arc<Strip>, [usize; 2], Vec<ImagePiece>)>,
+}
+
+/// The outline of a line drawn with a brush in a colour. `thick` are the widths at the points of the
+/// axis, and `reach` is how far to either side of it the ink must come at least, and without a gap, wherever there is
+/// any.
+pub(crate) fn drawn(
+    brush: &Brush,
+    axis: &Axis,
+    thick: &[f64],
+    reach: &[f64],
+    nib: &Nib,
+    (unit, colour): (Unit, Colour),
+) -> Option<Brushed> {
+    let total = axis.length();
+    let pen = mean(axis, thick);
+    if total <= 0.0 || axis.len() < 3 {
+        return None;
+    }
+    let ratio = brush.shape.ratio();
+    let one = match brush.length.in_unit(unit) {
+        length if length > 0.0 => length,
+        _ => ratio * pen,
+    };
+    let copies = if brush.repeats { (total / one).round().clamp(1.0, MOST_COPIES) } else { 1.0 };
+    // Once over a line that is shorter than the brush in proportion it is thinner, not a blot.
+    let thinner = if brush.repeats { 1.0 } else { (total / (ratio * pen).max(f64::MIN_POSITIVE)).min(1.0) };
+    let thick: Vec<f64> = thick.iter().map(|width| width * thinner).collect();
+    let thick = &thick[..];
+    match (&brush.shape, &brush.turns) {
+        (BrushShape::Profile(profile, _), None) => {
+            let around = brush.repeats || axis.closed;
+            let at = |side: usize| -> Vec<f64> {
+                let of = |(arc, width): (&f64, &f64)| {
+                    let place = (arc - axis.arcs[0]) / total * copies;
+                    width * sample(profile, place, side, around)
+                };
+                axis.arcs.iter().zip(thick).map(of).collect()
+            };
+            let (left, right) = (at(0), at(1));
+            let is_inked = |i: usize| !brush.repeats || left[i] + right[i] > 0.0;
+            let at_least = |side: &[f64]| -> Vec<f64> {
+                let own = |(i, half): (usize, &f64)| if is_inked(i) { half.max(reach[i]) } else { *half };
+                side.iter().enumerate().map(own).collect()
+            };
+            let (left, right) = (at_least(&left), at_least(&right));
+            let both: Vec<f64> = left.iter().zip(&right).map(|(l, r)| l + r).collect();
+            let path = outline(axis, [&left, &right], nib)?;
+            Some(Brushed { path, width: mean(axis, &both), image: None })
+        }
+        (shape, turns) => {
+            let map = Map { axis, thick, copies, total, step: total / (axis.len() - 1) as f64 };
+            let size = [total / copies, pen * thinner].map(|way| way / nib.px);
+            let straight = shape.path(size);
+            let turned = turns.as_ref().map(|turns| [&turns.left, &turns.right].map(|own| own.path(size)));
+            let mut path = BezPath::new();
+            let mut image = match shape {
+                BrushShape::Image(strip, _) => Some((Arc::clone(strip), strip.pixels(size[1]), Vec::new())),
+                _ => None,
+            };
+            let solid = |outline: BezPath| ImagePiece { outline, shows: Shows::Colour(colour) };
+            for number in 0..copies as usize {
+                let turn = turns.as_ref().and_then(|turns| map.turn(turns.degrees, number));
+                let own = turned.as_ref().zip(turn).map(|(turned, turn)| &turned[turn as usize]);
+                match (&mut image, own) {
+                    (None, own) => map.add(own.unwrap_or(&straight), number, nib.px, &mut path),
+                    (Some((.., pieces)), Some(own)) => {
+                        let mut outline = BezPath::new();
+                        map.add(own, number, nib.px, &mut outline);
+                        path.extend(outline.iter());
+                        pieces.push(solid(outline));
+                    }
+                    (Some((_, pixels, pieces)), None) => {
+                        map.add(&edges(&[[0.5; 2]]), number, nib.px, &mut path);
+                        let size = [total / copies, pen * thinner];
+                        let at = |p: Point| map.at(p);
+                        pieces.extend(Copy { at: &at, number, size, pixels: *pixels, px: nib.px }.pieces());
+                    }
+                }
+            }
+            use kurbo::Shape;
+            let area = path.area();
+            if reach.iter().any(|reach| *reach > 0.0) {
+                let least = if brush.repeats { 0.0 } else { 1.0 };
+                let half = |i: usize, way: Option<[f64; 2]>| match way {
+                    Some(way) => way.map(|way| reach[i].max(way * thick[i])),
+                    None => [reach[i] * least; 2],
+                };
+                let place = |i: usize| (axis.arcs[i] - axis.arcs[0]) / total * copies;
+                let columns = match shape {
+                    BrushShape::Picture(strip, _) => Cow::Borrowed(&strip.ways),
+                    BrushShape::Image(strip, _) => Cow::Borrowed(&strip.ways),
+                    _ => Cow::Owned(brush_core::columns(&straight)),
+                };
+                let mut core = BezPath::new();
+                brush_core::add(&mut core, &columns, axis, half, place, nib);
+                path.extend(core.iter());
+                if let Some((.., pieces)) = image.as_mut().filter(|_| !core.elements().is_empty()) {
+                    pieces.push(solid(core));
+                }
+            }
+            let width = area.abs() / total;
+            (path.elements().len() > 2).then_some(Brushed { path, width, image })
+        }
+    }
+}
+
+/// A side of a profile at a place, of which each copy is 1 long.
+fn sample(profile: &[[f64; 2]], place: f64, side: usize, around: bool) -> f64 {
+    let n = profile.len();
+    if n == 0 {
+        return 0.5;
+    }
+    // A place at the very end belongs to the last copy.
+    let within = if place > 0.0 && place == place.floor() && !around { 1.0 } else { place - place.floor() };
+    let at = within * n as f64 - 0.5;
+    let (low, t) = (at.floor(), at - at.floor());
+    let get = |i: f64| {
+        let i = if around { i.rem_euclid(n as f64) } else { i.clamp(0.0, n as f64 - 1.0) };
+        profile[(i as usize).min(n - 1)][side]
+    };
+    get(low) + (get(low + 1.0) - get(low)) * t
+}
+
+/// The side to which a copy of a brush turns.
+#[derive(Clone, Copy)]
+enum Turn {
+    Left,
+    Right,
+}
+
+/// From a brush to the page.
+struct Map<'a> {
+    axis: &'a Axis,
+    thick: &'a [f64],
+    copies: f64,
+    total: f64,
+    /// Distance of the points of the axis.
+    step: f64,
+}
+
+impl Map<'_> {
+    /// The place of a point of a brush; x counts copies.
+    fn at(&self, p: Point) -> Point {
+        let axis = self.axis;
+        let beyond = (p.x.clamp(0.0, self.copies) - p.x) / self.copies * self.total;
+        let mut arc = axis.arcs[0] + p.x.clamp(0.0, self.copies) / self.copies * self.total;
+        arc = arc.clamp(axis.arcs[0], axis.arcs[axis.len() - 1]);
+        let next = axis.arcs.partition_point(|a| *a < arc).clamp(1, axis.len() - 1);
+        let (a, b) = (axis.arcs[next - 1], axis.arcs[next]);
+        let t = if b > a { (arc - a) / (b - a) } else { 0.0 };
+        let width = self.thick[next - 1] + (self.thick[next] - self.thick[next - 1]) * t;
+        let along = self.along(next - 1).lerp(self.along(next), t);
+        let along = unit(along);
+        let middle = axis.points[next - 1].lerp(axis.points[next], t);
+        middle - along * beyond + Vec2::new(-along.y, along.x) * (p.y * width)
+    }
+
+    /// Direction at a point, over about a width of the pen, corners or not.
+    fn along(&self, i: usize) -> Vec2 {
+        let reach = (self.thick[i] / 2.0 * TURN / self.step).ceil().max(2.0) as isize;
+        let k = i as isize;
+        unit(self.axis.point(k + reach) - self.axis.point(k - reach))
+    }
+
+    /// Whether a copy turns towards its successor by more than so many degrees, and to which side.
+    fn turn(&self, degrees: f64, copy: usize) -> Option<Turn> {
+        let copies = self.copies as usize;
+        let chord = |copy: usize| {
+            let end = |k: usize| self.at(Point::new(k as f64, 0.0));
+            end(copy + 1) - end(copy)
+        };
+        let next = match (copy + 1 < copies, self.axis.closed) {
+            (true, _) => copy + 1,
+            (false, true) => 0,
+            (false, false) => return None,
+        };
+        let (own, next) = (unit(chord(copy)), unit(chord(next)));
+        if own.dot(next) >= cos(degrees.to_radians()) {
+            return None;
+        }
+        // With y down the page a turn to the right is positive.
+        Some(if own.cross(next) > 0.0 { Turn::Right } else { Turn::Left })
+    }
+
+    /// Adds a copy of the brush to a path.
+    fn add(&self, shape: &BezPath, copy: usize, px: f64, path: &mut BezPath) {
+        let place = |p: Point| self.at(Point::new(p.x + copy as f64, p.y));
+        let long = self.total / self.copies;
+        let mut run: Vec<Point> = Vec::new();
+        let mut last: Option<Vec2> = None;
+        let mut start = Point::ZERO;
+        let tolerance = TOLERANCE_PX * px;
+        let flush = |run: &mut Vec<Point>, path: &mut BezPath| {
+            if run.len() > 1 {
+                add_stretch(run, tolerance, path);
+            }
+            run.clear();
+        };
+        let mut here = Point::ZERO;
+        for element in shape.elements() {
+            let cubic = match *element {
+                PathEl::MoveTo(p) => {
+                    flush(&mut run, path);
+                    (here, start, last) = (p, p, None);
+                    path.move_to(place(p));
+                    continue;
+                }
+                PathEl::LineTo(p) => line(here, p),
+                PathEl::QuadTo(q, p) => kurbo::QuadBez::new(here, q, p).raise(),
+                PathEl::CurveTo(q, r, p) => kurbo::CubicBez::new(here, q, r, p),
+                PathEl::ClosePath => line(here, start),
+            };
+            let ways = [cubic.p1 - cubic.p0, cubic.p3 - cubic.p2];
+            let ways = ways.map(|way| if way.hypot2() > 0.0 { way } else { cubic.p3 - cubic.p0 });
+            if last.is_some_and(|last| unit(last).dot(unit(ways[0])) < CORNER_COSINE) {
+                flush(&mut run, path);
+            }
+            if run.is_empty() {
+                run.push(place(cubic.p0));
+            }
+            let extent = [cubic.p1 - cubic.p0, cubic.p2 - cubic.p1, cubic.p3 - cubic.p2];
+            let size: f64 = extent.iter().map(|v| (v.x.abs() * long) + v.y.abs() * self.thick[0]).sum();
+            let count = (size / (STEP_PX * px)).ceil().clamp(4.0, 4096.0) as usize;
+            for k in 1..=count {
+                let p = place(kurbo::ParamCurve::eval(&cubic, k as f64 / count as f64));
+                if run.last().is_none_or(|q| length(p - *q) > 1e-9 * px) {
+                    run.push(p);
+                }
+            }
+            last = Some(ways[1]);
+            here = cubic.p3;
+            if matches!(element, PathEl::ClosePath) {
+                flush(&mut run, path);
+                path.close_path();
+                last = None;
+            }
+        }
+        flush(&mut run, path);
+        if !matches!(path.elements().last(), Some(PathEl::ClosePath) | None) {
+            path.close_path();
+        }
+    }
+}
+
+fn line(a: Point, b: Point) -> kurbo::CubicBez {
+    kurbo::CubicBez::new(a, a.lerp(b, 1.0 / 3.0), a.lerp(b, 2.0 / 3.0), b)
+}

@@ -1,0 +1,117 @@
+//! The core of a brushed line: ink between the axis and a brush that strays from it.
+//!
+//! Paint ends at the axis. Where the shape of a brush lies beside it, paper would show between the two.
+
+use kurbo::{BezPath, PathEl, PathSeg, Point};
+
+use crate::strokes::axes::stroke_axis::Axis;
+use crate::strokes::outlines::stroke_outline::{Nib, outline};
+
+/// The shape is looked at in so many columns along it.
+pub(crate) const COLUMNS: usize = 256;
+
+/// How far it is to the left and to the right from the middle into ink, in widths of the pen.
+pub(crate) type Way = [f64; 2];
+
+/// The shape is flattened to this part of its length or width.
+const FLAT: f64 = 1e-3;
+
+/// How far ink must go on from the axis to the left and to the right to reach into the shape, in widths of the
+/// pen, in columns evenly along it; `None` where the shape has no ink.
+pub(crate) fn columns(shape: &BezPath) -> Vec<Option<Way>> {
+    let mut flat = BezPath::new();
+    kurbo::flatten(shape, FLAT, |element| flat.push(element));
+    if !matches!(flat.elements().last(), Some(PathEl::ClosePath) | None) {
+        flat.close_path();
+    }
+    let sides: Vec<[Point; 2]> = flat
+        .segments()
+        .filter_map(|segment| if let PathSeg::Line(line) = segment { Some([line.p0, line.p1]) } else { None })
+        .collect();
+    let column = |k: usize| {
+        let x = (k as f64 + 0.5) / COLUMNS as f64;
+        let mut meets: Vec<(f64, i32)> = Vec::new();
+        for [a, b] in &sides {
+            if (a.x > x) != (b.x > x) {
+                let y = a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x));
+                meets.push((y, if b.x > a.x { 1 } else { -1 }));
+            }
+        }
+        meets.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        nearest(&meets)
+    };
+    (0..COLUMNS).map(column).collect()
+}
+
+/// How far it is to the left and to the right from 0 into the nearest ink, given where its edges are.
+pub(crate) fn nearest(meets: &[(f64, i32)]) -> Option<Way> {
+    let mut winding = 0;
+    let mut begun = 0.0;
+    let mut best: Option<Way> = None;
+    for (y, turn) in meets {
+        if winding == 0 {
+            begun = *y;
+        }
+        winding += turn;
+        if winding != 0 || *y <= begun {
+            continue;
+        }
+        let middle = f64::midpoint(begun, *y);
+        let way = match (begun > 0.0, *y < 0.0) {
+            (true, _) => [0.0, middle],
+            (_, true) => [-middle, 0.0],
+            _ => [0.0, 0.0],
+        };
+        let far = |way: Way| way[0].max(way[1]);
+        if best.is_none_or(|best| far(way) < far(best)) {
+            best = Some(way);
+        }
+    }
+    best
+}
+
+/// Adds the core to the outline of a line. `half` says how far it reaches to the left and to the right at a point
+/// of the axis, given what its column says, and `place` where along the brush that is, each copy 1 long.
+pub(crate) fn add(
+    path: &mut BezPath,
+    columns: &[Option<Way>],
+    axis: &Axis,
+    half: impl Fn(usize, Option<Way>) -> [f64; 2],
+    place: impl Fn(usize) -> f64,
+    nib: &Nib,
+) {
+    use kurbo::Shape;
+    let column = |i: usize| {
+        let place = place(i);
+        let within = if place > 0.0 && place == place.floor() { 1.0 } else { place - place.floor() };
+        let k = (within * columns.len() as f64) as usize;
+        columns.get(k.min(columns.len().saturating_sub(1))).copied().flatten()
+    };
+    let halves: Vec<[f64; 2]> = (0..axis.len()).map(|i| half(i, column(i))).collect();
+    let [left, right] = [0, 1].map(|side| halves.iter().map(|half| half[side]).collect::<Vec<f64>>());
+    let Some(core) = outline(axis, [&left, &right], nib) else { return };
+    // Turned the other way, the two would take each other out where they overlap.
+    let turned = core.area() * path.area() < 0.0;
+    path.extend(if turned { core.reverse_subpaths() } else { core });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_know_the_way_to_the_ink() {
+        let beside = BezPath::from_svg("M0 0.2L1 0.2L1 0.4L0 0.4Z").unwrap();
+        assert!(
+            columns(&beside).iter().all(|way| way.is_some_and(|[l, r]| l == 0.0 && (r - 0.3).abs() < 1e-9))
+        );
+        let over = BezPath::from_svg("M0 -0.1L0.5 -0.1L0.5 0.4L0 0.4Z").unwrap();
+        let found = columns(&over);
+        assert_eq!((found[0], found[COLUMNS - 1]), (Some([0.0, 0.0]), None));
+        // Of two strands the nearer one.
+        let two = BezPath::from_svg("M0 -0.2L1 -0.2L1 -0.1L0 -0.1ZM0 0.2L1 0.2L1 0.4L0 0.4Z").unwrap();
+        assert!(
+            columns(&two).iter().all(|way| way.is_some_and(|[l, r]| (l - 0.15).abs() < 1e-9 && r == 0.0))
+        );
+    }
+}

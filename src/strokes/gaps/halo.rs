@@ -1,0 +1,202 @@
+//! Halos: farther lines break off a little before a nearer one passes over them.
+//!
+//! Source: Appel, Rohlf and Stein, The haloed line effect for hidden line elimination, SIGGRAPH 1979.
+
+use kurbo::Point;
+use rustc_hash::FxHashMap;
+
+use crate::strokes::axes::stroke_axis::Axis;
+
+/// A line is nearer than another if it is by more than this part of the depth of all lines.
+const NEARER: f64 = 0.01;
+
+/// Lines that meet leave each other alone up to this many reaches from where they do.
+const MEETING: f64 = 8.0;
+
+/// How near an end lies to the line that it meets, px.
+const TOUCH_PX: f64 = 1.0;
+
+/// Rounds of halving that find where a gap begins and ends.
+const ROUNDS: usize = 24;
+
+/// A line that may have a halo.
+pub(crate) struct Haloed<'a> {
+    pub axis: &'a Axis,
+    /// How far from its axis nothing farther is drawn; 0 = no halo.
+    pub reach: f64,
+}
+
+/// A stretch of an axis with a halo.
+#[derive(Debug, Clone, Copy)]
+struct Stretch {
+    line: u32,
+    /// Its first point, and the one after its last.
+    from: u32,
+    to: u32,
+}
+
+/// Points of an axis in a stretch.
+const STRETCH: usize = 4;
+
+/// The gaps in each line, as arc lengths, ascending; those over the seam of a closed line begin before 0 or
+/// end beyond it.
+pub(crate) fn gaps(lines: &[Haloed], depths: [f64; 2], px: f64) -> Vec<Vec<[f64; 2]>> {
+    use crate::parallel::prelude::*;
+    let greatest = lines.iter().map(|line| line.reach).fold(0.0, f64::max);
+    if greatest <= 0.0 {
+        return vec![Vec::new(); lines.len()];
+    }
+    let field = Field::new(lines, greatest, NEARER * (depths[1] - depths[0]), px);
+    (0..lines.len()).into_par_iter().map(|line| field.gaps(line)).collect()
+}
+
+struct Field<'a> {
+    lines: &'a [Haloed<'a>],
+    cells: FxHashMap<(i64, i64), Vec<Stretch>>,
+    cell: f64,
+    margin: f64,
+    px: f64,
+}
+
+impl<'a> Field<'a> {
+    fn new(lines: &'a [Haloed<'a>], greatest: f64, margin: f64, px: f64) -> Self {
+        let cell = (greatest + STRETCH as f64 * px).max(4.0 * px);
+        let mut field = Self { lines, cells: FxHashMap::default(), cell, margin, px };
+        for (i, line) in lines.iter().enumerate().filter(|(_, line)| line.reach > 0.0) {
+            let last = line.axis.len().saturating_sub(1);
+            for from in (0..last).step_by(STRETCH) {
+                let to = (from + STRETCH).min(last);
+                let stretch = Stretch { line: i as u32, from: from as u32, to: to as u32 };
+                let (mut low, mut high) =
+                    (field.at(line.axis.points[from]), field.at(line.axis.points[from]));
+                for p in &line.axis.points[from..=to] {
+                    let at = field.at(*p);
+                    low = (low.0.min(at.0), low.1.min(at.1));
+                    high = (high.0.max(at.0), high.1.max(at.1));
+                }
+                for x in low.0..=high.0 {
+                    for y in low.1..=high.1 {
+                        field.cells.entry((x, y)).or_default().push(stretch);
+                    }
+                }
+            }
+        }
+        field
+    }
+
+    fn at(&self, p: Point) -> (i64, i64) {
+        ((p.x / self.cell).floor() as i64, (p.y / self.cell).floor() as i64)
+    }
+
+    fn gaps(&self, line: usize) -> Vec<[f64; 2]> {
+        let axis = self.lines[line].axis;
+        let n = axis.len();
+        if n < 2 {
+            return Vec::new();
+        }
+        let covered: Vec<bool> = axis.arcs.iter().map(|arc| self.covers(line, *arc)).collect();
+        // Where between a place that is covered and one that is not the halo ends.
+        let border = |mut inside: f64, mut outside: f64| {
+            for _ in 0..ROUNDS {
+                let middle = (inside + outside) / 2.0;
+                if self.covers(line, middle) {
+                    inside = middle;
+                } else {
+                    outside = middle;
+                }
+            }
+            inside
+        };
+        let mut gaps = Vec::new();
+        let mut i = 0;
+        while i < n {
+            if !covered[i] {
+                i += 1;
+                continue;
+            }
+            let run = covered[i..].iter().take_while(|c| **c).count();
+            let last = i + run - 1;
+            let from = if i > 0 { border(axis.arcs[i], axis.arcs[i - 1]) } else { axis.arcs[0] };
+            let to =
+                if last + 1 < n { border(axis.arcs[last], axis.arcs[last + 1]) } else { axis.arcs[n - 1] };
+            gaps.push([from, to]);
+            i += run;
+        }
+        let total = axis.length();
+        if axis.closed
+            && gaps.len() > 1
+            && let (Some(first), Some(last)) = (gaps.first().copied(), gaps.last().copied())
+            && first[0] <= 0.0
+            && last[1] >= total
+        {
+            gaps.pop();
+            gaps[0][0] = last[0] - total;
+        }
+        gaps
+    }
+
+    /// Whether a nearer line's halo lies over a place of a line.
+    fn covers(&self, line: usize, arc: f64) -> bool {
+        let own = self.lines[line].axis;
+        let (p, sample) = own.at(arc);
+        let (x, y) = self.at(p);
+        let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
+        around.filter_map(|cell| self.cells.get(&cell)).flatten().any(|stretch| {
+            let other = &self.lines[stretch.line as usize];
+            let reach = other.reach;
+            for i in stretch.from as usize..stretch.to as usize {
+                let (a, b) = (other.axis.points[i], other.axis.points[i + 1]);
+                let way = b - a;
+                let t =
+                    if way.hypot2() > 0.0 { ((p - a).dot(way) / way.hypot2()).clamp(0.0, 1.0) } else { 0.0 };
+                if (p - a.lerp(b, t)).hypot2() >= reach * reach {
+                    continue;
+                }
+                let depth = other.axis.samples[i].lerp(other.axis.samples[i + 1], t).depth;
+                if depth >= sample.depth - self.margin {
+                    continue;
+                }
+                let there = other.axis.arcs[i] + (other.axis.arcs[i + 1] - other.axis.arcs[i]) * t;
+                let same = stretch.line as usize == line;
+                if same && near_along(own, arc, there, MEETING * reach) {
+                    continue;
+                }
+                if !same
+                    && (self.meets(own, arc, other, there)
+                        || self.meets(other.axis, there, &Haloed { axis: own, reach }, arc))
+                {
+                    continue;
+                }
+                return true;
+            }
+            false
+        })
+    }
+
+    /// Whether a line, near one of its ends, is about to meet another one there.
+    fn meets(&self, axis: &Axis, arc: f64, other: &Haloed, there: f64) -> bool {
+        if axis.closed {
+            return false;
+        }
+        let near = MEETING * other.reach;
+        let ends = [(arc - axis.arcs[0], 0), (axis.length() - arc, axis.len() - 1)];
+        ends.into_iter().filter(|(way, _)| *way < near).any(|(_, end)| {
+            let (p, depth) = (axis.points[end], axis.samples[end].depth);
+            // The place of the other line that is nearest to the end, along it from where it is now.
+            let touch = TOUCH_PX * self.px;
+            let steps = (2.0 * near / self.px).ceil() as usize;
+            (0..=steps).any(|k| {
+                let at = there - near + 2.0 * near * k as f64 / steps as f64;
+                let (q, sample) = other.axis.at(at);
+                (q - p).hypot2() <= touch * touch && (sample.depth - depth).abs() <= self.margin
+            })
+        })
+    }
+}
+
+/// Whether two places of a line are no farther apart than so much, along it.
+fn near_along(axis: &Axis, a: f64, b: f64, most: f64) -> bool {
+    let way = (a - b).abs();
+    let way = if axis.closed { way.min(axis.length() - way) } else { way };
+    way < most
+}

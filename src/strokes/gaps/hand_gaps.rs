@@ -1,0 +1,107 @@
+//! Small gaps that the hand leaves in a line.
+
+use crate::geometry::numbers::noise::{hash, unit};
+use crate::strokes::axes::axis_pieces::{AxisPart, parted};
+
+/// Most gaps that the hand leaves in a line.
+const MOST: f64 = 10_000.0;
+
+/// Part of the way from one gap to the next that no gap has its middle in, at its begin; as much is at its end.
+const CLEAR: f64 = 0.2;
+
+/// A gap takes no more of the way to the next than twice this part.
+const WIDEST_HALF: f64 = 0.15;
+
+/// Gaps of about a length, on the mean so far from each other; in user units.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Breaks {
+    pub mean: f64,
+    pub gap: f64,
+    pub seed: u64,
+}
+
+/// From which place of a chain its gaps are counted, where they lie on the model: an arc length, which may be beyond its ends, and
+/// whether they are counted backwards.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moored {
+    pub arc: f64,
+    pub backwards: bool,
+}
+
+impl Breaks {
+    /// A piece of an axis, the `number`th, without its gaps. How many there are does not depend on the seed, unless they lie on the model.
+    pub fn leave(&self, piece: AxisPart, number: usize, moored: Option<Moored>, px: f64) -> Vec<AxisPart> {
+        let (Some(first), true) = (piece.axis.arcs.first(), self.mean > 0.0 && self.gap > 0.0) else {
+            return vec![piece];
+        };
+        let range = [*first, first + piece.axis.length()];
+        let gaps = match moored {
+            Some(moored) => self.on_model(range, moored),
+            None => self.along(range, hash(self.seed, &[0, number as u64])),
+        };
+        parted(&piece.axis, &gaps, false, piece.ends, px)
+    }
+
+    /// Gaps that are spread over all of a piece.
+    fn along(&self, [from, to]: [f64; 2], seed: u64) -> Vec<[f64; 2]> {
+        let count = ((to - from) / self.mean).round().min(MOST) as usize;
+        let step = (to - from) / count as f64;
+        let gap = |k: usize| {
+            let chance = |word: u64| unit(hash(seed, &[k as u64, word]));
+            self.around(from + (k as f64 + place(chance(0))) * step, step, chance(1))
+        };
+        (0..count).map(gap).collect()
+    }
+
+    /// Gaps that stay where they are while the piece begins and ends elsewhere; those at its ends are left out.
+    fn on_model(&self, [from, to]: [f64; 2], Moored { arc, backwards }: Moored) -> Vec<[f64; 2]> {
+        let step = self.mean.max((to - from) / MOST);
+        let cells = [from, to].map(|end| ((end - arc) / step).floor());
+        let count = (cells[1] - cells[0]).clamp(0.0, MOST) as usize;
+        let gaps = (0..=count).map(|k| {
+            let cell = cells[0] + k as f64;
+            let own = if backwards { -1.0 - cell } else { cell };
+            let chance = |word: u64| unit(hash(self.seed, &[0, (own as i64).cast_unsigned(), word]));
+            let within = if backwards { 1.0 - place(chance(0)) } else { place(chance(0)) };
+            self.around(arc + (cell + within) * step, step, chance(1))
+        });
+        gaps.filter(|gap| from < gap[0] && gap[1] < to).collect()
+    }
+
+    /// A gap about a place; the next one is so far away on the mean.
+    fn around(&self, middle: f64, step: f64, chance: f64) -> [f64; 2] {
+        let half = (self.gap * (0.6 + 0.8 * chance) / 2.0).min(WIDEST_HALF * step);
+        [middle - half, middle + half]
+    }
+}
+
+/// At which part of its stretch of a line a gap lies.
+fn place(chance: f64) -> f64 {
+    CLEAR + (1.0 - 2.0 * CLEAR) * chance
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BREAKS: Breaks = Breaks { mean: 20.0, gap: 3.0, seed: 7 };
+
+    fn near(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
+        a.len() == b.len() && a.iter().flatten().zip(b.iter().flatten()).all(|(a, b)| (a - b).abs() < 1e-9)
+    }
+
+    #[test]
+    fn gaps_on_the_model_stay_where_they_are() {
+        let moored = |arc: f64| Moored { arc, backwards: false };
+        let all = BREAKS.on_model([0.0, 200.0], moored(-30.0));
+        assert!((9..=10).contains(&all.len()), "{all:?}");
+        // Its first 70 are hidden.
+        let rest = BREAKS.on_model([0.0, 130.0], moored(-100.0));
+        let moved: Vec<_> = rest.iter().map(|gap| gap.map(|arc| arc + 70.0)).collect();
+        assert!(near(&all[all.len() - rest.len()..], &moved), "{all:?} {moved:?}");
+        // From the other end.
+        let turned = BREAKS.on_model([0.0, 200.0], Moored { arc: 230.0, backwards: true });
+        let turned: Vec<_> = turned.iter().rev().map(|[from, to]| [200.0 - to, 200.0 - from]).collect();
+        assert!(near(&all, &turned), "{all:?} {turned:?}");
+    }
+}

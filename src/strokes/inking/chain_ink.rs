@@ -1,0 +1,270 @@
+//! Lines with a hand: from a chain and its pen to the shapes that are painted.
+//!
+//! The axis of the chain is cut where nothing is drawn; each piece runs on at its ends, is given its
+//! widths, and is moved a little; what comes out is a path or the outline of a line of varying width.
+
+use super::frame_cut;
+use super::ink_pieces::{Drawn, parts};
+use super::ink_spans::{Stretch, Tint};
+use super::stroke_shape::Shape;
+use crate::chains::Chain;
+use crate::colour::srgb::Colour;
+use crate::geometry::numbers::noise::{hash, unit};
+use crate::geometry::plane::planar_distance::length;
+use crate::lines::LineKind;
+use crate::strokes::axes::axis_pieces::{AxisPart, End, parted};
+use crate::strokes::axes::stroke_axis::Axis;
+use crate::strokes::brushes::brush;
+use crate::strokes::gaps::gap_origin;
+use crate::strokes::gaps::hand_gaps::Breaks;
+use crate::strokes::outlines::stroke_outline::{Nib, outline};
+use crate::strokes::outlines::tremor::Tremor;
+use crate::strokes::pens::ink_context::InkContext;
+use crate::strokes::pens::pen::Pen;
+use crate::strokes::widths::width_profile::{Setting, mean, meet, taper};
+
+/// Where surfaces are painted, lines that bound them stay over their borders by this, px; and by this on
+/// smooth surfaces, where lines are smoothed more than borders are.
+const OVER_BORDER_PX: f64 = 0.3;
+const OVER_SMOOTH_BORDER_PX: f64 = 0.6;
+
+/// An end runs on by this part of what it may, at least.
+const LEAST_OVERSHOOT: f64 = 0.35;
+
+/// No end runs on by more than this part of its line.
+const MOST_OVERSHOOT: f64 = 0.2;
+
+/// Widths that differ by no more than this part of the pen's are one width.
+const SAME_WIDTH: f64 = 1e-6;
+
+/// Chains of the same kind and part that begin in the same square of this size, px, are drawn by the same
+/// hand, where nothing in the model tells them apart.
+const CELL_PX: f64 = 96.0;
+
+/// Sets the chance of widths apart from all others.
+const WIDTH: u64 = 0x7769_6474;
+
+/// A chain and what it is to be drawn with.
+pub(crate) struct Inked<'a> {
+    pub chain: &'a Chain,
+    pub axis: &'a Axis,
+    pub pen: &'a Pen,
+    /// Its widths, before its ends are tapered.
+    pub thick: &'a [f64],
+    /// The widths of the lines that go on from its ends.
+    pub joined: [Option<f64>; 2],
+    /// Where nearer lines pass over it.
+    pub gaps: &'a [[f64; 2]],
+    /// What tells the parts apart.
+    pub identities: &'a [u64],
+    /// The depths of what counts as near and as far.
+    pub depths: [f64; 2],
+    /// Whether its width may vary: not that of dashed lines.
+    pub solid: bool,
+    /// What it is drawn with, from its start to its end.
+    pub inks: &'a [Stretch],
+}
+
+impl Inked<'_> {
+    /// The shapes of the line and their colours, pass by pass.
+    pub fn shapes(&self, context: &InkContext) -> Vec<(Shape, Colour)> {
+        let (hand, px) = (&self.pen.hand, context.px());
+        let seed = hash(context.seed, &[identity(self.chain, self.identities, context)]);
+        let in_unit = |length: crate::drawing::Length| length.in_unit(context.unit);
+        let lifts = hand.overshoot.value > 0.0;
+        let leaving = frame_cut::leaving(self.chain, self.axis, context.frame, px);
+        let leaving = [0, 1].map(|side| leaving[side].filter(|_| self.joined[side].is_none()));
+        let past = frame_cut::past(leaving, self.axis.length(), self.pen, context.unit);
+        let ends = [0, 1].map(|side| End {
+            tapers: self.joined[side].is_none(),
+            runs_on: self.joined[side].is_none() && !self.chain.covered[side],
+            past: past[side],
+        });
+        let setting = setting(self.chain, self.pen, self.depths, self.identities, context);
+        let mut axis = self.axis.clone();
+        let mut thick = self.thick.to_vec();
+        if self.pen.swell.is_on() && !axis.closed {
+            meet(&axis, &mut thick, self.joined, px);
+        }
+        // The widths travel in place of the strengths, which they have used up.
+        axis.samples.iter_mut().zip(&thick).for_each(|(sample, width)| sample.strength = *width);
+        let breaks = Breaks { mean: in_unit(hand.breaks), gap: in_unit(hand.break_gap), seed };
+        let moored = gap_origin::of(self.chain, self.axis.length());
+        let pieces: Vec<AxisPart> = parted(&axis, self.gaps, lifts, ends, px)
+            .into_iter()
+            .enumerate()
+            .flat_map(|(k, piece)| breaks.leave(piece, k, moored, px))
+            .collect();
+        let mut shapes = Vec::new();
+        for pass in 0..u64::from(hand.passes.max(1)) {
+            let pass_seed = hash(seed, &[1, pass]);
+            let mut pins = axis.corner_arcs();
+            if !axis.closed {
+                pins.extend([0.0, axis.length()]);
+            }
+            let tremor = Tremor {
+                amplitude: in_unit(hand.tremor),
+                wave: in_unit(hand.tremor_length),
+                stray: if pass > 0 { in_unit(hand.stray) } else { 0.0 },
+                seed: pass_seed,
+                pins,
+                round: axis.closed.then(|| axis.length()),
+                solid: hash(context.seed, &[part(self.chain, self.identities), pass]),
+            };
+            for (k, piece) in pieces.iter().enumerate() {
+                let mut piece = piece.clone();
+                let long = piece.axis.length();
+                for side in 0..2 {
+                    if piece.ends[side].past > 0.0 {
+                        piece.axis.extend(side, piece.ends[side].past, px);
+                    } else if piece.ends[side].runs_on && !piece.axis.closed {
+                        let chance = unit(hash(pass_seed, &[2, k as u64, side as u64]));
+                        let part = LEAST_OVERSHOOT + (1.0 - LEAST_OVERSHOOT) * chance;
+                        let most = in_unit(hand.overshoot).min(MOST_OVERSHOOT * long);
+                        piece.axis.extend(side, most * part, px);
+                    }
+                }
+                shapes.extend(self.shapes_of(piece, &tremor, pass, &setting, context));
+            }
+        }
+        shapes
+    }
+
+    fn shapes_of(
+        &self,
+        piece: AxisPart,
+        tremor: &Tremor,
+        pass: u64,
+        setting: &Setting,
+        context: &InkContext,
+    ) -> Vec<(Shape, Colour)> {
+        let swell = &self.pen.swell;
+        let AxisPart { axis, ends } = piece;
+        let mut axis = axis.subdivided();
+        let mut thick: Vec<f64> = axis.samples.iter().map(|sample| sample.strength).collect();
+        if !axis.closed && swell.taper.value > 0.0 {
+            let over = swell.taper.in_unit(context.unit);
+            let ends = ends.map(|end| end.tapers);
+            taper(&axis, &mut thick, ends, over, swell.taper_to, setting.least());
+        }
+        let limits: Vec<f64> = match setting.covers {
+            Some(to_side) if pass == 0 => {
+                let own = |width: &f64| (width / 2.0 - to_side).max(0.0);
+                if self.solid {
+                    thick.iter().map(own).collect()
+                } else {
+                    vec![own(&setting.width); thick.len()]
+                }
+            }
+            _ => vec![f64::INFINITY; thick.len()],
+        };
+        let before = axis.points.clone();
+        tremor.shake(&mut axis, &limits);
+        // A brush has to reach back to the border of the paint from wherever its axis has moved.
+        let covers = setting.covers.filter(|_| pass == 0 && self.pen.brush.is_some());
+        let moved = before.iter().zip(&axis.points).map(|(from, to)| length(*to - *from));
+        let reach: Vec<f64> = moved.map(|way| covers.map_or(0.0, |to_side| to_side + way)).collect();
+        let drawn = Drawn { axis, thick, reach, caps: [self.pen.cap; 2] };
+        let frame = context.frame.filter(|_| ends.iter().any(|end| end.past > 0.0));
+        let cut = |shape: Shape| match frame {
+            Some(frame) => frame_cut::cut(shape, frame, context.px()),
+            None => Some(shape),
+        };
+        if let [Stretch { tint, .. }] = self.inks {
+            let shape = self.shape(&drawn.times(tint.width), tint.colour, setting, context).and_then(cut);
+            return shape.map(|shape| (shape, tint.colour)).into_iter().collect();
+        }
+        let round = self.chain.closed.then(|| self.axis.length());
+        let parts = parts(&drawn, self.inks, round);
+        let shape = |(part, tint): &(Drawn, Tint)| {
+            Some((self.shape(part, tint.colour, setting, context).and_then(cut)?, tint.colour))
+        };
+        parts.iter().filter_map(shape).collect()
+    }
+
+    /// The shape of a piece of one ink.
+    fn shape(&self, drawn: &Drawn, colour: Colour, setting: &Setting, context: &InkContext) -> Option<Shape> {
+        let (Drawn { axis, thick, reach, caps }, px) = (drawn, context.px());
+        let path = axis.path(px);
+        if path.elements().len() < 2 {
+            return None;
+        }
+        let nib = Nib { caps: *caps, join: self.pen.join, px };
+        if let (true, Some(brush)) = (self.solid, &self.pen.brush) {
+            let brushed = brush::drawn(brush, axis, thick, reach, &nib, (context.unit, colour))?;
+            return Some(match brushed.image {
+                Some((strip, pixels, pieces)) => Shape::Image { path: brushed.path, strip, pixels, pieces },
+                None => Shape::Outline { path: brushed.path, axis: path, width: brushed.width },
+            });
+        }
+        let (low, high) = thick.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), w| (l.min(*w), h.max(*w)));
+        let varies = high - low > SAME_WIDTH * setting.width
+            || (high - setting.width).abs() > SAME_WIDTH * setting.width;
+        // A path has the same caps at both ends.
+        let is_cut = *caps != [self.pen.cap; 2];
+        if !(self.solid && (varies || is_cut)) {
+            return Some(Shape::Path(path, axis.closed));
+        }
+        let halves: Vec<f64> = thick.iter().map(|width| width / 2.0).collect();
+        let width = mean(axis, thick);
+        outline(axis, [&halves, &halves], &nib).map(|outline| Shape::Outline {
+            path: outline,
+            axis: path,
+            width,
+        })
+    }
+}
+
+/// What tells the part of a chain from others.
+fn part(chain: &Chain, identities: &[u64]) -> u64 {
+    identities.get(chain.part.index()).copied().unwrap_or_default()
+}
+
+/// A number that tells the chain from others and lasts while the eye moves: from edges of the mesh where it runs along them,
+/// elsewhere from about where it begins. `identities` tell parts apart.
+fn identity(chain: &Chain, identities: &[u64], context: &InkContext) -> u64 {
+    if chain.identity != 0 {
+        return chain.identity;
+    }
+    let known = context.names.get(chain.segment as usize).copied().unwrap_or(0);
+    let begins = || {
+        let cell = |x: f64| ((x / (CELL_PX * context.px())).floor() as i64).cast_unsigned();
+        let p = chain.points.first().copied().unwrap_or_default();
+        hash(1, &[cell(p.x), cell(p.y)])
+    };
+    let place = if known == 0 { begins() } else { known };
+    hash(place, &[chain.kind as u64, part(chain, identities)])
+}
+
+/// What the widths of a chain follow.
+pub(crate) fn setting(
+    chain: &Chain,
+    pen: &Pen,
+    depths: [f64; 2],
+    identities: &[u64],
+    context: &InkContext,
+) -> Setting {
+    let chance = if pen.swell.chance > 0.0 {
+        1.0 - pen.swell.chance * unit(hash(context.seed, &[identity(chain, identities, context), WIDTH]))
+    } else {
+        1.0
+    };
+    let covers = context.painted && chain.invisibility == 0 && bounds(chain.kind);
+    let to_side = if chain.smooth { OVER_SMOOTH_BORDER_PX } else { OVER_BORDER_PX };
+    Setting {
+        width: pen.width.in_unit(context.unit),
+        fade: pen.fade,
+        swell: pen.swell,
+        px: context.px(),
+        depths,
+        bend_radius: pen.swell.bend_radius.in_unit(context.unit),
+        chance,
+        covers: covers.then_some(context.px() * to_side),
+    }
+}
+
+/// Whether painted surfaces may end at lines of a kind.
+fn bounds(kind: LineKind) -> bool {
+    use LineKind::{Border, Contour, Crease, Intersection, Isophote, Material};
+    matches!(kind, Contour | Border | Crease | Material | Intersection | Isophote)
+}

@@ -1,0 +1,146 @@
+//! The inks of a line: where it changes its colour along its way, because the material beside it does or
+//! because it parts two blacks.
+//!
+//! Ink on black is not seen. As comics have it, a line between two spot blacks is left white.
+
+use crate::chains::Chain;
+use crate::colour::srgb::Colour;
+use crate::lines::LineKind;
+use crate::strokes::axes::stroke_axis::Axis;
+use crate::strokes::pens::ink_context::InkContext;
+use crate::strokes::pens::pen::{Ink, Pen};
+
+/// Stretches shorter than this take the ink of the longer stretch beside them, px.
+const LEAST_PX: f64 = 5.0;
+
+/// Blacks on both sides of a white line show if they are at least this wide, px.
+const SHOWS_PX: f64 = 1.0;
+
+/// What a stretch of a line is drawn with.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Tint {
+    pub colour: Colour,
+    /// The part of the pen's width that it has.
+    pub width: f64,
+}
+
+/// A stretch of an axis, as arc lengths, and its tint.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Stretch {
+    pub from: f64,
+    pub to: f64,
+    pub tint: Tint,
+}
+
+/// The stretches of a chain, from its start to its end; neighbours differ. Lines without points have one.
+pub(crate) fn stretches(axis: &Axis, chain: &Chain, pen: &Pen, context: &InkContext) -> Vec<Stretch> {
+    let tint = |i: usize| tint(axis, i, chain, pen, context);
+    let mut stretches: Vec<Stretch> = Vec::new();
+    for i in 0..axis.len() {
+        let tint = tint(i);
+        // Each point stands for what is nearer to it than to others.
+        let border = |k: usize| f64::midpoint(axis.arcs[k], axis.arcs[k.saturating_sub(1)]);
+        match stretches.last_mut() {
+            Some(last) if last.tint == tint => {}
+            Some(last) => {
+                last.to = border(i);
+                stretches.push(Stretch { from: border(i), to: border(i), tint });
+            }
+            None => stretches.push(Stretch { from: axis.arcs[0], to: axis.arcs[0], tint }),
+        }
+    }
+    match (stretches.last_mut(), axis.arcs.last()) {
+        (Some(last), Some(end)) => last.to = *end,
+        _ => {
+            let tint = Tint { colour: plain(chain, pen, None, context), width: 1.0 };
+            return vec![Stretch { from: 0.0, to: 0.0, tint }];
+        }
+    }
+    settled(stretches, LEAST_PX * context.px())
+}
+
+/// Stretches without those that are too short to be seen as such.
+fn settled(mut stretches: Vec<Stretch>, least: f64) -> Vec<Stretch> {
+    let long = |stretch: &Stretch| stretch.to - stretch.from;
+    while stretches.len() > 1 {
+        let by_length = |a: &usize, b: &usize| long(&stretches[*a]).total_cmp(&long(&stretches[*b]));
+        let Some(short) = (0..stretches.len()).min_by(by_length).filter(|k| long(&stretches[*k]) < least)
+        else {
+            break;
+        };
+        let before = short.checked_sub(1);
+        let after = (short + 1 < stretches.len()).then_some(short + 1);
+        let beside = [before, after].into_iter().flatten().max_by(by_length);
+        stretches[short].tint = beside.map_or(stretches[short].tint, |k| stretches[k].tint);
+        stretches = stretches.into_iter().fold(Vec::new(), |mut kept: Vec<Stretch>, next| {
+            match kept.last_mut() {
+                Some(last) if last.tint == next.tint => last.to = next.to,
+                _ => kept.push(next),
+            }
+            kept
+        });
+    }
+    stretches
+}
+
+/// The tint at a point of an axis.
+fn tint(axis: &Axis, i: usize, chain: &Chain, pen: &Pen, context: &InkContext) -> Tint {
+    let under = axis.samples[i].under;
+    if let Some(parting) = context.parting.filter(|_| chain.invisibility == 0 && parts(chain.kind)) {
+        let half = parting.width * pen.width.in_unit(context.unit) / 2.0;
+        if half > 0.0 && under.black >= half + half.max(SHOWS_PX * context.px()) {
+            let mut colour = parting.colour;
+            colour.a = (f64::from(colour.a) * pen.opacity).round() as u8;
+            return Tint { colour, width: parting.width };
+        }
+    }
+    Tint { colour: plain(chain, pen, under.colour, context), width: 1.0 }
+}
+
+/// The colour of a pen on a line, beside a material of this colour.
+pub(crate) fn plain(chain: &Chain, pen: &Pen, beside: Option<Colour>, context: &InkContext) -> Colour {
+    let mut colour = match pen.colour {
+        Ink::Fixed(colour) => colour,
+        Ink::Shade(shade) => {
+            let base = beside.or_else(|| material_colour(chain, context));
+            base.map_or(Colour::BLACK, |base| base.darker(shade))
+        }
+    };
+    colour.a = (f64::from(colour.a) * pen.opacity).round() as u8;
+    colour
+}
+
+/// The colour of a chain's material.
+fn material_colour(chain: &Chain, context: &InkContext) -> Option<Colour> {
+    context.materials.get(chain.material.index()).map(|(_, base)| *base)
+}
+
+/// Whether lines of a kind are between surfaces, not on one.
+fn parts(kind: LineKind) -> bool {
+    use LineKind::{Border, Contour, Crease, Intersection, Material};
+    matches!(kind, Contour | Border | Crease | Material | Intersection)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn list(of: &[(f64, u8)]) -> Vec<Stretch> {
+        let mut from = 0.0;
+        let stretch = |(to, grey): &(f64, u8)| {
+            let tint = Tint { colour: Colour::rgb(*grey, *grey, *grey), width: 1.0 };
+            let stretch = Stretch { from, to: *to, tint };
+            from = *to;
+            stretch
+        };
+        of.iter().map(stretch).collect()
+    }
+
+    #[test]
+    fn short_stretches_go_to_the_longer_one_beside() {
+        assert_eq!(settled(list(&[(10.0, 1), (12.0, 2), (40.0, 3)]), 5.0), list(&[(10.0, 1), (40.0, 3)]));
+        assert_eq!(settled(list(&[(10.0, 1), (12.0, 2), (40.0, 1)]), 5.0), list(&[(40.0, 1)]));
+        assert_eq!(settled(list(&[(2.0, 1), (3.0, 2)]), 5.0), list(&[(3.0, 1)]));
+        assert_eq!(settled(list(&[(6.0, 1), (12.0, 2)]), 5.0), list(&[(6.0, 1), (12.0, 2)]));
+    }
+}

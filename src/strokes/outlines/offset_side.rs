@@ -1,0 +1,310 @@
+//! The two sides of a line of varying width: its axis moved to the left and to the right.
+//!
+//! On the inside of a bend or corner, points that would lie in the ink of the line's neighbouring points are
+//! left out, so that a side does not turn back on itself; what remains meets where the sides cross. On
+//! the outside of a corner the sides are joined as the pen says.
+
+use kurbo::{BezPath, Point, Vec2};
+
+use crate::chains::fit::bezier_fit::{fit, unit};
+use crate::drawing::Join;
+use crate::geometry::numbers::portable_math::{atan2, cos, sin};
+use crate::strokes::axes::stroke_axis::{Axis, add_stretch};
+
+/// Directions and bends are taken over this many points on either side.
+pub(crate) const REACH: isize = 2;
+
+/// A point of a side lies in the ink if it is nearer to the axis than this part of its own distance.
+const IN_INK: f64 = 0.985;
+
+/// How far along the axis ink is looked for, half widths.
+const WINDOW: f64 = 7.0;
+
+/// Where a side crosses itself is looked for among so many points before and after those in the ink.
+const BEYOND: usize = 5;
+
+/// Points of a side nearer to a crossing than this part of their spacing crowd.
+const CROWD: f64 = 0.6;
+
+/// No more good points than this between bad ones are good by chance.
+const CHANCE: usize = 2;
+
+/// So many points before and after those in the ink go where they are a spike.
+const SPIKE: usize = 2;
+
+/// A joint that would point out farther than this, half widths, is cut off, as in SVG.
+const MITER_LIMIT: f64 = 4.0;
+
+/// Points of a round joint are this far apart, radians.
+const ROUND_STEP: f64 = 0.35;
+
+/// A point of a side.
+#[derive(Debug, Clone, Copy)]
+struct SidePoint {
+    at: Point,
+    /// The point of the axis that it belongs to.
+    of: usize,
+    /// Whether the side has a corner here.
+    corner: bool,
+    /// Whether it must go, wherever it lies: the ends of both sides within a corner.
+    dropped: bool,
+}
+
+/// One side of a line, cleaned of what lies in the ink.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Side {
+    pub points: Vec<Point>,
+    corners: Vec<bool>,
+}
+
+impl Side {
+    /// The left (`sign` 1) or right (-1) side of an axis, `halves` away from it.
+    pub fn new(axis: &Axis, halves: &[f64], sign: f64, join: Join) -> Self {
+        let raw = raw(axis, halves, sign, join);
+        let bad: Vec<bool> = raw.iter().map(|p| p.dropped || in_ink(axis, halves, p)).collect();
+        let near = CROWD * axis.length() / (axis.len().max(2) - 1) as f64;
+        let side = cleaned(&raw, &bad, axis.closed, near);
+        if side.points.len() > 1 { side } else { cleaned(&raw, &vec![false; raw.len()], axis.closed, near) }
+    }
+
+    /// The side run through from its other end.
+    pub fn reversed(mut self) -> Self {
+        self.points.reverse();
+        self.corners.reverse();
+        self
+    }
+
+    /// Adds the side to a path that stands at its first point.
+    pub fn add_to(&self, tolerance: f64, path: &mut BezPath) {
+        let last = self.points.len().saturating_sub(1);
+        let mut from = 0;
+        for to in 1..=last {
+            if to == last || self.corners[to] {
+                add_stretch(&self.points[from..=to], tolerance, path);
+                from = to;
+            }
+        }
+    }
+
+    /// Adds a closed side to a path, as a loop of its own.
+    pub fn add_loop_to(mut self, tolerance: f64, path: &mut BezPath) {
+        let n = self.points.len();
+        if n < 3 {
+            return;
+        }
+        if let Some(corner) = self.corners.iter().position(|c| *c) {
+            self.points.rotate_left(corner);
+            self.corners.rotate_left(corner);
+            self.points.push(self.points[0]);
+            self.corners.push(true);
+            path.move_to(self.points[0]);
+            self.add_to(tolerance, path);
+        } else {
+            let seam = unit(self.points[1] - self.points[n - 1]);
+            self.points.push(self.points[0]);
+            path.move_to(self.points[0]);
+            fit(&self.points, seam, seam, tolerance, path);
+        }
+        path.close_path();
+    }
+}
+
+/// All points of a side, with the joints of its corners; those of a closed axis once round.
+fn raw(axis: &Axis, halves: &[f64], sign: f64, join: Join) -> Vec<SidePoint> {
+    let n = axis.len();
+    let count = if axis.closed { n - 1 } else { n };
+    let mut points = Vec::with_capacity(count + 8 * axis.corners.len());
+    let normal = |along: Vec2| Vec2::new(along.y, -along.x) * sign;
+    for (i, (p, half)) in axis.points.iter().copied().zip(halves.iter().copied()).enumerate().take(count) {
+        let plain = |at: Point| SidePoint { at, of: i, corner: false, dropped: false };
+        if axis.corners.binary_search(&i).is_ok() {
+            let [comes, leaves] = axis.at_corner(i);
+            let (from, to) = (normal(comes), normal(leaves));
+            let outer = comes.cross(leaves) * sign > 0.0;
+            if outer {
+                let corner = join != Join::Round;
+                points.extend(joint(p, from, to, half, join).map(|at| SidePoint { corner, ..plain(at) }));
+            } else {
+                let ends = [p + from * half, p + to * half];
+                points.extend(ends.map(|at| SidePoint { dropped: true, ..plain(at) }));
+            }
+            continue;
+        }
+        let along = if !axis.closed && (i == 0 || i + 1 == n) {
+            let out = axis.end_tangent(usize::from(i > 0));
+            if i == 0 { out } else { -out }
+        } else {
+            axis.direction(i, REACH)
+        };
+        points.push(plain(p + normal(along) * half));
+    }
+    points
+}
+
+/// The points of a side at the outside of a corner.
+fn joint(p: Point, from: Vec2, to: Vec2, half: f64, join: Join) -> impl Iterator<Item = Point> {
+    let middle = unit(from + to);
+    let cosine = middle.dot(from);
+    let points: Vec<Point> = match join {
+        Join::Miter if cosine * MITER_LIMIT > 1.0 => vec![p + middle * (half / cosine)],
+        Join::Miter | Join::Bevel => vec![p + from * half, p + to * half],
+        Join::Round => {
+            let turn = atan2(from.cross(to), from.dot(to));
+            let count = (turn.abs() / ROUND_STEP).ceil().max(1.0) as usize;
+            let at = |k: usize| {
+                let angle = turn * k as f64 / count as f64;
+                let (s, c) = (sin(angle), cos(angle));
+                p + Vec2::new(from.x * c - from.y * s, from.x * s + from.y * c) * half
+            };
+            (0..=count).map(at).collect()
+        }
+    };
+    points.into_iter()
+}
+
+/// Whether a point of a side lies in the ink of points of the axis near its own.
+fn in_ink(axis: &Axis, halves: &[f64], point: &SidePoint) -> bool {
+    let n = axis.len();
+    let (own, half) = (axis.arcs[point.of], halves[point.of]);
+    if half <= 0.0 {
+        return false;
+    }
+    let (window, total) = (WINDOW * half, axis.length());
+    let ring = if axis.closed { n - 1 } else { n };
+    let covers = |j: usize| {
+        let reach = half.min(halves[j]) * IN_INK;
+        (axis.points[j] - point.at).hypot2() < reach * reach
+    };
+    let away = |j: usize| {
+        let way = (axis.arcs[j] - own).abs();
+        if axis.closed { way.min(total - way) } else { way }
+    };
+    for sign in [-1_isize, 1] {
+        for k in 1..ring as isize {
+            let j = point.of as isize + sign * k;
+            let j = if axis.closed { j.rem_euclid(ring as isize) } else { j };
+            let Ok(j) = usize::try_from(j) else { break };
+            if j >= ring || away(j) > window || (axis.closed && 2 * k > ring as isize) {
+                break;
+            }
+            if covers(j) {
+                return true;
+            }
+        }
+    }
+    false
+}
+
+/// The points that are not bad, and where the side crosses itself instead of those that are.
+/// Points nearer than `near` to such a crossing go as well: they would bend the curves that end there.
+fn cleaned(raw: &[SidePoint], bad: &[bool], closed: bool, near: f64) -> Side {
+    let n = raw.len();
+    let mut keep: Vec<bool> = bad.iter().map(|bad| !bad).collect();
+    if !closed && n > 0 {
+        // The caps begin here.
+        keep[0] = true;
+        keep[n - 1] = true;
+    }
+    // A few good points between bad ones are by chance.
+    for i in 1..n {
+        let run = if bad[i - 1] { keep[i..].iter().take_while(|keep| **keep).count() } else { 0 };
+        if (1..=CHANCE).contains(&run) && i + run < n {
+            keep[i..i + run].fill(false);
+        }
+    }
+    let Some(first) = keep.iter().position(|keep| *keep) else { return Side::default() };
+    // What comes after a point instead of the bad ones: a corner, perhaps at a crossing.
+    let mut after: Vec<Option<Option<Point>>> = vec![None; n];
+    let mut before = first;
+    for step in 1..=n {
+        let i = (first + step) % n;
+        if !keep[i] || (i == before && step < n) || (!closed && step + first >= n) {
+            continue;
+        }
+        if (before + 1) % n != i {
+            let (back, ahead, at) = crossing_near(raw, before, i, closed);
+            for k in 0..back {
+                keep[(before + n - k) % n] = false;
+            }
+            for k in 0..ahead {
+                keep[(i + k) % n] = false;
+            }
+            let (from, to) = ((before + n - back) % n, (i + ahead) % n);
+            after[from] = Some(at);
+            if let Some(at) = at {
+                // Its neighbours would bend the curves that end at the crossing.
+                for k in [from, to] {
+                    keep[k] &=
+                        (raw[k].at - at).hypot2() >= near * near || (!closed && (k == 0 || k + 1 == n));
+                }
+            }
+            before = to;
+        } else {
+            before = i;
+        }
+    }
+    let mut side = Side::default();
+    let mut push = |at: Point, corner: bool| {
+        if side.points.last() == Some(&at) {
+            if let Some(last) = side.corners.last_mut() {
+                *last |= corner;
+            }
+        } else {
+            side.points.push(at);
+            side.corners.push(corner);
+        }
+    };
+    let mut cut = false;
+    for i in 0..n {
+        if keep[i] {
+            push(raw[i].at, raw[i].corner || cut || after[i] == Some(None));
+            cut = after[i] == Some(None);
+        }
+        if let Some(Some(at)) = after[i] {
+            push(at, true);
+        }
+    }
+    if closed && side.points.len() > 1 && side.points.first() == side.points.last() {
+        side.points.pop();
+        side.corners[0] |= side.corners.pop().unwrap_or_default();
+    }
+    side
+}
+
+/// Where the side crosses itself first near a gap between two points: how many points before and after the gap
+/// lie beyond the crossing as well, and where it is. None if it does not.
+fn crossing_near(
+    raw: &[SidePoint],
+    before: usize,
+    next: usize,
+    closed: bool,
+) -> (usize, usize, Option<Point>) {
+    let n = raw.len();
+    let inside = |back: usize, ahead: usize| closed || (back <= before && next + ahead < n);
+    for beyond in (0..=2 * BEYOND).rev() {
+        for back in 0..=beyond.min(BEYOND) {
+            let ahead = beyond - back;
+            if ahead > BEYOND || 2 * (back + ahead) + 4 > n || !inside(back, ahead) {
+                continue;
+            }
+            let a = (before + n - back) % n;
+            let d = (next + ahead) % n;
+            let (b, c) = ((a + 1) % n, (d + n - 1) % n);
+            if let Some(at) = crossing(raw[a].at, raw[b].at, raw[c].at, raw[d].at) {
+                return (back, ahead, Some(at));
+            }
+        }
+    }
+    // A spike without width: its tip goes.
+    let ends = !closed && (before < SPIKE || next + SPIKE >= n);
+    if ends || 4 * SPIKE + 4 > n { (0, 0, None) } else { (SPIKE, SPIKE, None) }
+}
+
+/// Where two segments cross.
+fn crossing(a: Point, b: Point, c: Point, d: Point) -> Option<Point> {
+    let (u, v, w) = (b - a, d - c, c - a);
+    let across = u.cross(v);
+    let t = w.cross(v) / across;
+    let s = w.cross(u) / across;
+    ((0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&s)).then(|| a + u * t)
+}

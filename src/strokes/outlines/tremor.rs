@@ -1,0 +1,128 @@
+//! Moves the points of an axis as an unsteady hand would: waves of chance along its arc length.
+
+use kurbo::Vec2;
+
+use crate::chains::Anchor;
+use crate::geometry::numbers::noise::{hash, smooth, solid};
+use crate::geometry::numbers::portable_math::{ln, pow};
+use crate::strokes::axes::stroke_axis::Axis;
+
+/// Ends and corners stay, and the line is whole in its motion this part of a wave away from them.
+const PINNED: f64 = 0.4;
+
+/// The finer of two waves: its length and its share, so that the motion is not even.
+const FINE: [f64; 2] = [0.43, 0.3];
+
+/// Further passes drift in waves so many times longer.
+const DRIFT: f64 = 2.5;
+
+/// The motion of one pass over a chain.
+#[derive(Debug, Clone)]
+pub(crate) struct Tremor {
+    /// Greatest way to either side.
+    pub amplitude: f64,
+    /// Length of the waves.
+    pub wave: f64,
+    /// Greatest way in any direction by which all of the pass may be off.
+    pub stray: f64,
+    pub seed: u64,
+    /// Arc lengths of what stays: ends and corners of the chain.
+    pub pins: Vec<f64>,
+    /// Length of a closed chain.
+    pub round: Option<f64>,
+    /// The seed where lines know their place on the model: there the waves run over its surface and not along the line, so that
+    /// they stay while it moves, however much of the line is seen.
+    pub solid: u64,
+}
+
+impl Tremor {
+    /// Moves the points, each less far than its limit.
+    pub fn shake(&self, axis: &mut Axis, limits: &[f64]) {
+        if self.amplitude <= 0.0 && self.stray <= 0.0 {
+            return;
+        }
+        let n = axis.len();
+        let moved = (0..n).map(|i| {
+            let arc = axis.arcs[i];
+            let along = axis.direction(i, super::offset_side::REACH);
+            let at =
+                Place { arc, anchor: axis.samples.get(i).map(|sample| sample.anchor).unwrap_or_default() };
+            let across = Vec2::new(along.y, -along.x) * (self.amplitude * self.pin(arc) * self.tremor(at));
+            let drift = if self.stray > 0.0 {
+                let [x, y] = [2, 3].map(|word| self.noise(word, at, self.wave * DRIFT));
+                Vec2::new(x, y) * (self.stray * std::f64::consts::FRAC_1_SQRT_2)
+            } else {
+                Vec2::ZERO
+            };
+            let way = across + drift;
+            let far = way.hypot2().sqrt();
+            axis.points[i] + way * within(far, limits[i])
+        });
+        axis.points = moved.collect();
+    }
+
+    /// The finer and the longer wave together, -1 to 1.
+    fn tremor(&self, at: Place) -> f64 {
+        let [length, share] = FINE;
+        (1.0 - share) * self.noise(0, at, self.wave) + share * self.noise(1, at, self.wave * length)
+    }
+
+    /// 0 at a pin, 1 away from all.
+    fn pin(&self, arc: f64) -> f64 {
+        let away = |pin: &f64| {
+            let way = (arc - pin).abs();
+            self.round.map_or(way, |round| way.rem_euclid(round).min(round - way.rem_euclid(round)))
+        };
+        let t = self.pins.iter().map(away).fold(f64::INFINITY, f64::min) / (PINNED * self.wave);
+        let t = t.clamp(0.0, 1.0);
+        t * t * (3.0 - 2.0 * t)
+    }
+
+    /// Noise along the chain; in a closed one it comes back to where it began.
+    fn noise(&self, word: u64, Place { arc, anchor }: Place, wave: f64) -> f64 {
+        if wave <= 0.0 {
+            return 0.0;
+        }
+        if anchor.is_known() {
+            return on_surface(hash(self.solid, &[word]), anchor, wave);
+        }
+        let seed = hash(self.seed, &[word]);
+        let Some(round) = self.round else { return smooth(seed, arc / wave) };
+        let arc = arc.rem_euclid(round);
+        // Over its last wave it turns into what comes before its beginning.
+        let t = ((arc - round) / wave.min(round) + 1.0).clamp(0.0, 1.0);
+        let share = t * t * (3.0 - 2.0 * t);
+        let before = |arc: f64| smooth(seed, arc / wave);
+        before(arc) * (1.0 - share) + before(arc - round) * share
+    }
+}
+
+/// Where a point of an axis is: along it, and on the model.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    arc: f64,
+    anchor: Anchor,
+}
+
+/// Noise on the surface of the model, in waves about so long on the page. Waves have lengths that are powers of two on the
+/// model, and as it comes nearer one turns into the next.
+fn on_surface(seed: u64, anchor: Anchor, wave: f64) -> f64 {
+    let exponent = ln(f64::from(anchor.scale) / wave) / std::f64::consts::LN_2;
+    if !exponent.is_finite() {
+        return 0.0;
+    }
+    let (coarse, t) = (exponent.floor(), exponent - exponent.floor());
+    let at = |octave: f64| {
+        let waves = pow(2.0, octave);
+        solid(hash(seed, &[(octave as i64).cast_unsigned()]), anchor.place.map(|x| f64::from(x) * waves))
+    };
+    (1.0 - t) * at(coarse) + t * at(coarse + 1.0)
+}
+
+/// The part of a way that keeps it within a limit, without a kink.
+fn within(way: f64, limit: f64) -> f64 {
+    if limit.is_infinite() {
+        return 1.0;
+    }
+    limit / (limit * limit + way * way).sqrt().max(f64::MIN_POSITIVE)
+}

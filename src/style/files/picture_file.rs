@@ -1,0 +1,41 @@
+//! Reads the pictures that a style names by a path.
+
+use std::fmt;
+use std::path::Path;
+
+use crate::colour::pixel_picture::Picture;
+use crate::error::Error;
+
+/// Bytes of a picture that are read.
+const GREATEST_FILE: u64 = 1 << 26;
+
+/// Reads a picture; `of` says what it is a picture of, `remedy` what else to give.
+pub(crate) fn read_picture(path: &Path, of: &str, remedy: &str) -> Result<Picture, Error> {
+    let unread = |error: std::io::Error| {
+        Error::io(format!("cannot read the picture {of}"), error).in_file(path).remedy("check the path")
+    };
+    let unfit = |message: &dyn fmt::Display| {
+        Error::new(format!("the picture {of} {message}")).in_file(path).remedy(remedy)
+    };
+    if std::fs::metadata(path).map_err(unread)?.len() > GREATEST_FILE {
+        return Err(unfit(&"is too large"));
+    }
+    let bytes = std::fs::read(path).map_err(unread)?;
+    Picture::decode(&bytes).map_err(|message| unfit(&message))
+}
+
+/// Makes the path at a key of a table relative to what the sheet's own path is relative to.
+pub(crate) fn place(table: &mut toml::Table, key: &str, folder: &Path) {
+    if let Some(toml::Value::String(path)) = table.get_mut(key)
+        && !path.is_empty()
+    {
+        *path = folder.join(&*path).to_string_lossy().into_owned();
+    }
+}
+
+/// Makes the path of the paper's picture in a sheet relative to what the sheet's own path is relative to.
+pub(crate) fn place_paper(sheet: &mut toml::Table, folder: &Path) {
+    if let Some(toml::Value::Table(page)) = sheet.get_mut("page") {
+        place(page, "paper", folder);
+    }
+}

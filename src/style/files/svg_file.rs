@@ -1,0 +1,94 @@
+//! Reads SVG files of a style: what brushes and tiles are made of.
+
+use kurbo::BezPath;
+
+use crate::hatching::Filling;
+
+/// The paths of an SVG file.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct SvgPaths {
+    /// Width and height of the picture.
+    pub size: [f64; 2],
+    /// All paths as they run, painted or not.
+    pub paths: Vec<BezPath>,
+    /// What is painted in dark colours: fillings, and strokes as their outlines.
+    pub painted: Vec<(BezPath, Filling)>,
+}
+
+/// Reads an SVG file.
+#[cfg(not(feature = "png"))]
+pub(crate) fn read(_: &[u8]) -> Result<SvgPaths, String> {
+    Err("is SVG, which this program was built without (feature `png`)".to_owned())
+}
+
+/// Reads an SVG file.
+#[cfg(feature = "png")]
+pub(crate) fn read(bytes: &[u8]) -> Result<SvgPaths, String> {
+    let tree =
+        usvg::Tree::from_data(bytes, &usvg::Options::default()).map_err(|e| format!("is not SVG ({e})"))?;
+    let size = [tree.size().width(), tree.size().height()].map(f64::from);
+    let mut found = SvgPaths { size, ..SvgPaths::default() };
+    gather(tree.root(), &mut found);
+    Ok(found)
+}
+
+#[cfg(feature = "png")]
+fn gather(group: &usvg::Group, found: &mut SvgPaths) {
+    for node in group.children() {
+        match node {
+            usvg::Node::Group(inner) => gather(inner, found),
+            usvg::Node::Path(path) => {
+                let placed = |own: usvg::tiny_skia_path::Path| own.transform(path.abs_transform());
+                let whole = placed(path.data().clone()).map(|own| curves(&own)).unwrap_or_default();
+                if let Some(fill) = path.fill().filter(|fill| path.is_visible() && is_dark(fill.paint())) {
+                    let filling = match fill.rule() {
+                        usvg::FillRule::NonZero => Filling::NonZero,
+                        usvg::FillRule::EvenOdd => Filling::EvenOdd,
+                    };
+                    found.painted.push((whole.clone(), filling));
+                }
+                if let Some(stroke) =
+                    path.stroke().filter(|stroke| path.is_visible() && is_dark(stroke.paint()))
+                {
+                    let stroke = stroke.to_tiny_skia();
+                    let dashed = stroke.dash.as_ref().and_then(|dash| path.data().clone().dash(dash, FINE));
+                    let outline = dashed.as_ref().unwrap_or(path.data()).stroke(&stroke, FINE);
+                    let outline = outline.and_then(placed).map(|own| curves(&own)).unwrap_or_default();
+                    found.painted.push((outline, Filling::NonZero));
+                }
+                found.paths.push(whole);
+            }
+            usvg::Node::Image(_) | usvg::Node::Text(_) => {}
+        }
+    }
+}
+
+/// Outlines of strokes are as fine as for a picture this many times as large.
+#[cfg(feature = "png")]
+const FINE: f32 = 8.0;
+
+/// Whether paint is ink rather than paper.
+#[cfg(feature = "png")]
+fn is_dark(paint: &usvg::Paint) -> bool {
+    match paint {
+        usvg::Paint::Color(c) => u32::from(c.red) + u32::from(c.green) + u32::from(c.blue) < 3 * 128,
+        _ => true,
+    }
+}
+
+#[cfg(feature = "png")]
+fn curves(path: &usvg::tiny_skia_path::Path) -> BezPath {
+    use usvg::tiny_skia_path::PathSegment::{Close, CubicTo, LineTo, MoveTo, QuadTo};
+    let at = |p: usvg::tiny_skia_path::Point| (f64::from(p.x), f64::from(p.y));
+    let mut all = BezPath::new();
+    for segment in path.segments() {
+        match segment {
+            MoveTo(p) => all.move_to(at(p)),
+            LineTo(p) => all.line_to(at(p)),
+            QuadTo(q, p) => all.quad_to(at(q), at(p)),
+            CubicTo(q, r, p) => all.curve_to(at(q), at(r), at(p)),
+            Close => all.close_path(),
+        }
+    }
+    all
+}

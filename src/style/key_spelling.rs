@@ -1,0 +1,31 @@
+//! British and American spelling of keys: `color` is read as `colour`.
+
+use toml::{Table, Value};
+
+use crate::error::spelling::british;
+
+/// A table whose keys are the user's own names.
+const NAMES: &str = "artist_texture";
+
+/// Renames the keys of a sheet to the spelling of the options, so that sheets in either spelling merge.
+pub(crate) fn to_british(table: &mut Table) {
+    let keys: Vec<String> = table.keys().filter(|key| british(key) != **key).cloned().collect();
+    for key in keys {
+        if let Some(value) = table.remove(&key) {
+            table.insert(british(&key), value);
+        }
+    }
+    for (key, value) in table.iter_mut() {
+        if key != NAMES {
+            in_value(value);
+        }
+    }
+}
+
+fn in_value(value: &mut Value) {
+    match value {
+        Value::Table(table) => to_british(table),
+        Value::Array(list) => list.iter_mut().for_each(in_value),
+        _ => {}
+    }
+}

@@ -1,0 +1,219 @@
+//! What is wrong in a TOML file, with its line, a caret under the place and the nearest known key.
+
+use std::ops::Range;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::keys::StyleKey;
+use super::toml_reader::Fault;
+use crate::error::Error;
+use crate::error::messages::{Explained, Mistake, explain};
+use crate::error::nearest::distance;
+use crate::error::spelling::british;
+use crate::style::keys::advice::{alternatives, ending, listed, write_value};
+
+pub(crate) use crate::error::nearest::nearest;
+
+/// Of longer lines a part is shown, characters.
+const LONGEST: usize = 120;
+
+/// Longer values are not quoted in a message, bytes.
+const MAX_QUOTED: usize = 40;
+
+/// An error of a file's text: at its line, with the line and a caret.
+#[cfg(feature = "page")]
+pub(crate) fn in_sheet(text: &str, error: &Fault) -> Error {
+    placed(text, error, &explained(text, error))
+}
+
+/// The parser's message in plain words; a value that it does not name is quoted from the text.
+fn explained(text: &str, error: &Fault) -> Explained {
+    let explained = explain(error.message());
+    let value = error.span().and_then(|span| text.get(span)).unwrap_or_default().trim();
+    match explained.message.strip_prefix("this does not") {
+        Some(rest) if !value.is_empty() && value.len() <= MAX_QUOTED && !value.contains('\n') => {
+            Explained { message: format!("`{value}` does not{rest}"), ..explained }
+        }
+        _ => explained,
+    }
+}
+
+/// The same for a style sheet: advice names keys in the whole tree, and the values that a key may have.
+pub(crate) fn in_style_sheet(text: &str, error: &Fault) -> Error {
+    let path = error.span().and_then(|span| path_at(text, &span)).unwrap_or_default();
+    placed(text, error, &with_keys(explained(text, error), &path, &path, false))
+}
+
+fn placed(text: &str, error: &Fault, explained: &Explained) -> Error {
+    let Explained { message, advice, .. } = explained;
+    match error.span() {
+        Some(span) => at_span(text, &span, message, advice.as_deref()),
+        None => with_remedy(Error::new(message.as_str()), advice.as_deref(), None),
+    }
+}
+
+/// An error about a place in a file's text: at its line, with the line and a caret.
+pub(crate) fn at_span(text: &str, span: &Range<usize>, message: &str, advice: Option<&str>) -> Error {
+    let (number, column, line, width) = locate(text, span);
+    let (column, line, width) = excerpt(column, line, width);
+    let gutter = number.to_string();
+    let blank = " ".repeat(gutter.len());
+    let picture = format!(" {gutter} | {line}\n {blank} | {}{}", " ".repeat(column), "^".repeat(width));
+    with_remedy(Error::new(message).at(format!("line {number}")), advice, Some(&picture))
+}
+
+/// An error of a change on the command line: the place is the change itself.
+pub(crate) fn in_change(set: &str, text: &str, error: &Fault) -> Error {
+    let typed = set.split('=').next().unwrap_or_default().trim();
+    let path = error.span().and_then(|span| path_at(text, &span)).unwrap_or_default();
+    let Explained { message, advice, .. } = with_keys(explained(text, error), &path, typed, true);
+    let before = "--set ";
+    let picture = error.span().map(|span| {
+        let (_, column, _, width) = locate(text, &span);
+        // The text that was read is `KEY = VALUE`, perhaps with the value in another form.
+        let key = set.split('=').next().unwrap_or_default();
+        let in_key = column < key.trim().chars().count();
+        let (column, width) = if in_key {
+            (column, width)
+        } else {
+            let start = key.chars().count() + 1;
+            (start, set.chars().count().saturating_sub(start).max(1))
+        };
+        format!("   {before}{set}\n   {}{}", " ".repeat(before.len() + column), "^".repeat(width))
+    });
+    with_remedy(Error::new(message).at(format!("--set {set}")), advice.as_deref(), picture.as_deref())
+}
+
+/// `line N` of the value of a top-level key.
+pub(crate) fn place_of_value(text: &str, key: &str) -> String {
+    let number = text.lines().position(|line| {
+        line.trim_start().strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with('='))
+    });
+    number.map_or_else(|| format!("key {key}"), |number| format!("line {}", number + 1))
+}
+
+/// A message about a style, with advice from the table of keys. `path` is the path of the key that is wrong, `typed` the one that
+/// was typed, which may go on.
+fn with_keys(explained: Explained, path: &str, typed: &str, only_settable: bool) -> Explained {
+    let advice = match &explained.mistake {
+        Mistake::UnknownKey(word, known) => {
+            // `crease` for `crease_deg`.
+            let start = format!("{word}_");
+            let begun: Vec<String> =
+                known.iter().filter(|known| known.starts_with(&start)).cloned().collect();
+            if !begun.is_empty() {
+                let advice = Some(format!("did you mean {}?", listed(&begun)));
+                return Explained { advice, ..explained };
+            }
+            let near = known.iter().any(|known| distance(word, known) <= 1);
+            let parts: Vec<&str> = typed.split('.').map(str::trim).collect();
+            let at = parts.iter().position(|part| part == word);
+            let tail = at.map_or_else(|| word.clone(), |at| parts[at..].join("."));
+            let found = if near { Vec::new() } else { ending(&british(&tail), only_settable) };
+            let is_near = explained.advice.as_deref().is_some_and(|advice| advice.starts_with("did you"));
+            let found = if found.is_empty() && !is_near { alternatives(&tail, only_settable) } else { found };
+            (!found.is_empty()).then(|| format!("did you mean {}?", listed(&found)))
+        }
+        Mistake::WrongType => StyleKey::find(path).map(|key| write_value(key, only_settable)),
+        Mistake::Other => None,
+    };
+    match advice {
+        Some(advice) => Explained { advice: Some(advice), ..explained },
+        None => explained,
+    }
+}
+
+/// The dotted path of the key that a place of a TOML text is at, or in whose value it is.
+fn path_at(text: &str, span: &Range<usize>) -> Option<String> {
+    let document = DeTable::parse(text).ok()?;
+    let holds =
+        |other: Range<usize>| other.start <= span.start && span.start < other.end.max(other.start + 1);
+    fn in_table(table: &DeTable<'_>, above: &str, holds: &dyn Fn(Range<usize>) -> bool) -> Option<String> {
+        table.iter().find_map(|(key, value)| {
+            let word = key.get_ref();
+            let path = if above.is_empty() { word.to_string() } else { format!("{above}.{word}") };
+            if holds(key.span()) {
+                return Some(path);
+            }
+            in_value(value, &path, holds)
+        })
+    }
+    fn in_value(
+        value: &Spanned<DeValue<'_>>,
+        path: &str,
+        holds: &dyn Fn(Range<usize>) -> bool,
+    ) -> Option<String> {
+        let inner = match value.get_ref() {
+            DeValue::Table(table) => in_table(table, path, holds),
+            DeValue::Array(list) => list.iter().find_map(|value| in_value(value, path, holds)),
+            _ => None,
+        };
+        inner.or_else(|| holds(value.span()).then(|| path.to_owned()))
+    }
+    in_table(document.get_ref(), "", &holds)
+}
+
+fn with_remedy(error: Error, advice: Option<&str>, picture: Option<&str>) -> Error {
+    match (advice, picture) {
+        (Some(advice), Some(picture)) => error.remedy(format!("{advice}\n{picture}")),
+        (Some(advice), None) => error.remedy(advice),
+        (None, Some(picture)) => error.remedy(format!("check this line\n{picture}")),
+        (None, None) => error,
+    }
+}
+
+/// Line number from 1, column from 0, the line, and the width of a place, in characters.
+fn locate(text: &str, span: &Range<usize>) -> (usize, usize, String, usize) {
+    let start = floor(text, span.start);
+    let end = floor(text, span.end).max(start);
+    let before = text.get(..start).unwrap_or_default();
+    let number = before.matches('\n').count() + 1;
+    let line_start = before.rfind('\n').map_or(0, |at| at + 1);
+    let line = text.get(line_start..).unwrap_or_default().lines().next().unwrap_or_default();
+    let column = text.get(line_start..start).unwrap_or_default().chars().count();
+    let marked = text.get(start..end).unwrap_or_default().lines().next().unwrap_or_default();
+    // A tab is shown as one blank so that the caret stays below its place.
+    (number, column, line.replace('\t', " "), marked.chars().count().max(1))
+}
+
+/// Of a line that is too long to be shown what is around the place, with the place in it.
+fn excerpt(column: usize, line: String, width: usize) -> (usize, String, usize) {
+    if line.chars().count() <= LONGEST {
+        return (column, line, width);
+    }
+    let from = column.saturating_sub(LONGEST / 3);
+    let shown: String = line.chars().skip(from).take(LONGEST).collect();
+    let [before, after] =
+        [from > 0, line.chars().count() > from + LONGEST].map(|cut| if cut { "…" } else { "" });
+    let column = column - from + before.chars().count();
+    (column, format!("{before}{shown}{after}"), width.min(LONGEST + 1 - column.min(LONGEST)))
+}
+
+/// The nearest boundary of characters at or before a byte.
+fn floor(text: &str, byte: usize) -> usize {
+    (0..=byte.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_long_lines_a_part_is_shown() {
+        let line = format!("{}x{}", "a".repeat(500), "b".repeat(500));
+        let told = at_span(&line, &(500..501), "wrong", None).remedy.unwrap();
+        let lines: Vec<&str> = told.lines().collect();
+        let at = |line: &str, c: char| line.chars().position(|other| other == c);
+        assert!(lines[1].chars().count() < 140 && at(lines[1], 'x') == at(lines[2], '^'), "{told}");
+        let told = at_span(&line, &(10..900), "wrong", None).remedy.unwrap();
+        assert!(told.lines().all(|line| line.chars().count() < 140), "{told}");
+    }
+
+    #[test]
+    fn places_inside_text() {
+        assert_eq!(locate("a\nbü = 1\n", &(2..5)), (2, 0, "bü = 1".into(), 2));
+        assert_eq!(locate("", &(0..0)), (1, 0, String::new(), 1));
+        assert_eq!(locate("ab", &(9..12)), (1, 2, "ab".into(), 1));
+    }
+}

@@ -1,0 +1,236 @@
+//! Reading a style: its chain of sheets and the changes of the command line, merged as tables.
+//!
+//! Every sheet and change is first read by itself, so that an error can point into its own text.
+
+use std::path::{Path, PathBuf};
+
+use toml::{Table, Value};
+
+use super::Style;
+use super::key_spelling::to_british;
+use super::sheet_errors::{self, nearest};
+use super::toml_reader::{self, Fault};
+use crate::error::Error;
+use crate::style::files::artist_file::{place_artist_textures, read_artist_textures};
+use crate::style::files::brush_file::place_brushes;
+use crate::style::files::picture_file::place_paper;
+use crate::style::files::tile_file::place_tiles;
+use crate::style::tables::fills_table::set_aside;
+use crate::style::tables::ramp_source::place_pictures;
+use crate::style::tables::style_sheet::Sheet;
+
+/// A sheet that has been found.
+struct Source {
+    /// What tells it from the others: the built-in name, or the resolved path.
+    identity: PathBuf,
+    /// How errors name it.
+    shown: PathBuf,
+    /// The folder that `extends` is relative to; `None` for built-in sheets.
+    folder: Option<PathBuf>,
+    text: String,
+}
+
+/// Reads a style, see [`Style::load`].
+pub(crate) fn load(name_or_path: &str, sets: &[String]) -> Result<Style, Error> {
+    merged(find(name_or_path, None)?, sets)
+}
+
+/// Reads the text of a sheet, see [`Style::from_toml`].
+pub(crate) fn load_text(text: &str) -> Result<Style, Error> {
+    let shown = PathBuf::from("style sheet");
+    merged(Source { identity: PathBuf::new(), shown, folder: None, text: text.to_owned() }, &[])
+}
+
+/// The style of a sheet, of those it extends, and of changes.
+fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
+    let merged = merged_table(source, sets)?;
+    let mut sheet: Sheet = toml_reader::from_table(merged).map_err(|fault| Error::new(fault.message()))?;
+    sheet.fills.read_pictures()?;
+    sheet.fills.read_tiles()?;
+    sheet.read_brushes()?;
+    sheet.read_paper()?;
+    read_artist_textures(&mut sheet.lines.artist_texture)?;
+    Ok(sheet.into_style())
+}
+
+/// The keys that a style sets, of its own sheet and of those it extends.
+pub(crate) fn all_keys(name_or_path: &str) -> Result<Table, Error> {
+    merged_table(find(name_or_path, None)?, &[])
+}
+
+/// The sheets that a style is made of and that are not built in, as their names in messages and their keys; the last one counts most.
+#[cfg(feature = "page")]
+pub(crate) fn own_sheets(name_or_path: &str) -> Result<Vec<(PathBuf, Table)>, Error> {
+    let chain = chain(find(name_or_path, None)?)?;
+    Ok(chain
+        .into_iter()
+        .rev()
+        .filter(|(source, _)| source.folder.is_some())
+        .map(|(s, t)| (s.shown, t))
+        .collect())
+}
+
+/// The keys of a sheet, of those it extends, and of changes.
+fn merged_table(source: Source, sets: &[String]) -> Result<Table, Error> {
+    let mut merged = Table::new();
+    for (_, sheet) in chain(source)?.into_iter().rev() {
+        merge(&mut merged, sheet);
+    }
+    for set in sets {
+        merge(&mut merged, change(set)?);
+    }
+    merged.remove("extends");
+    Ok(merged)
+}
+
+/// A sheet and those it extends, one after another, with their keys.
+fn chain(source: Source) -> Result<Vec<(Source, Table)>, Error> {
+    let mut sheets: Vec<(Source, Table)> = Vec::new();
+    let mut seen: Vec<PathBuf> = Vec::new();
+    let mut next = Some(source);
+    while let Some(source) = next.take() {
+        let (sheet, mut table) = read(&source.text)
+            .map_err(|error| sheet_errors::in_style_sheet(&source.text, &error).in_file(&source.shown))?;
+        seen.push(source.identity.clone());
+        if let Some(parent) = &sheet.extends {
+            let place = || sheet_errors::place_of_value(&source.text, "extends");
+            let found = find(parent, source.folder.as_deref())
+                .map_err(|error| name_in(error, &source.shown, &place()))?;
+            if seen.contains(&found.identity) {
+                return Err(Error::new(format!(
+                    "`extends = \"{parent}\"` leads back to a sheet it comes from"
+                ))
+                .in_file(&source.shown)
+                .at(place())
+                .remedy("let one of the sheets extend another one, or none"));
+            }
+            next = Some(found);
+        }
+        let folder = source.folder.as_deref().unwrap_or(Path::new(""));
+        place_pictures(&mut table, folder);
+        place_brushes(&mut table, folder);
+        place_artist_textures(&mut table, folder);
+        place_tiles(&mut table, folder);
+        place_paper(&mut table, folder);
+        sheets.push((source, table));
+    }
+    Ok(sheets)
+}
+
+/// Finds a sheet: a built-in name, or a path relative to `folder`.
+fn find(name: &str, folder: Option<&Path>) -> Result<Source, Error> {
+    if let Some(text) = Style::sheet_text(name) {
+        let shown = PathBuf::from(format!("styles/{name}.toml"));
+        return Ok(Source { identity: PathBuf::from(name), shown, folder: None, text: text.to_owned() });
+    }
+    let path = folder.map_or_else(|| PathBuf::from(name), |folder| folder.join(name));
+    let looks_like_path = name.ends_with(".toml") || name.contains(['/', '\\']);
+    if !looks_like_path && !path.is_file() {
+        let known: Vec<&str> = Style::names().collect();
+        let remedy = match nearest(name, &known) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => format!("built-in styles: {}; or name a sheet's file, such as my.toml", known.join(", ")),
+        };
+        return Err(Error::new(format!("there is no style `{name}`")).remedy(remedy));
+    }
+    let bytes = std::fs::read(&path).map_err(|error| {
+        Error::io("cannot read the style sheet", error).in_file(&path).remedy("check the path")
+    })?;
+    let text = String::from_utf8(bytes).map_err(|error| {
+        Error::new("is not UTF-8 text")
+            .in_file(&path)
+            .at(format!("byte {}", error.utf8_error().valid_up_to()))
+            .remedy("save the style sheet as UTF-8")
+    })?;
+    let identity = std::fs::canonicalize(&path).unwrap_or_else(|_| path.clone());
+    let folder = path.parent().map(Path::to_path_buf);
+    Ok(Source { identity, shown: path, folder, text })
+}
+
+/// An error told of the sheet that names what was not found.
+fn name_in(mut error: Error, sheet: &Path, place: &str) -> Error {
+    if let Some(file) = &error.file {
+        error.message = format!("{}: {}", file.display(), error.message);
+    }
+    error.in_file(sheet).at(place)
+}
+
+/// A sheet as options, to find its errors, and as a table, to merge it.
+fn read(text: &str) -> Result<(Sheet, Table), Fault> {
+    let (sheet, mut table) = (toml_reader::from_text(text)?, toml::from_str(text)?);
+    to_british(&mut table);
+    Ok((sheet, table))
+}
+
+/// A change, checked, with the paths of pictures and brushes in it relative to what `folder` is
+/// relative to.
+#[cfg(feature = "page")]
+pub(crate) fn placed_change(set: &str, folder: &Path) -> Result<String, Error> {
+    let mut table = change(set)?;
+    place_pictures(&mut table, folder);
+    place_brushes(&mut table, folder);
+    place_artist_textures(&mut table, folder);
+    place_tiles(&mut table, folder);
+    place_paper(&mut table, folder);
+    Ok(table.iter().map(|(key, value)| format!("{key}={value}")).collect())
+}
+
+/// One change of the command line as a table.
+pub(crate) fn change(set: &str) -> Result<Table, Error> {
+    let wrong = |message: &str| {
+        Error::new(message).at(format!("--set {set}")).remedy("write KEY=VALUE, such as --set pen.width=1.5")
+    };
+    let (key, value) = set.split_once('=').ok_or_else(|| wrong("there is no `=`"))?;
+    let (key, value) = (key.trim(), value.trim());
+    let plain = |c: char| c.is_alphanumeric() || matches!(c, '_' | '-');
+    if key.is_empty() || !key.split('.').all(|part| !part.is_empty() && part.chars().all(plain)) {
+        return Err(wrong(&format!("`{key}` is not a key")));
+    }
+    let quoted = Value::String(value.to_owned()).to_string();
+    let written = format!("{key} = {value}");
+    let mut readings = Vec::new();
+    // Line breaks would let a value bring further keys with it.
+    if !value.contains(['\n', '\r']) && toml::from_str::<Table>(&written).is_ok() {
+        readings.push(written);
+        match value {
+            "0" => readings.push(format!("{key} = false")),
+            "1" => readings.push(format!("{key} = true")),
+            _ => {}
+        }
+    }
+    readings.push(format!("{key} = {quoted}"));
+    let mut first_error = None;
+    for text in readings {
+        match read(&text) {
+            Ok((_, table)) if table.contains_key("extends") => {
+                return Err(wrong("`extends` cannot be set").remedy("name the sheet with --style"));
+            }
+            Ok((_, table)) => return Ok(table),
+            Err(error) => {
+                first_error.get_or_insert_with(|| sheet_errors::in_change(set, &text, &error));
+            }
+        }
+    }
+    Err(first_error.unwrap_or_else(|| wrong("is not understood")))
+}
+
+/// Lays one table over another: tables are merged key by key, lists of tables (rules, materials)
+/// are appended, everything else is replaced.
+fn merge(base: &mut Table, over: Table) {
+    for (key, value) in over {
+        match (base.get_mut(&key), value) {
+            (Some(Value::Table(below)), Value::Table(above)) => {
+                if key == "fills" {
+                    set_aside(below, &above);
+                }
+                merge(below, above);
+            }
+            (Some(Value::Array(below)), Value::Array(above)) if key == "rule" || key == "material" => {
+                below.extend(above)
+            }
+            (_, value) => {
+                base.insert(key, value);
+            }
+        }
+    }
+}

@@ -1,0 +1,317 @@
+//! [`Folds`]: the edges where a surface turns noticeably, and the chains they make end to end.
+//!
+//! Source: Hubeli and Gross, "Multiresolution feature extraction from unstructured meshes", IEEE
+//! Visualization 2001: edges are given weights, thinned and joined to lines by
+//! hysteresis. Here lines are followed straight on through junctions, and never from a ridge into
+//! a valley.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::geometry::numbers::portable_math::cos;
+use crate::mesh::normals::dihedral::{Dihedral, turn_of};
+use crate::mesh::{FaceId, Mesh, Turns};
+use crate::parallel::concatenation::joined;
+
+/// Two folds whose directions make less than this cosine do not continue each other, even where no
+/// other fold ends there: 80 degrees, so that the zigzag of a regular triangulation is one chain.
+const BEND_COSINE: f64 = 0.17;
+
+/// Where more than two folds meet, two continue each other above this cosine: 53 degrees.
+const JUNCTION_COSINE: f64 = 0.6;
+
+/// A vertex where more folds meet is a tip, through which no line runs.
+const TIP: usize = 24;
+
+/// Folds that turn by more than this many degrees are neither ridge nor valley: the surface nearly
+/// lies on itself.
+const FLAPPED_DEG: f32 = 170.0;
+
+/// An edge at which the surface turns by more than the low threshold.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fold {
+    /// Its edge.
+    pub edge: u32,
+    /// Degrees by which the surface turns.
+    pub turn: f32,
+}
+
+/// All folds of a mesh, and which of them end at which vertex.
+pub(crate) struct Folds<'a> {
+    mesh: &'a Mesh,
+    /// In edge order.
+    pub folds: Vec<Fold>,
+    /// By vertex: the fold shifted left by one; bit 0 says which of its vertices.
+    ends: Grouped<u32>,
+}
+
+/// Folds end to end.
+pub(crate) struct Chain {
+    /// In order along the chain.
+    pub folds: Vec<Fold>,
+    /// How straight it runs: the mean cosine of its bends, above 0, at most 1.
+    pub straightness: f64,
+    /// Whether its last fold continues into its first.
+    pub closed: bool,
+}
+
+/// All edges at which the surface turns by more than `low_deg` degrees, in edge order.
+pub(crate) fn folds(mesh: &Mesh, turns: &Turns, low_deg: f64) -> Vec<Fold> {
+    const CHUNK: usize = 1 << 12;
+    let low_cosine = cos(low_deg.to_radians()) as f32;
+    let fold = |edge: usize| {
+        let cosine = turns.at(mesh, edge);
+        if cosine.is_nan() || cosine >= low_cosine {
+            return None;
+        }
+        let dihedral = turns.dihedral(mesh, edge);
+        let turn = dihedral.map_or_else(|| turn_of(cosine), |dihedral| dihedral.sure_turn(mesh));
+        (turn > low_deg as f32).then_some(Fold { edge: edge as u32, turn })
+    };
+    let chunks = mesh.edges.len().div_ceil(CHUNK);
+    let found: Vec<Vec<Fold>> = (0..chunks)
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|k| (k * CHUNK..((k + 1) * CHUNK).min(mesh.edges.len())).filter_map(fold).collect())
+        .collect();
+    joined(&found)
+}
+
+impl<'a> Folds<'a> {
+    /// Of these folds of a mesh those that end where one ends that turns by no more than `high_deg` degrees: no others tell
+    /// [where folds go on](Self::going_on), and most machined parts have few of them or none.
+    pub fn around_faint(mesh: &'a Mesh, mut folds: Vec<Fold>, high_deg: f64) -> Self {
+        let ends = |f: &Fold| mesh.edges.vertices[f.edge as usize].map(|v| v as usize);
+        let faint: Vec<&Fold> = folds.iter().filter(|f| f.turn <= high_deg as f32).collect();
+        if faint.is_empty() {
+            return Self::new(mesh, Vec::new());
+        }
+        let mut is_near = vec![false; mesh.positions.len()];
+        faint.into_iter().flat_map(ends).for_each(|v| is_near[v] = true);
+        folds.retain(|f| ends(f).iter().any(|v| is_near[*v]));
+        Self::new(mesh, folds)
+    }
+
+    /// Sorts the ends of folds by vertex.
+    pub fn new(mesh: &'a Mesh, folds: Vec<Fold>) -> Self {
+        let vertices = |f: &Fold| mesh.edges.vertices[f.edge as usize];
+        let of_fold = |(fold, id): (&Fold, u32)| {
+            let [a, b] = vertices(fold);
+            [(a as usize, id << 1), (b as usize, id << 1 | 1)]
+        };
+        let ends = grouped_pairs(mesh.positions.len(), folds.iter().zip(0..).flat_map(of_fold));
+        Self { mesh, folds, ends }
+    }
+
+    /// The chains that hold a fold of more than `high_deg` degrees, each as long as it goes.
+    pub fn chains(&self, high_deg: f64) -> Vec<Chain> {
+        let links = self.links();
+        let mut taken = vec![false; self.folds.len()];
+        let mut chains = Vec::new();
+        for seed in 0..self.folds.len() {
+            if taken[seed] || self.folds[seed].turn <= high_deg as f32 {
+                continue;
+            }
+            taken[seed] = true;
+            let (mut ahead, mut cosines, closed) = walk(&links, (seed << 1 | 1) as u32, &mut taken);
+            let mut chain = Vec::new();
+            if !closed {
+                let (behind, more, _) = walk(&links, (seed << 1) as u32, &mut taken);
+                chain.extend(behind.into_iter().rev());
+                cosines += more;
+            }
+            chain.push(seed);
+            chain.append(&mut ahead);
+            let bends = chain.len() - usize::from(!closed);
+            chains.push(Chain {
+                straightness: if bends == 0 { 1.0 } else { cosines / bends as f64 },
+                folds: chain.into_iter().map(|i| self.folds[i]).collect(),
+                closed,
+            });
+        }
+        chains
+    }
+
+    /// The edges on which folds of more than `high_deg` degrees go on from where they would end inside the surface:
+    /// along folds that continue each other, to the first vertex at which another fold of more than `high_deg` degrees
+    /// ends. Where there is none they do not go on.
+    pub fn going_on(&self, high_deg: f64) -> Vec<usize> {
+        let is_high = |end: &u32| self.folds[(end >> 1) as usize].turn > high_deg as f32;
+        // The fold that leads to an end is passed over.
+        let meets = |end: u32| {
+            self.ends.of(self.vertex(end)).iter().any(|other| other >> 1 != end >> 1 && is_high(other))
+        };
+        let walked_from = |from: u32| -> Vec<usize> {
+            let (mut walked, mut pairs, mut end) = (Vec::new(), Vec::new(), from);
+            loop {
+                pairs.clear();
+                self.pair_up(self.vertex(end), &mut pairs);
+                let Some(next) = pairs.iter().find_map(|pair| pair.other(end)) else { return Vec::new() };
+                walked.push(self.folds[(next >> 1) as usize].edge as usize);
+                end = next ^ 1;
+                if meets(end) {
+                    return walked;
+                }
+            }
+        };
+        let ends = (0..2 * self.folds.len() as u32).into_par_iter().with_min_len(1 << 10);
+        ends.filter(|end| is_high(end) && !meets(*end)).flat_map_iter(walked_from).collect()
+    }
+
+    /// Which ends continue each other: for each end the other one and the cosine of the bend
+    /// between them.
+    fn links(&self) -> Vec<Option<(u32, f32)>> {
+        const CHUNK: usize = 1 << 12;
+        let vertices = self.ends.count();
+        let found: Vec<Vec<Pair>> = (0..vertices.div_ceil(CHUNK))
+            .into_par_iter()
+            .with_max_len(1)
+            .map(|k| {
+                let mut pairs = Vec::new();
+                (k * CHUNK..((k + 1) * CHUNK).min(vertices)).for_each(|v| self.pair_up(v, &mut pairs));
+                pairs
+            })
+            .collect();
+        let mut links = vec![None; 2 * self.folds.len()];
+        for Pair { ends: [a, b], cosine, .. } in found.into_iter().flatten() {
+            links[a as usize] = Some((b, cosine as f32));
+            links[b as usize] = Some((a, cosine as f32));
+        }
+        links
+    }
+
+    /// Adds the pairs of ends at a vertex that continue each other.
+    fn pair_up(&self, vertex: usize, pairs: &mut Vec<Pair>) {
+        let ends = self.ends.of(vertex);
+        if !(2..=TIP).contains(&ends.len()) {
+            return;
+        }
+        let least = if ends.len() == 2 { BEND_COSINE } else { JUNCTION_COSINE };
+        let mut candidates = Vec::new();
+        for (i, a) in ends.iter().enumerate() {
+            for b in &ends[i + 1..] {
+                candidates.extend(self.pair(*a, *b, least));
+            }
+        }
+        // The best pair goes first, what is left pairs up after it; ties are broken by place, so
+        // that they do not depend on the order of the file.
+        candidates.sort_by(|a, b| b.rank.total_cmp(&a.rank).then_with(|| a.place.total_cmp(&b.place)));
+        let first = pairs.len();
+        for pair in candidates {
+            if pairs[first..].iter().all(|p| p.ends.iter().all(|end| !pair.ends.contains(end))) {
+                pairs.push(pair);
+            }
+        }
+    }
+
+    /// Two ends at one vertex as a pair, if the one continues the other.
+    fn pair(&self, a: u32, b: u32, least: f64) -> Option<Pair> {
+        let cosine = -self.away(a).dot(self.away(b));
+        if cosine < least || !self.same_bend(a, b) {
+            return None;
+        }
+        let [s, t] = [a, b].map(|end| f64::from(self.folds[(end >> 1) as usize].turn));
+        let middle = [a, b].map(|end| self.mesh.positions[self.vertex(end ^ 1)]);
+        let place = (middle[0] + middle[1]).dot(DVec3::new(1.0, 0.618, 0.414));
+        Some(Pair { ends: [a, b], cosine, rank: cosine * s.min(t) / s.max(t), place })
+    }
+
+    fn vertex(&self, end: u32) -> usize {
+        let fold = self.folds[(end >> 1) as usize];
+        self.mesh.edges.vertices[fold.edge as usize][(end & 1) as usize] as usize
+    }
+
+    /// The direction of a fold away from one of its vertices.
+    fn away(&self, end: u32) -> DVec3 {
+        let [near, far] = [end, end ^ 1].map(|end| self.mesh.positions[self.vertex(end)]);
+        (far - near).normalize_or_zero()
+    }
+
+    /// Whether two folds are both ridges or both valleys, seen from one side of the surface.
+    fn same_bend(&self, a: u32, b: u32) -> bool {
+        let [(a, outward_a), (b, outward_b)] = [a, b].map(|end| self.bend(end));
+        a * b * outward_a.dot(outward_b) >= 0.0
+    }
+
+    /// Below 0 for a ridge, above for a valley, 0 where it cannot be told; and a direction between
+    /// the normals of the two faces on the side from which it is so.
+    fn bend(&self, end: u32) -> (f64, DVec3) {
+        let fold = self.folds[(end >> 1) as usize];
+        let Some(dihedral) = Dihedral::at(self.mesh, fold.edge as usize) else { return (0.0, DVec3::ZERO) };
+        if fold.turn > FLAPPED_DEG {
+            return (0.0, DVec3::ZERO);
+        }
+        let [a, b] = dihedral.normals(self.mesh);
+        let near = self.mesh.positions[self.vertex(end)];
+        let corners = self.mesh.corners(FaceId(dihedral.faces[1])).map(|p| p - near);
+        (corners.iter().sum::<DVec3>().dot(a).signum(), a + b)
+    }
+}
+
+/// Walks on from an end of a fold: the folds on the way, the sum of the cosines of the bends
+/// between them, and whether the walk comes back to where it began.
+fn walk(links: &[Option<(u32, f32)>], from: u32, taken: &mut [bool]) -> (Vec<usize>, f64, bool) {
+    let (mut walked, mut cosines, mut end) = (Vec::new(), 0.0, from);
+    while let Some((next, cosine)) = links[end as usize] {
+        cosines += f64::from(cosine);
+        let fold = (next >> 1) as usize;
+        if taken[fold] {
+            return (walked, cosines, true);
+        }
+        taken[fold] = true;
+        walked.push(fold);
+        end = next ^ 1;
+    }
+    (walked, cosines, false)
+}
+
+/// Two ends at one vertex.
+struct Pair {
+    ends: [u32; 2],
+    /// Cosine of the bend between them.
+    cosine: f64,
+    /// How well they go together: straight on, and turning alike.
+    rank: f64,
+    /// Breaks ties.
+    place: f64,
+}
+
+impl Pair {
+    /// The end that continues one of the two.
+    fn other(&self, end: u32) -> Option<u32> {
+        let [a, b] = self.ends;
+        (a == end).then_some(b).or((b == end).then_some(a))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::numbers::noise::hash;
+    use crate::mesh::Soup;
+
+    /// A sheet of squares whose points lie at heights of chance, so that it turns by more here and by less there.
+    fn rough_sheet(seed: u64, height: f64) -> Mesh {
+        const N: u32 = 40;
+        let up = |k: u32| height * (hash(seed, &[u64::from(k)]) as f64 / u64::MAX as f64 - 0.5);
+        let point = |k: u32| DVec3::new(f64::from(k % N), f64::from(k / N), up(k));
+        let squares = (0..N * (N - 1)).filter(|k| k % N + 1 < N);
+        let triangles = squares.flat_map(|a| [[a, a + 1, a + N + 1], [a, a + N + 1, a + N]]).collect();
+        Mesh::build(Soup { positions: (0..N * N).map(point).collect(), triangles, ..Soup::default() })
+    }
+
+    #[test]
+    fn folds_go_on_as_all_folds_tell() {
+        let mut walked = 0;
+        for (seed, height) in (0..60).zip([0.2, 0.5, 0.8, 1.2, 2.0].into_iter().cycle()) {
+            let mesh = rough_sheet(seed, height);
+            let turns = Turns::of(&mesh);
+            let all = folds(&mesh, &turns, 20.0);
+            let expected = Folds::new(&mesh, all.clone()).going_on(40.0);
+            assert_eq!(Folds::around_faint(&mesh, all, 40.0).going_on(40.0), expected, "{seed}");
+            walked += expected.len();
+        }
+        assert!(walked > 100, "{walked}");
+    }
+}

@@ -1,0 +1,122 @@
+//! `wrinkles`: slivers that lean by themselves between faces that go on into each other.
+//!
+//! Where two surfaces were cut along one curve at different steps, slivers close the gaps between both polygons. They lean
+//! by whatever the gap is deep, one edge of them turning as far as the others turn back, and the surface across them does not turn.
+
+use std::sync::atomic::AtomicU32;
+use std::sync::atomic::Ordering::Relaxed;
+
+use crate::parallel::prelude::*;
+
+use crate::geometry::numbers::portable_math::cos;
+use crate::mesh::components::disjoint_sets::Groups;
+use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
+use crate::parallel::task_size::GRAIN;
+
+/// A sliver is more than so many times as long as wide.
+const SLIVER: f64 = 6.0;
+/// The cosine (a degree) above which two faces are of one sliver.
+const FLAT_COSINE: f32 = 0.999_85;
+/// More faces than so many are no sliver.
+const MOST: usize = 8;
+/// Those of the edges of creases, in order, that are of slivers around which the surface turns by less than `crease_deg` degrees,
+/// where no other crease goes on from them: what goes on is a line, whatever lies beside it.
+pub(crate) fn wrinkles(mesh: &Mesh, turns: &Turns, crease_deg: f64, creases: &[usize]) -> Vec<usize> {
+    let least = cos(crease_deg.to_radians()) as f32;
+    let beside = |edge: usize| match mesh.edges.faces(edge) {
+        EdgeFaces::Two { faces, .. } => faces.map(|face| wrinkle(mesh, turns, least, face)),
+        _ => [None; 2],
+    };
+    if creases.is_empty() {
+        return Vec::new();
+    }
+    let lines = lines(mesh, creases);
+    let all = (0..creases.len() as u32).into_par_iter().with_min_len(GRAIN);
+    // Of most lines the first edge tells already that they lie at none.
+    let may = |k: u32| lines.of(k) == k && beside(creases[k as usize]) != [None; 2];
+    let may: Vec<bool> = all.clone().map(may).collect();
+    let mut by_line: Vec<(u32, u32)> =
+        all.map(|k| (lines.of(k), k)).filter(|(line, _)| may[*line as usize]).collect();
+    by_line.par_sort_unstable();
+    // All edges of a line have to lie at one wrinkle, which has no more than three for each of its faces.
+    let is_wrinkle = |line: &&[(u32, u32)]| {
+        let mut edges = line.iter().map(|(_, k)| creases[*k as usize]);
+        let Some(first) = edges.next().filter(|_| line.len() <= 3 * MOST) else { return false };
+        let mut shared = beside(first);
+        for edge in edges {
+            if shared == [None; 2] {
+                break;
+            }
+            let at = beside(edge);
+            shared = shared.map(|own| own.filter(|own| at.contains(&Some(*own))));
+        }
+        shared != [None; 2]
+    };
+    let mut found: Vec<usize> = by_line
+        .par_chunk_by(|a, b| a.0 == b.0)
+        .filter(is_wrinkle)
+        .flat_map_iter(|line| line.iter().map(|(_, k)| creases[*k as usize]))
+        .collect();
+    found.par_sort_unstable();
+    found
+}
+
+/// Which creases hang together by their ends.
+fn lines(mesh: &Mesh, creases: &[usize]) -> Groups {
+    let ends = |k: u32| mesh.edges.vertices[creases[k as usize]].map(|vertex| vertex as usize);
+    let all = (0..creases.len() as u32).into_par_iter().with_min_len(GRAIN);
+    // Any one of those at a vertex will do, as all of them are joined with it.
+    let one_at: Vec<AtomicU32> = (0..mesh.positions.len()).map(|_| AtomicU32::new(0)).collect();
+    all.clone().for_each(|k| ends(k).iter().for_each(|vertex| one_at[*vertex].store(k, Relaxed)));
+    Groups::new(creases.len(), |join| {
+        all.for_each(|k| ends(k).iter().for_each(|vertex| join(k, one_at[*vertex].load(Relaxed))));
+    })
+}
+
+/// The least face of the sliver that a face is of, if all that is around it turns into each other by less than a cosine has it.
+fn wrinkle(mesh: &Mesh, turns: &Turns, least: f32, face: u32) -> Option<u32> {
+    let mut own = vec![face];
+    // What is beyond, with its normal as seen from the side from which the sliver is seen.
+    let mut around: Vec<[f32; 3]> = Vec::new();
+    let mut area = 0.0;
+    let mut at = 0;
+    while at < own.len() {
+        let face = own[at];
+        at += 1;
+        if mesh.is_degenerate(FaceId(face)) {
+            return None;
+        }
+        let [a, b, c] = mesh.corners(FaceId(face));
+        area += (b - a).cross(c - a).length() / 2.0;
+        let [a, b, c] = mesh.triangles[face as usize];
+        for [a, b] in [[a, b], [b, c], [c, a]] {
+            let Ok(edge) = mesh.edges.vertices.binary_search(&[a.min(b), a.max(b)]) else { return None };
+            let EdgeFaces::Two { faces, same_way } = mesh.edges.faces(edge) else { return None };
+            let other = faces[usize::from(faces[0] == face)];
+            if own.contains(&other) {
+                continue;
+            }
+            if turns.of_two(edge) > FLAT_COSINE && !same_way {
+                if own.len() == MOST {
+                    return None;
+                }
+                own.push(other);
+                continue;
+            }
+            if mesh.is_degenerate(FaceId(other)) {
+                return None;
+            }
+            let normal = mesh.face_normals[other as usize];
+            let normal = if same_way { normal.map(|x| -x) } else { normal };
+            let dot = |m: &[f32; 3]| m[0] * normal[0] + m[1] * normal[1] + m[2] * normal[2];
+            if around.iter().any(|m| dot(m) < least) {
+                return None;
+            }
+            around.push(normal);
+        }
+    }
+    let corners =
+        || own.iter().flat_map(|face| mesh.triangles[*face as usize]).map(|v| mesh.positions[v as usize]);
+    let longest = corners().flat_map(|p| corners().map(move |q| p.distance_squared(q))).fold(0.0, f64::max);
+    (longest > SLIVER * 2.0 * area).then(|| own.iter().copied().min()).flatten()
+}

@@ -1,0 +1,61 @@
+//! `feature_size`: the length by which thresholds of curvature are measured.
+//!
+//! Source: the measure of the same name in Rusinkiewicz's rtsc: a hundredth of the radius of
+//! curvature that nine tenths of the surface do not exceed, but no more than a small part of the
+//! model. Here pieces of the surface count by their area, so that how finely they are cut does not
+//! matter, and each part of the model has its own size of features, so that no other part changes its lines.
+
+use crate::parallel::prelude::*;
+
+use super::principal_curvatures::Principal;
+use super::vertex_fans::Fans;
+use crate::mesh::{Mesh, PartId};
+use crate::parallel::task_size::GRAIN;
+
+/// The part of the surface that may be flatter than the measured curvature.
+const FLATTER: f64 = 0.1;
+
+/// The feature size in radii of that curvature.
+const OF_RADIUS: f64 = 0.01;
+
+/// The largest feature size, as a fraction of the part.
+pub const MOST_OF_PART: f64 = 0.025;
+
+/// The size of the features of each part, world units: thresholds of curvature are multiples of its
+/// inverse, those of derivatives of its inverse square. Scales with the part. `part_of` has one part per smooth
+/// vertex.
+pub(crate) fn feature_sizes(
+    mesh: &Mesh,
+    fans: &Fans,
+    principal: &[Principal],
+    part_of: &[PartId],
+) -> Vec<f64> {
+    let mut bends: Vec<(PartId, f64, f64)> = principal
+        .par_iter()
+        .with_min_len(GRAIN)
+        .enumerate()
+        .flat_map_iter(|(vertex, p)| {
+            let (part, area) = (part_of[vertex], fans.area(vertex));
+            [(part, p.k1.abs(), area), (part, p.k2.abs(), area)]
+        })
+        .collect();
+    // Areas are summed in the order of the curvatures, whatever the order of vertices.
+    bends.par_sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
+    let mut sizes = vec![0.0; bends.last().map_or(0, |last| last.0.index() + 1)];
+    for of_part in bends.chunk_by(|a, b| a.0 == b.0) {
+        let part = of_part[0].0;
+        sizes[part.index()] = feature_size(of_part, MOST_OF_PART * mesh.extents.of(part).scale);
+    }
+    sizes
+}
+
+/// The size of the features of a part from its curvatures, ascending, with their areas.
+fn feature_size(bends: &[(PartId, f64, f64)], most: f64) -> f64 {
+    let total: f64 = bends.iter().map(|bend| bend.2).sum();
+    let mut sum = 0.0;
+    let flat = bends.iter().find(|bend| {
+        sum += bend.2;
+        bend.2 > 0.0 && sum >= FLATTER * total
+    });
+    flat.map_or(most, |(_, bend, _)| if *bend > 0.0 { (OF_RADIUS / bend).min(most) } else { most })
+}

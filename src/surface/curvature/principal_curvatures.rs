@@ -1,0 +1,131 @@
+//! [`Principal`]: the principal curvatures at the smooth vertices of a mesh.
+//!
+//! Source: Szymon Rusinkiewicz, "Estimating curvatures and their derivatives on triangle meshes",
+//! 3DPVT 2004: a tensor for each face from the differences of the normals at its corners, averaged
+//! over the faces around each vertex in frames that are turned into one plane.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::vertex_fans::{Fans, sides};
+use crate::geometry::numbers::linear_solver::solve;
+use crate::mesh::{FaceId, Mesh};
+use crate::parallel::task_size::GRAIN;
+use crate::surface::SmoothNormals;
+
+/// The principal curvatures at a point of a surface, and their directions.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Principal {
+    /// The curvature that is larger in size, per world unit; positive where the surface bends away
+    /// from its normal, as a ball does.
+    pub k1: f64,
+    /// The other one.
+    pub k2: f64,
+    /// Unit vector along which the surface bends by `k1`; its sense means nothing. Zero where
+    /// nothing is known.
+    pub dir1: DVec3,
+    /// Unit vector along which it bends by `k2`: the normal, `dir1` and `dir2` are right-handed.
+    pub dir2: DVec3,
+}
+
+/// The principal curvatures at all smooth vertices.
+pub(crate) fn principal(
+    mesh: &Mesh,
+    smooth: &SmoothNormals,
+    fans: &Fans,
+    normals: &[DVec3],
+) -> Vec<Principal> {
+    let tensors: Vec<[f64; 3]> = (0..smooth.corners.len())
+        .into_par_iter()
+        .with_min_len(GRAIN)
+        .map(|face| tensor(mesh, smooth, fans, normals, face).unwrap_or_default())
+        .collect();
+    (0..smooth.vertices.len())
+        .into_par_iter()
+        .with_min_len(GRAIN)
+        .map(|vertex| {
+            let normal = normals[vertex];
+            let u = normal.try_normalize().map_or(DVec3::ZERO, DVec3::any_orthonormal_vector);
+            let axes = [u, normal.cross(u)];
+            let (mut sum, mut area) = ([0.0; 3], 0.0);
+            for (face, corner) in fans.around(vertex) {
+                let frame = &fans.frames[face];
+                let share = frame.areas[corner];
+                let turned = turned(axes, normal, frame.normal());
+                let own = in_axes(tensors[face], [frame.u, frame.v], turned);
+                (0..3).for_each(|i| sum[i] += own[i] * share);
+                area += share;
+            }
+            if area > 0.0 { diagonal(sum.map(|entry| entry / area), axes) } else { Principal::default() }
+        })
+        .collect()
+}
+
+/// The curvature tensor of a face in its frame, entries 11, 12, 22: the one by which the normals at
+/// its corners differ, in least squares.
+fn tensor(
+    mesh: &Mesh,
+    smooth: &SmoothNormals,
+    fans: &Fans,
+    normals: &[DVec3],
+    face: usize,
+) -> Option<[f64; 3]> {
+    if !fans.holds(face) {
+        return None;
+    }
+    let frame = &fans.frames[face];
+    let corners = smooth.corners[face].map(|v| normals[v as usize]);
+    let mut right = [0.0; 3];
+    let (mut uu, mut uv, mut vv) = (0.0, 0.0, 0.0);
+    for (side, change) in sides(&mesh.corners(FaceId::from(face))).into_iter().zip(sides(&corners)) {
+        let (u, v) = (side.dot(frame.u), side.dot(frame.v));
+        let (du, dv) = (change.dot(frame.u), change.dot(frame.v));
+        uu += u * u;
+        uv += u * v;
+        vv += v * v;
+        right[0] += u * du;
+        right[1] += u * dv + v * du;
+        right[2] += v * dv;
+    }
+    solve([[uu, uv, 0.0], [uv, uu + vv, uv], [0.0, uv, vv]], right)
+}
+
+/// Axes in the plane normal to `from`, turned by the shortest way into the plane normal to `to`.
+#[inline]
+pub(crate) fn turned(axes: [DVec3; 2], from: DVec3, to: DVec3) -> [DVec3; 2] {
+    let cosine = from.dot(to);
+    if cosine <= -1.0 + f64::EPSILON {
+        return axes.map(|axis| -axis);
+    }
+    let across = to - from * cosine;
+    let half = (from + to) / (1.0 + cosine);
+    axes.map(|axis| axis - half * axis.dot(across))
+}
+
+/// A symmetric tensor (11, 12, 22) given in axes `old`, in axes `new` of the same plane.
+#[inline]
+pub(crate) fn in_axes([a, b, c]: [f64; 3], old: [DVec3; 2], new: [DVec3; 2]) -> [f64; 3] {
+    let [[p, q], [r, s]] = new.map(|axis| [axis.dot(old[0]), axis.dot(old[1])]);
+    [
+        a * p * p + 2.0 * b * p * q + c * q * q,
+        a * p * r + b * (p * s + q * r) + c * q * s,
+        a * r * r + 2.0 * b * r * s + c * s * s,
+    ]
+}
+
+/// Eigenvalues and eigenvectors of a tensor in axes.
+fn diagonal([a, b, c]: [f64; 3], [u, v]: [DVec3; 2]) -> Principal {
+    let (mean, half) = ((a + c) / 2.0, (a - c) / 2.0);
+    let spread = (half * half + b * b).sqrt();
+    let (high, low) = (mean + spread, mean - spread);
+    // The eigenvector of `high`, from the row that loses fewest digits.
+    let (x, y) = if half >= 0.0 { (half + spread, b) } else { (b, spread - half) };
+    let along = (u * x + v * y).try_normalize().unwrap_or(u);
+    let across = v * x - u * y;
+    let across = across.try_normalize().unwrap_or(v);
+    if high.abs() >= low.abs() {
+        Principal { k1: high, k2: low, dir1: along, dir2: across }
+    } else {
+        Principal { k1: low, k2: high, dir1: across, dir2: -along }
+    }
+}

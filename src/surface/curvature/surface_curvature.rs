@@ -1,0 +1,55 @@
+//! [`Curvature`]: how the rounded surfaces of a mesh bend, and how that changes along them.
+//!
+//! Source: Rusinkiewicz 2004 (see `principal.rs`); here the normals are smoothed beforehand (see
+//! `diffusion.rs`).
+
+use glam::DVec3;
+
+use super::curvature_derivative;
+use super::feature_size;
+use super::normal_diffusion::diffuse;
+use super::principal_curvatures::{Principal, principal};
+use super::vertex_fans::Fans;
+use crate::mesh::{Mesh, PartId};
+use crate::surface::SmoothNormals;
+
+/// Curvatures and their derivatives at the smooth vertices of a mesh.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Curvature {
+    /// The faces around each smooth vertex.
+    pub fans: Fans,
+    /// The smoothed unit normals. One per smooth vertex.
+    pub normals: Vec<DVec3>,
+    /// One per smooth vertex.
+    pub principal: Vec<Principal>,
+    /// The derivative of the curvature tensor along `dir1` and `dir2`, per world unit squared: the
+    /// four different entries of a symmetric 2 × 2 × 2 tensor, 111, 112, 122, 222. One per smooth
+    /// vertex.
+    pub derivative: Vec<[f64; 4]>,
+    /// Size of the features of each part, world units; see `feature_size::feature_sizes`.
+    pub feature_sizes: Vec<f64>,
+    /// The body of each smooth vertex, by its first part.
+    part_of: Vec<PartId>,
+}
+
+impl Curvature {
+    /// Measures a surface whose normals are smoothed over `smoothing` times the scale of each part.
+    #[must_use]
+    pub fn new(mesh: &Mesh, smooth: &SmoothNormals, smoothing: f64) -> Self {
+        let fans = Fans::new(mesh, smooth);
+        let part_of = fans.bodies(mesh, smooth.vertices.len());
+        let length = |part: PartId| smoothing * mesh.extents.of(part).scale;
+        let normals = diffuse(smooth, &fans, &part_of, length);
+        let principal = principal(mesh, smooth, &fans, &normals);
+        let derivative = curvature_derivative::derivative(mesh, smooth, &fans, &normals, &principal);
+        let feature_sizes = feature_size::feature_sizes(mesh, &fans, &principal, &part_of);
+        Self { fans, normals, principal, derivative, feature_sizes, part_of }
+    }
+
+    /// The size of the features around a smooth vertex, world units.
+    #[inline]
+    #[must_use]
+    pub fn feature_size(&self, vertex: u32) -> f64 {
+        self.feature_sizes[self.part_of[vertex as usize].index()]
+    }
+}

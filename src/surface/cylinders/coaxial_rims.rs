@@ -1,0 +1,133 @@
+//! [`rims`]: cylinders of which there are narrow facets alone, such as the tips and roots of gears, about axes that are known.
+//!
+//! A facet is a chord of a circle about an axis where its corners are all at one distance from that, and its normal leads through it.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+
+use super::cylinder::Cylinder;
+use crate::geometry::numbers::portable_math::atan2;
+use crate::mesh::components::bodies::body_of;
+use crate::mesh::{Groups, Mesh, PartId};
+
+/// So much of a turn makes an axis known, radians.
+const WHOLE: f64 = 5.8;
+
+/// A facet of a rim spans no more, radians: sides of nuts are none.
+const WIDEST: f64 = 0.45;
+
+/// A rim has no fewer facets, each of no more triangles.
+const FEWEST: usize = 6;
+const MOST_TRIANGLES: usize = 24;
+
+/// How far distances from the axis may differ, as a share of them: on a facet, and from facet to facet.
+const SAME: f64 = 2e-4;
+const ALIKE: f64 = 1e-3;
+
+/// A chord of a circle about an axis.
+struct Chord {
+    radius: f64,
+    /// How far the distances of its corners differ.
+    spread: f64,
+    hollow: bool,
+    arc: f64,
+    ends: [f64; 2],
+}
+
+/// The rims about the axes of whole cylinders of the same body, where none of their radius is known.
+pub(crate) fn rims(mesh: &Mesh, normals: &[DVec3], facets: &Groups, known: &[Cylinder]) -> Vec<Cylinder> {
+    let body = |part: PartId| body_of(&mesh.bodies, part);
+    let mut axes: Vec<&Cylinder> = Vec::new();
+    for cylinder in known.iter().filter(|cylinder| cylinder.arc > WHOLE) {
+        if !axes.iter().any(|other| body(other.part) == body(cylinder.part) && is_coaxial(other, cylinder)) {
+            axes.push(cylinder);
+        }
+    }
+    if axes.is_empty() {
+        return Vec::new();
+    }
+    let mut faces_of: Vec<Vec<u32>> = vec![Vec::new(); mesh.triangles.len()];
+    for face in 0..mesh.triangles.len() as u32 {
+        faces_of[facets.of(face) as usize].push(face);
+    }
+    let parts = mesh.face_part.iter().map(|part| part.index() + 1).max().unwrap_or_default();
+    let mut of_body: Vec<Vec<&[u32]>> = vec![Vec::new(); parts];
+    for own in faces_of.iter().filter(|own| (1..=MOST_TRIANGLES).contains(&own.len())) {
+        of_body[mesh.body(own[0]).index()].push(own);
+    }
+    let mut found = Vec::new();
+    for axis in axes {
+        let facets = of_body[body(axis.part).index()].iter();
+        let mut chords: Vec<Chord> =
+            facets.filter_map(|own| chord(mesh, own, normals[own[0] as usize], axis)).collect();
+        chords.sort_by(|a, b| a.hollow.cmp(&b.hollow).then(a.radius.total_cmp(&b.radius)));
+        let alike = |a: &Chord, b: &Chord| a.hollow == b.hollow && b.radius - a.radius < ALIKE * b.radius;
+        for own in chords.chunk_by(alike).filter(|own| own.len() >= FEWEST) {
+            let rim = whole(own, axis.part, axis);
+            let is_known = |other: &Cylinder| {
+                body(other.part) == body(rim.part)
+                    && is_coaxial(other, &rim)
+                    && other.hollow == rim.hollow
+                    && (other.radius - rim.radius).abs() < 5.0 * ALIKE * rim.radius
+            };
+            if !known.iter().chain(&found).any(is_known) {
+                found.push(rim);
+            }
+        }
+    }
+    found
+}
+
+fn is_coaxial(a: &Cylinder, b: &Cylinder) -> bool {
+    let apart = a.point - b.point;
+    a.axis.cross(b.axis).length() < ALIKE
+        && (apart - a.axis * apart.dot(a.axis)).length() < 5.0 * ALIKE * a.radius.min(b.radius)
+}
+
+/// A facet as a chord about an axis, if it is one.
+fn chord(mesh: &Mesh, faces: &[u32], normal: DVec3, about: &Cylinder) -> Option<Chord> {
+    if normal == DVec3::ZERO || normal.dot(about.axis).abs() > ALIKE {
+        return None;
+    }
+    let across = normal.cross(about.axis);
+    let (mut radii, mut sides) = ([f64::INFINITY, 0.0_f64], [f64::INFINITY, f64::NEG_INFINITY]);
+    let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
+    let mut out = 0.0;
+    for v in faces.iter().flat_map(|face| mesh.triangles[*face as usize]) {
+        let p = mesh.positions[v as usize] + mesh.origin - about.point;
+        let along = p.dot(about.axis);
+        let flat = p - about.axis * along;
+        let (radius, side) = (flat.length(), flat.dot(across));
+        radii = [radii[0].min(radius), radii[1].max(radius)];
+        if radii[1] - radii[0] > SAME * radii[1] {
+            return None;
+        }
+        sides = [sides[0].min(side), sides[1].max(side)];
+        ends = [ends[0].min(along), ends[1].max(along)];
+        out = flat.dot(normal);
+    }
+    let (radius, half) = (radii[1], (sides[1] - sides[0]) / 2.0);
+    let arc = 2.0 * atan2(half, out.abs());
+    let is_chord = half > 0.0 && (sides[0] + sides[1]).abs() < ALIKE * radius && arc < WIDEST;
+    is_chord.then_some(Chord { radius, spread: radii[1] - radii[0], hollow: out < 0.0, arc, ends })
+}
+
+/// The cylinder of chords about an axis.
+fn whole(chords: &[Chord], part: PartId, about: &Cylinder) -> Cylinder {
+    let ends = chords.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], chord| {
+        [low.min(chord.ends[0]), high.max(chord.ends[1])]
+    });
+    let radius = chords.iter().map(|chord| chord.radius).sum::<f64>() / chords.len() as f64;
+    let off = chords.iter().map(|chord| (chord.radius - radius).abs() + chord.spread);
+    Cylinder {
+        part,
+        point: about.point,
+        axis: about.axis,
+        radius,
+        spread: off.fold(about.spread, f64::max),
+        ends,
+        arc: chords.iter().map(|chord| chord.arc).sum::<f64>().min(TAU),
+        hollow: chords[0].hollow,
+    }
+}

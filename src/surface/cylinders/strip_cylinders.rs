@@ -1,0 +1,332 @@
+//! [`cylinders`]: the round cylinders that a mesh stands for, with their axes.
+//!
+//! The triangles of a cylinder lie in flat strips between lines that are parallel to its axis. Seen along these lines each strip is a
+//! chord of the circle, so that the lines across the middles of two strips meet in its centre: strips side by side are of one cylinder
+//! where they find the same centre.
+
+use std::f64::consts::TAU;
+
+use glam::{DVec2, DVec3};
+use rustc_hash::FxHashMap;
+
+use super::coaxial_rims::rims;
+pub use super::cylinder::Cylinder;
+use crate::geometry::numbers::portable_math::atan2;
+use crate::mesh::components::bodies::body_of;
+use crate::mesh::{EdgeFaces, FaceId, Groups, Mesh, PartId};
+
+/// Faces that turn less than this lie in one strip; strips that turn more than the second are not of one cylinder (cosines of 0.06 and
+/// 50 degrees).
+const FLAT: f64 = 0.999_999_4;
+const SHARP: f64 = 0.642_787_6;
+
+/// How far lines may be from parallel, and centres and radii from each other, as a share of the radius: what single precision leaves of
+/// them.
+const PARALLEL: f64 = 1e-3;
+const SAME: f64 = 5e-3;
+
+/// A strip with more lines than this is a face of a machined part.
+const MOST_LINES: usize = 64;
+
+/// A flat strip between two lines along an axis.
+#[derive(Debug, Clone, Copy)]
+struct Strip {
+    axis: DVec3,
+    normal: DVec3,
+    /// In its middle, and its width across the axis.
+    middle: DVec3,
+    width: f64,
+    ends: [f64; 2],
+    /// Whether it is narrower at both ends, as slices of rings are.
+    tapers: bool,
+}
+
+/// Two strips side by side, and the circle that both are chords of.
+struct Pair {
+    strips: [usize; 2],
+    centre: DVec3,
+    radius: f64,
+    hollow: bool,
+}
+
+/// The cylinders of a mesh, by part, then by radius, the largest first.
+#[must_use]
+pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
+    let normals: Vec<DVec3> = (0..mesh.triangles.len())
+        .map(|face| {
+            let [a, b, c] = mesh.corners(FaceId(face as u32));
+            (b - a).cross(c - a).try_normalize().unwrap_or_default()
+        })
+        .collect();
+    let two = |edge: usize| match mesh.edges.faces(edge) {
+        EdgeFaces::Two { faces: [a, b], same_way: false } if mesh.body(a) == mesh.body(b) => Some([a, b]),
+        _ => None,
+    };
+    let turn = |[a, b]: [u32; 2]| normals[a as usize].dot(normals[b as usize]);
+    let facets = Groups::new(mesh.triangles.len(), |join| {
+        for faces in (0..mesh.edges.len()).filter_map(two).filter(|faces| turn(*faces) > FLAT) {
+            join(faces[0], faces[1]);
+        }
+    });
+    // The lines at which the surface bends a little, by the facets on both their sides.
+    let mut lines: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
+    let mut order: Vec<u32> = Vec::new();
+    let facet = |face: u32| facets.of(face);
+    for edge in 0..mesh.edges.len() {
+        let Some(faces) = two(edge).filter(|faces| (SHARP..=FLAT).contains(&turn(*faces))) else { continue };
+        for face in faces {
+            let own = lines.entry(facet(face)).or_default();
+            if own.is_empty() {
+                order.push(facet(face));
+            }
+            own.push(edge);
+        }
+    }
+    let mut first_face: FxHashMap<u32, u32> = FxHashMap::default();
+    for face in 0..mesh.triangles.len() as u32 {
+        first_face.entry(facet(face)).or_insert(face);
+    }
+    let mut strips: Vec<Strip> = Vec::new();
+    let mut edges_of: Vec<Vec<usize>> = Vec::new();
+    let mut part_of: Vec<PartId> = Vec::new();
+    let mut at_edge: FxHashMap<usize, Vec<usize>> = FxHashMap::default();
+    let mut edges: Vec<usize> = Vec::new();
+    for own in order {
+        let (Some(lines), Some(face)) = (lines.get(&own), first_face.get(&own)) else { continue };
+        for (strip, along) in strips_of(mesh, lines, normals[*face as usize]) {
+            for edge in &along {
+                let known = at_edge.entry(*edge).or_default();
+                if known.is_empty() {
+                    edges.push(*edge);
+                }
+                known.push(strips.len());
+            }
+            strips.push(strip);
+            edges_of.push(along);
+            part_of.push(mesh.face_part[*face as usize]);
+        }
+    }
+    edges.sort_unstable();
+    let pairs: Vec<Pair> =
+        edges.iter().flat_map(|edge| pairs_at(mesh, *edge, &at_edge[edge], &strips)).collect();
+    let mut found = grouped(mesh, &pairs, (&strips, &edges_of), &part_of);
+    let rims = rims(mesh, &normals, &facets, &found);
+    found.extend(rims);
+    found.sort_by(|a, b| a.part.index().cmp(&b.part.index()).then(b.radius.total_cmp(&a.radius)));
+    found
+}
+
+/// The strips that a facet is, one for each direction in which all its lines that run so lie on two sides; and these lines.
+fn strips_of(mesh: &Mesh, lines: &[usize], normal: DVec3) -> Vec<(Strip, Vec<usize>)> {
+    if lines.len() < 2 || lines.len() > MOST_LINES {
+        return Vec::new();
+    }
+    let ends = |edge: usize| mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
+    let way = |edge: usize| {
+        let [a, b] = ends(edge);
+        (b - a).normalize_or_zero()
+    };
+    let mut done = vec![false; lines.len()];
+    let mut strips = Vec::new();
+    for k in 0..lines.len() {
+        let axis = way(lines[k]);
+        if done[k] || axis == DVec3::ZERO {
+            continue;
+        }
+        let mut along = Vec::new();
+        for (n, edge) in lines.iter().enumerate() {
+            if way(*edge).cross(axis).length() < PARALLEL {
+                done[n] = true;
+                along.push(*edge);
+            }
+        }
+        let across = normal.cross(axis).normalize_or_zero();
+        let place = |edge: &usize| {
+            let [a, b] = ends(*edge);
+            (a + b).dot(across) / 2.0
+        };
+        let low = along.iter().map(place).fold(f64::INFINITY, f64::min);
+        let high = along.iter().map(place).fold(f64::NEG_INFINITY, f64::max);
+        let width = high - low;
+        let is_outer = |edge: &usize| (place(edge) - low).min(high - place(edge)) < 1e-3 * width;
+        if width <= 0.0 || !along.iter().all(is_outer) {
+            continue;
+        }
+        let reach = |side: f64| {
+            let own = along.iter().filter(|edge| (place(edge) - side).abs() < 1e-3 * width);
+            own.flat_map(|edge| ends(*edge)).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], p| {
+                let at = p.dot(axis);
+                [l.min(at), h.max(at)]
+            })
+        };
+        let ([a, b], [c, d]) = (reach(low), reach(high));
+        let (least, most) = (a.min(c), b.max(d));
+        let nearly = 1e-3 * (most - least).max(width);
+        let differs = (a - c).abs() > nearly && (b - d).abs() > nearly;
+        let tapers = differs && (a < c) == (b > d);
+        let some = ends(along[0])[0];
+        let middle = some + across * ((low + high) / 2.0 - some.dot(across));
+        strips.push((Strip { axis, normal, middle, width, ends: [least, most], tapers }, along));
+    }
+    strips
+}
+
+/// The circles of the strips on both sides of a line.
+fn pairs_at(mesh: &Mesh, edge: usize, beside: &[usize], strips: &[Strip]) -> Vec<Pair> {
+    let mut pairs = Vec::new();
+    let on = mesh.positions[mesh.edges.vertices[edge][0] as usize];
+    for (k, a) in beside.iter().enumerate() {
+        for b in &beside[..k] {
+            let (one, other) = (&strips[*a], &strips[*b]);
+            let axis = one.axis;
+            if axis.cross(other.axis).length() > PARALLEL {
+                continue;
+            }
+            // Where the lines across both middles meet, seen along the axis.
+            let flat = |v: DVec3| v - axis * v.dot(axis);
+            let between = flat(other.middle - one.middle);
+            let cross = one.normal.cross(other.normal).dot(axis);
+            if cross.abs() < 1e-9 {
+                continue;
+            }
+            let far = between.cross(other.normal).dot(axis) / cross;
+            let centre = one.middle + one.normal * far;
+            let radius = flat(on - centre).length();
+            let hollow = flat(on - centre).dot(one.normal) < 0.0;
+            pairs.push(Pair { strips: [*a, *b], centre, radius, hollow });
+        }
+    }
+    pairs
+}
+
+/// Pairs that share a strip and a circle, together, as cylinders.
+fn grouped(
+    mesh: &Mesh,
+    pairs: &[Pair],
+    (strips, edges_of): (&[Strip], &[Vec<usize>]),
+    part_of: &[PartId],
+) -> Vec<Cylinder> {
+    let agree = |a: &Pair, b: &Pair| {
+        let axis = strips[a.strips[0]].axis;
+        let apart = a.centre - b.centre;
+        let apart = (apart - axis * apart.dot(axis)).length();
+        let reach = SAME * a.radius.min(b.radius);
+        a.hollow == b.hollow && apart < reach && (a.radius - b.radius).abs() < reach
+    };
+    let mut at_strip: Vec<Vec<usize>> = vec![Vec::new(); strips.len()];
+    for (k, pair) in pairs.iter().enumerate() {
+        pair.strips.iter().for_each(|strip| at_strip[*strip].push(k));
+    }
+    let groups = Groups::new(pairs.len(), |join| {
+        for own in &at_strip {
+            for (k, a) in own.iter().enumerate() {
+                for b in own[..k].iter().filter(|b| agree(&pairs[*a], &pairs[**b])) {
+                    join(*a as u32, *b as u32);
+                }
+            }
+        }
+    });
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); pairs.len()];
+    for k in 0..pairs.len() {
+        members[groups.of(k as u32) as usize].push(k);
+    }
+    let mut found: Vec<Cylinder> = Vec::new();
+    for own in members.into_iter().filter(|own| own.len() > 1) {
+        let mut of: Vec<usize> = own.iter().flat_map(|pair| pairs[*pair].strips).collect();
+        of.sort_unstable();
+        of.dedup();
+        if of.iter().all(|strip| strips[*strip].tapers) {
+            continue;
+        }
+        let axis = strips[of[0]].axis;
+        let mean = |value: &dyn Fn(&Pair) -> f64| {
+            own.iter().map(|k| value(&pairs[*k])).sum::<f64>() / own.len() as f64
+        };
+        let centre = own.iter().map(|k| pairs[*k].centre).sum::<DVec3>() / own.len() as f64;
+        let radius = mean(&|pair| pair.radius);
+        let angle = |width: f64| {
+            let half = (width / 2.0).min(radius);
+            2.0 * atan2(half, (radius * radius - half * half).sqrt())
+        };
+        let arc: f64 = of.iter().map(|strip| angle(strips[*strip].width)).sum();
+        // Where it begins and ends, in the direction of its first strip.
+        let ends = of.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], strip| {
+            let [a, b] = strips[*strip].ends;
+            let [a, b] = if strips[*strip].axis.dot(axis) < 0.0 { [-b, -a] } else { [a, b] };
+            [low.min(a), high.max(b)]
+        });
+        let ends = ends.map(|end| end - centre.dot(axis));
+        let corners = corners_of(mesh, &of, edges_of);
+        let (centre, radius, spread) = fitted(&corners, axis, centre, radius);
+        let (part, point) = (part_of[of[0]], centre + mesh.origin);
+        let (arc, hollow) = (arc.min(TAU), pairs[own[0]].hollow);
+        merge(mesh, &mut found, Cylinder { part, point, axis, radius, spread, ends, arc, hollow });
+    }
+    found
+}
+
+/// The ends of the lines on both sides of strips, each once.
+fn corners_of(mesh: &Mesh, strips: &[usize], edges_of: &[Vec<usize>]) -> Vec<DVec3> {
+    let edges = strips.iter().flat_map(|strip| &edges_of[*strip]);
+    let mut corners: Vec<u32> = edges.flat_map(|edge| mesh.edges.vertices[*edge]).collect();
+    corners.sort_unstable();
+    corners.dedup();
+    corners.into_iter().map(|corner| mesh.positions[corner as usize]).collect()
+}
+
+/// The centre and the radius of the circle that corners are on, seen along an axis, and how far they are from it at most. Where the
+/// fit leaves the circle that is known, as on a short arc, that one stays.
+///
+/// The lines across two narrow strips meet at a small angle, so that their centre is far less certain than that of all corners. Source:
+/// Kåsa, A circle fitting procedure and its error analysis, 1976.
+fn fitted(corners: &[DVec3], axis: DVec3, centre: DVec3, radius: f64) -> (DVec3, f64, f64) {
+    let across = axis.any_orthonormal_vector();
+    let along = axis.cross(across);
+    let flat = |p: &DVec3| DVec2::new((*p - centre).dot(across), (*p - centre).dot(along));
+    let spread = |to: DVec2, radius: f64| {
+        corners.iter().map(|p| (flat(p).distance(to) - radius).abs()).fold(0.0, f64::max)
+    };
+    let known = || (centre, radius, spread(DVec2::ZERO, radius));
+    let count = corners.len() as f64;
+    let mean = corners.iter().map(flat).sum::<DVec2>() / count;
+    let (mut xx, mut xy, mut yy, mut right) = (0.0, 0.0, 0.0, DVec2::ZERO);
+    for away in corners.iter().map(|p| flat(p) - mean) {
+        (xx, xy, yy) = (xx + away.x * away.x, xy + away.x * away.y, yy + away.y * away.y);
+        right += away * (away.length_squared() / 2.0);
+    }
+    let determinant = xx * yy - xy * xy;
+    let to = mean + DVec2::new(yy * right.x - xy * right.y, xx * right.y - xy * right.x) / determinant;
+    if !to.is_finite() || to.length() > SAME * radius {
+        return known();
+    }
+    let fitted = corners.iter().map(|p| flat(p).distance(to)).sum::<f64>() / count;
+    let off = spread(to, fitted);
+    if (fitted - radius).abs() > SAME * radius || off > SAME * radius {
+        return known();
+    }
+    (centre + across * to.x + along * to.y, fitted, off)
+}
+
+/// Adds a cylinder to the one that it is another piece of, if there is such a one.
+fn merge(mesh: &Mesh, found: &mut Vec<Cylinder>, new: Cylinder) {
+    let body = |part: PartId| body_of(&mesh.bodies, part);
+    let is_same = |known: &&mut Cylinder| {
+        let apart = known.point - new.point;
+        let reach = SAME * new.radius;
+        body(known.part) == body(new.part)
+            && known.hollow == new.hollow
+            && known.axis.cross(new.axis).length() < PARALLEL
+            && (known.radius - new.radius).abs() < reach
+            && (apart - new.axis * apart.dot(new.axis)).length() < reach
+    };
+    match found.iter_mut().find(is_same) {
+        None => found.push(new),
+        Some(known) => {
+            let shift = (new.point - known.point).dot(known.axis);
+            let [a, b] = if known.axis.dot(new.axis) < 0.0 { [-new.ends[1], -new.ends[0]] } else { new.ends };
+            known.ends = [known.ends[0].min(a + shift), known.ends[1].max(b + shift)];
+            known.arc = (known.arc + new.arc).min(TAU);
+            known.spread = known.spread.max(new.spread);
+        }
+    }
+}

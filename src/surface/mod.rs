@@ -1,0 +1,28 @@
+//! The smooth surface that a mesh approximates: creases, patches, normals, curvature and refined faces.
+//!
+//! 1. `patches` classifies each connected component as machined, organic or faceted, and finds the curved
+//!    patches.
+//! 2. `creases` finds the edges where the surface is creased.
+//! 3. `normals` assigns a normal to each smooth vertex, split at creases.
+//! 4. `curvature` estimates principal curvatures and their derivatives.
+//! 5. `refine` subdivides curved faces near the lines of a view.
+//! 6. `cylinders` recovers cylinders from flat strips.
+//!
+//! Folders, in reading order: [`creases`], [`patches`], [`normals`], [`curvature`], [`refine`],
+//! [`cylinders`].
+
+pub mod creases;
+pub mod curvature;
+pub mod cylinders;
+pub mod normals;
+pub mod patches;
+pub mod refine;
+
+pub use creases::hard_edges::HardEdges;
+pub use curvature::principal_curvatures::Principal;
+pub use curvature::surface_curvature::Curvature;
+pub use cylinders::strip_cylinders::{Cylinder, cylinders};
+pub use normals::smooth_normals::SmoothNormals;
+pub use patches::patch_layout::Patches;
+pub use patches::surface_class::Origin;
+pub use refine::edge_arc::EdgeArc;

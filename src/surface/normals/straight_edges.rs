@@ -1,0 +1,157 @@
+//! `straight`: edges over which the surface is straight, though the normals at their ends turn: those are the normals of
+//! a bevel or a fillet that begins there.
+
+use glam::DVec3;
+
+use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::{EdgeFaces, Mesh};
+use crate::surface::SmoothNormals;
+
+/// Edges more than so many times as long as what is beside them and beyond are straight, between normals that lean apart by more than
+/// those of gentle edges.
+const UNEVEN_LENGTHS: f64 = 4.0;
+
+/// The cosine of the angle between the normals at the ends of an edge beyond which it is gentle: 15 degrees.
+pub const GENTLE_COSINE: f64 = 0.966;
+
+/// Edges between normals that lean apart by little, and that no edge touches that parts surfaces.
+pub(crate) fn gentle(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
+    let parted = smooth.parted_vertices(mesh);
+    EdgeSet::collect(mesh.edges.len(), |edge| {
+        let [a, b] = mesh.edges.vertices[edge].map(|vertex| vertex as usize);
+        let is_parted = |vertex: usize| parted.get(vertex) == Some(&true);
+        smooth.normals[a].dot(smooth.normals[b]) > GENTLE_COSINE && !is_parted(a) && !is_parted(b)
+    })
+}
+
+/// Long edges beside short ones, where the surface runs on over as short a way beyond the end at which the normal leans more:
+/// what is between the ends does not bend with what is short. Where it runs on as far, it bends over all of that way. The gentle
+/// edges are to be known.
+pub(crate) fn straight(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
+    EdgeSet::collect(mesh.edges.len(), |edge| {
+        if smooth.gentle.contains(edge) {
+            return false;
+        }
+        let Some([a, b]) = smooth.across(mesh, edge) else { return false };
+        let normals = [a, b].map(|v| smooth.normals[v as usize]);
+        if normals[0].dot(normals[1]) > GENTLE_COSINE {
+            return false;
+        }
+        let [from, to] = [a, b].map(|v| mesh.positions[smooth.vertices[v as usize] as usize]);
+        let least = from.distance(to) / UNEVEN_LENGTHS;
+        if !mesh.edges.faces(edge).list().iter().any(|face| shortest_side(mesh, *face) < least) {
+            return false;
+        }
+        let along = to - from;
+        let leans_at_first = normals[0].dot(along).abs() > normals[1].dot(along).abs();
+        let (end, onward) = if leans_at_first { (a, -along) } else { (b, along) };
+        beyond(mesh, smooth, edge, (end, onward)).is_none_or(|way| way < least)
+    })
+}
+
+fn shortest_side(mesh: &Mesh, face: u32) -> f64 {
+    let [a, b, c] = mesh.triangles[face as usize].map(|v| mesh.positions[v as usize]);
+    a.distance_squared(b).min(b.distance_squared(c)).min(c.distance_squared(a)).sqrt()
+}
+
+/// How far a surface runs on straight beyond an end of an edge, a smooth vertex, in a direction: to the far side of the face that
+/// lies there. Nothing where the surface ends.
+fn beyond(mesh: &Mesh, smooth: &SmoothNormals, edge: usize, (end, direction): (u32, DVec3)) -> Option<f64> {
+    let (vertex, normal) = (smooth.vertices[end as usize], smooth.normals[end as usize]);
+    let onward = direction - normal * normal.dot(direction);
+    let aside = normal.cross(onward);
+    let way = |face: u32| {
+        let corners = mesh.triangles[face as usize];
+        let at = corners.iter().position(|v| *v == vertex)?;
+        let [a, b] =
+            [1, 2].map(|k| mesh.positions[corners[(at + k) % 3] as usize] - mesh.positions[vertex as usize]);
+        let (right, left) = (a.dot(aside), b.dot(aside));
+        // The face lies to both sides of the way.
+        if right > 0.0 || left < 0.0 || left <= right {
+            return None;
+        }
+        let met = a.lerp(b, right / (right - left));
+        (met.dot(onward) > 0.0).then(|| met.length())
+    };
+    fan(mesh, smooth, vertex, edge).filter_map(way).min_by(f64::total_cmp)
+}
+
+/// The faces of a surface around an end of an edge, on round from both its sides; each twice where they close.
+fn fan(mesh: &Mesh, smooth: &SmoothNormals, vertex: u32, edge: usize) -> impl Iterator<Item = u32> {
+    let beside = match mesh.edges.faces(edge) {
+        EdgeFaces::One(face) => [Some(face), None],
+        EdgeFaces::Two { faces: [a, b], .. } => [Some(a), Some(b)],
+        EdgeFaces::Many(_) => [None; 2],
+    };
+    beside.into_iter().flatten().flat_map(move |first| {
+        let (mut next, mut crossed) = (Some(first), edge);
+        std::iter::from_fn(move || {
+            let face = next.take()?;
+            let side = other_side(mesh, face, vertex, crossed)?;
+            crossed = side;
+            if let EdgeFaces::Two { faces, .. } = mesh.edges.faces(side)
+                && side != edge
+                && !smooth.parting.contains(side)
+            {
+                next = Some(faces[usize::from(faces[0] == face)]);
+            }
+            Some(face)
+        })
+    })
+}
+
+/// The other side of a face at a vertex.
+fn other_side(mesh: &Mesh, face: u32, vertex: u32, side: usize) -> Option<usize> {
+    let ends = mesh.edges.vertices[side];
+    let far = mesh.triangles[face as usize].into_iter().find(|v| !ends.contains(v))?;
+    mesh.edges.vertices.binary_search(&[vertex.min(far), vertex.max(far)]).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::numbers::portable_math::{cos, sin};
+    use crate::mesh::Soup;
+
+    /// A limb along x: six corners around each of its rings, and a tip at each end. Normals lean out at rings towards the ends.
+    fn limb(rings: &[f64], tips: [f64; 2]) -> Mesh {
+        const AROUND: u32 = 6;
+        let mut soup = Soup::default();
+        let mut put = |position: DVec3, normal: DVec3| {
+            soup.positions.push(position);
+            soup.normals.push(normal.normalize().as_vec3().to_array());
+        };
+        tips.into_iter().for_each(|x| put(DVec3::X * x, DVec3::X * x));
+        for x in rings {
+            for k in 0..AROUND {
+                let turn = std::f64::consts::TAU * f64::from(k) / f64::from(AROUND);
+                let out = DVec3::new(0.0, cos(turn), sin(turn));
+                put(out + DVec3::X * *x, out + DVec3::X * x.clamp(-1.0, 1.0));
+            }
+        }
+        let at = |ring: usize, k: u32| 2 + ring as u32 * AROUND + k % AROUND;
+        for k in 0..AROUND {
+            let last = rings.len() - 1;
+            soup.triangles.extend([[0, at(0, k + 1), at(0, k)], [1, at(last, k), at(last, k + 1)]]);
+            for ring in 0..last {
+                let [a, b] = [at(ring, k), at(ring, k + 1)];
+                let [c, d] = [at(ring + 1, k), at(ring + 1, k + 1)];
+                soup.triangles.extend([[a, b, c], [b, d, c]]);
+            }
+        }
+        soup.corner_normals = soup.triangles.clone();
+        Mesh::build(soup)
+    }
+
+    fn straight_edges(mesh: &Mesh) -> usize {
+        let smooth = SmoothNormals::new(mesh, |_| true, |_| false);
+        (0..mesh.edges.len()).filter(|edge| smooth.straight.contains(*edge)).count()
+    }
+
+    #[test]
+    fn a_bar_is_straight_between_its_caps_and_a_spindle_bends_over_its_tips() {
+        assert_eq!(straight_edges(&limb(&[-3.0, 3.0], [-3.0, 3.0])), 12, "long edges and diagonals of a bar");
+        // As slim, but beyond each tip the other side is as long.
+        assert_eq!(straight_edges(&limb(&[0.0], [-6.0, 6.0])), 0);
+    }
+}

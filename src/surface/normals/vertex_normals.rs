@@ -1,0 +1,156 @@
+//! Makes [`SmoothNormals`] of a mesh: a normal for each vertex, and more of them where surfaces are parted.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::file_normals::{chosen, file_normals};
+use super::normal_sum::{FaceWeights, NormalSum};
+use super::smooth_normals::{NO_NORMAL, SmoothNormals};
+use super::straight_edges;
+use super::vertex_split;
+use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::{EdgeFaces, Mesh, Share, share_count, shares};
+use crate::parallel::task_size::GRAIN;
+
+/// Vertices whose normals are summed as one piece of work.
+const SHARE: usize = 1 << 13;
+
+impl SmoothNormals {
+    /// The normals of a mesh all of which is one rounded surface without hard edges.
+    #[must_use]
+    pub fn rounded(mesh: &Mesh) -> Self {
+        Self {
+            normals: vertex_normals(mesh, |_| true),
+            vertices: (0..mesh.positions.len() as u32).collect(),
+            corners: mesh.triangles.clone(),
+            parting: EdgeSet::default(),
+            straight: EdgeSet::default(),
+            gentle: EdgeSet::default(),
+            seamless: true,
+        }
+    }
+
+    /// The normals of a mesh of which the faces with `is_rounded` belong to rounded surfaces, which
+    /// the edges with `is_hard` part. The file's own normals are taken where it has any.
+    #[must_use]
+    pub fn new(
+        mesh: &Mesh,
+        is_rounded: impl Fn(u32) -> bool + Sync,
+        is_hard: impl Fn(usize) -> bool + Sync,
+    ) -> Self {
+        let mut smooth = Self::parted(mesh, is_rounded, is_hard);
+        if !smooth.is_empty() {
+            smooth.gentle = straight_edges::gentle(mesh, &smooth);
+            smooth.straight = straight_edges::straight(mesh, &smooth);
+        }
+        smooth
+    }
+
+    /// The same without a look at which edges are gentle or straight: light does not ask for them.
+    #[must_use]
+    pub fn parted(
+        mesh: &Mesh,
+        is_rounded: impl Fn(u32) -> bool + Sync,
+        is_hard: impl Fn(usize) -> bool + Sync,
+    ) -> Self {
+        let faces = 0..mesh.triangles.len() as u32;
+        let rounded: Vec<bool> = faces.into_par_iter().with_min_len(GRAIN).map(&is_rounded).collect();
+        if !rounded.contains(&true) {
+            return Self::default();
+        }
+        let parting = EdgeSet::collect(mesh.edges.len(), |edge| match mesh.edges.faces(edge) {
+            EdgeFaces::One(_) => false,
+            EdgeFaces::Two { faces, same_way } => {
+                let count = faces.iter().filter(|f| rounded[**f as usize]).count();
+                count == 1 || (count == 2 && (same_way || is_hard(edge)))
+            }
+            EdgeFaces::Many(faces) => faces.iter().any(|f| rounded[*f as usize]),
+        });
+        let all = !rounded.contains(&false);
+        let corners = if all {
+            mesh.triangles.clone()
+        } else {
+            let of = |(t, rounded): (&[u32; 3], &bool)| if *rounded { *t } else { [NO_NORMAL; 3] };
+            mesh.triangles.par_iter().zip(&rounded).with_min_len(GRAIN).map(of).collect()
+        };
+        let mut smooth = Self {
+            normals: vertex_normals(mesh, |face| rounded[face]),
+            vertices: (0..mesh.positions.len() as u32).collect(),
+            corners,
+            seamless: all && parting.is_empty(),
+            parting,
+            straight: EdgeSet::default(),
+            gentle: EdgeSet::default(),
+        };
+        vertex_split::part(mesh, &mut smooth);
+        smooth
+    }
+}
+
+/// The normal of each vertex from the faces with `counts` around it, or those that the file has
+/// there.
+fn vertex_normals(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> Vec<DVec3> {
+    let count = mesh.positions.len();
+    // Sums of so many vertices at once stay in the cache; faces at the rim of a share are weighed for each that they touch.
+    let shares = shares(count, &mesh.triangles, share_count(count, SHARE));
+    let mut normals = vec![DVec3::ZERO; count];
+    let mut rest = &mut normals[..];
+    let work: Vec<(&Share, &mut [DVec3])> = shares
+        .iter()
+        .map(|share| {
+            let (own, others) = std::mem::take(&mut rest).split_at_mut(share.vertices.len());
+            rest = others;
+            (share, own)
+        })
+        .collect();
+    work.into_par_iter().with_max_len(1).for_each(|(share, normals)| {
+        let mut sums = vec![NormalSum::default(); share.vertices.len()];
+        let mut own = vec![DVec3::ZERO; if mesh.corner_normals.is_empty() { 0 } else { sums.len() }];
+        for face in share.faces.iter().flat_map(Clone::clone).filter(|face| counts(*face)) {
+            let triangle = mesh.triangles[face];
+            let slots = triangle.map(|v| (v as usize).wrapping_sub(share.vertices.start));
+            let Some(weighted) = FaceWeights::new(triangle.map(|v| mesh.positions[v as usize])) else {
+                continue;
+            };
+            for (k, slot) in slots.iter().enumerate() {
+                if let Some(sum) = sums.get_mut(*slot) {
+                    sum.add(&weighted, k);
+                }
+            }
+            if !own.is_empty() {
+                for (slot, normal) in slots.iter().zip(file_normals(mesh, face)) {
+                    if let Some(sum) = own.get_mut(*slot) {
+                        *sum += normal;
+                    }
+                }
+            }
+        }
+        let of_file = |k: usize| own.get(k).copied().unwrap_or_default();
+        let of_faces = sums.iter().map(NormalSum::normal);
+        normals.iter_mut().zip(of_faces).enumerate().for_each(|(k, (normal, of_faces))| {
+            *normal = chosen(of_faces, of_file(k));
+        });
+    });
+    normals
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Soup;
+
+    #[test]
+    fn normals_of_an_inscribed_polyhedron_are_those_of_the_sphere() {
+        // An octahedron with one corner moved along the sphere.
+        let tilted = DVec3::new(0.6, 0.0, 0.8);
+        let positions = vec![DVec3::X, DVec3::Y, tilted, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
+        let triangles =
+            vec![[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]];
+        let mesh = Mesh::build(Soup { positions, triangles, ..Soup::default() });
+        let smooth = SmoothNormals::rounded(&mesh);
+        for (normal, position) in smooth.normals.iter().zip(&mesh.positions) {
+            let on_sphere = *position + mesh.origin;
+            assert!(normal.distance(on_sphere) < 1e-9, "{normal} at {on_sphere}");
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! [`sums`]: what items add to groups, summed in an order that no thread changes.
+
+use std::ops::AddAssign;
+
+use crate::parallel::prelude::*;
+
+/// Items whose sums are made as one piece of work.
+const CHUNK: usize = 1 << 13;
+
+/// The sums of so many groups over so many items: `adds` says what an item adds to which groups.
+///
+/// Neighbours mostly add to one group, so that what is kept meanwhile is a sum for each run of them.
+pub(crate) fn sums<T, A>(groups: usize, items: usize, adds: impl Fn(usize) -> A + Sync) -> Vec<T>
+where
+    T: Clone + Default + Send + for<'a> AddAssign<&'a T>,
+    A: IntoIterator<Item = (u32, T)>,
+{
+    let runs_of = |items: std::ops::Range<usize>| {
+        let mut runs: Vec<(u32, T)> = Vec::new();
+        // The run that goes on is not in the list, so that it can be in registers.
+        let mut last: Option<(u32, T)> = None;
+        for item in items {
+            adds(item).into_iter().for_each(|(group, own)| match &mut last {
+                Some((of, sum)) if *of == group => *sum += &own,
+                _ => runs.extend(last.replace((group, own))),
+            });
+        }
+        runs.extend(last);
+        runs
+    };
+    let runs: Vec<Vec<(u32, T)>> = (0..items.div_ceil(CHUNK))
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|k| runs_of(k * CHUNK..((k + 1) * CHUNK).min(items)))
+        .collect();
+    let mut sums = vec![T::default(); groups];
+    for (group, run) in runs.iter().flatten() {
+        sums[*group as usize] += run;
+    }
+    sums
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_item_is_added_to_its_groups_and_on_any_threads_alike() {
+        let items = 3 * CHUNK + 17;
+        let adds = |k: usize| [((k / 1000 % 7) as u32, 1.0 / (k + 1) as f64), (7, 1.0)];
+        let on = |threads| {
+            let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| sums::<f64, _>(9, items, adds))
+        };
+        let found = on(1);
+        assert_eq!(found, on(3));
+        assert_eq!(found[7..], [items as f64, 0.0]);
+        for group in 0..7 {
+            let plain: f64 = (0..items).map(adds).filter(|a| a[0].0 == group).map(|a| a[0].1).sum();
+            assert!((found[group as usize] - plain).abs() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! Classification of components, and the borders between flat, faceted and curved patches.
+//!
+//! 1. Flat edges join faces to planar regions.
+//! 2. Each connected component is classified as machined, round or faceted, from planar area, edge angles
+//!    and file normals. File normals that do not fit the surface are rejected.
+//! 3. On machined components, patches with enough total curvature (Meyer et al. 2002) count as round.
+//! 4. Borders of planar regions and of narrow strips separate patches.
+//!
+//! Files, in reading order: [`patch_layout`] (all steps), [`planar_regions`] (step 1), [`component_classes`]
+//! (step 2), [`surface_class`] (its result), [`normal_validation`], [`sliver_bends`], [`curved_patches`]
+//! (step 3), [`group_sums`].
+
+mod component_classes;
+mod curved_patches;
+mod group_sums;
+mod normal_validation;
+pub mod patch_layout;
+pub(crate) mod planar_regions;
+mod sliver_bends;
+pub(crate) mod surface_class;

@@ -1,0 +1,131 @@
+//! [`Slender`]: faces that are long and thin, and whether the surface bends along them.
+//!
+//! Whoever samples a round surface puts more points where it bends more: a face may be long where the surface is straight, and is
+//! short across a bend. Programs that tessellate patches of machined parts, and hulls of points, do not care: their faces
+//! reach from one end of a patch to the other, whatever it does between.
+
+use super::planar_regions::area;
+use crate::geometry::numbers::portable_math::cos;
+use crate::mesh::{FaceId, FirstEdges, Mesh, Turns};
+
+/// The cosine (40 degrees) beyond which an edge is a corner and no bend.
+const CORNER_COSINE: f32 = 0.766;
+/// The angle of that corner.
+const CORNER: f64 = 0.698;
+/// A face that turns by an angle over a short side stands out from its plane as if it were an arc of so much: an eighth of its length
+/// times the angle. It bends if that is half its width.
+const BEND: f64 = 4.0;
+/// By more than this share is more than rounding.
+const FAR: f64 = 1.0 + 1e-9;
+
+/// How long and how wide a face is that bends if it turns by less than a corner.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Slender {
+    /// The longest side, world units.
+    pub length: f64,
+    /// Across it, world units.
+    pub width: f64,
+}
+
+impl Slender {
+    /// Whether a face of an area with such a longest side is slender.
+    #[inline]
+    pub fn is(area: f64, longest: f64) -> bool {
+        area > 0.0 && 2.0 * area * BEND < CORNER * longest * longest
+    }
+
+    /// A face, if it is slender.
+    pub fn of(mesh: &Mesh, face: u32) -> Option<Self> {
+        let [a, b, c] = mesh.corners(FaceId(face));
+        let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+        // Most are not by far, which needs no roots.
+        if (b - a).cross(c - a).length_squared() * BEND * BEND > FAR * (CORNER * longest).powi(2) {
+            return None;
+        }
+        let (area, length) = (area(mesh, face), longest_side(mesh, face));
+        Self::is(area, length).then(|| Self { length, width: 2.0 * area / length })
+    }
+}
+
+/// The longest side of a face, world units.
+#[inline]
+pub(crate) fn longest_side(mesh: &Mesh, face: u32) -> f64 {
+    let [a, b, c] = mesh.corners(FaceId(face));
+    a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt()
+}
+
+/// Over how many of its two short sides the surface bends along a slender face.
+pub(crate) fn bends_over_its_ends(
+    mesh: &Mesh,
+    (turns, edges): (&Turns, &FirstEdges),
+    face: u32,
+    slender: Slender,
+) -> u32 {
+    let least = cos(BEND * slender.width / slender.length) as f32;
+    let [a, b, c] = mesh.triangles[face as usize];
+    let bends = |[a, b]: [u32; 2]| {
+        let [from, to] = [a, b].map(|v| mesh.positions[v as usize]);
+        let is_short = from.distance(to) < slender.length;
+        let turns_less = |edge| (CORNER_COSINE..least).contains(&turns.of_two(edge));
+        is_short && edges.between(a, b).is_some_and(turns_less)
+    };
+    [[a, b], [b, c], [c, a]].into_iter().filter(|side| bends(*side)).count() as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::geometry::numbers::portable_math::{cos, sin};
+    use crate::mesh::{Mesh, Soup};
+    use crate::surface::Origin;
+    use crate::surface::{HardEdges, Patches};
+    use glam::DVec3;
+
+    /// A body turned about z, of rings of 40 corners, each turned by half a corner against the last, and two tips.
+    fn turned(rings: &[[f64; 2]], tips: f64) -> Mesh {
+        const AROUND: u32 = 40;
+        let mut soup = Soup { positions: vec![DVec3::Z * -tips, DVec3::Z * tips], ..Soup::default() };
+        for (ring, [radius, z]) in (0u32..).zip(rings) {
+            soup.positions.extend((0..AROUND).map(|k| {
+                let turn = std::f64::consts::TAU * (f64::from(k) + 0.5 * f64::from(ring)) / f64::from(AROUND);
+                DVec3::new(radius * cos(turn), radius * sin(turn), *z)
+            }));
+        }
+        let last = rings.len() as u32 - 1;
+        let at = |ring: u32, k: u32| 2 + ring * AROUND + k % AROUND;
+        for k in 0..AROUND {
+            soup.triangles.extend([[0, at(0, k + 1), at(0, k)], [1, at(last, k), at(last, k + 1)]]);
+            for ring in 0..last {
+                let [a, b] = [at(ring, k), at(ring, k + 1)];
+                let [c, d] = [at(ring + 1, k), at(ring + 1, k + 1)];
+                soup.triangles.extend([[a, b, c], [b, d, c]]);
+            }
+        }
+        Mesh::build(soup)
+    }
+
+    /// A barrel with steep lids that is cut across so often.
+    fn barrel(rings: i32, lids: i32) -> Mesh {
+        let radius = |z: f64| 1.0 - 0.05 * z * z;
+        let mut profile: Vec<[f64; 2]> = (0..=rings)
+            .map(|k| 4.0 * f64::from(k) / f64::from(rings) - 2.0)
+            .map(|z| [radius(z), z])
+            .collect();
+        let lid = |k: i32| f64::from(k) / f64::from(lids);
+        for k in 1..lids {
+            profile.push([0.8 * (1.0 - lid(k)), 2.0 + 1.4 * lid(k)]);
+            profile.insert(0, [0.8 * (1.0 - lid(k)), -2.0 - 1.4 * lid(k)]);
+        }
+        turned(&profile, 3.4)
+    }
+
+    #[test]
+    fn faces_from_end_to_end_over_a_bend_are_of_no_scan() {
+        let origins = |mesh: &Mesh| Patches::new(mesh, 40.0, false).origins;
+        let is = |origin: Origin| move |of_face: &Origin| *of_face == origin;
+        let (hull, scan) = (barrel(1, 1), barrel(24, 8));
+        assert!(origins(&hull).iter().all(is(Origin::Constructed)));
+        assert!(origins(&scan).iter().all(is(Origin::Scanned)));
+        // Neither by its corners: there are none.
+        assert_eq!([hull, scan].map(|mesh| HardEdges::above(&mesh, 40.0).count()), [0, 0]);
+    }
+}

@@ -1,0 +1,340 @@
+//! `splice`: a mesh of which some faces were cut into pieces, put together of what was kept and the pieces.
+//!
+//! Mostly a few faces in a hundred are cut, for one view: all else is copied as it is, run by run.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use glam::DVec3;
+
+use crate::mesh::normals::face_normals::face_normals;
+use crate::mesh::{EdgeMark, EdgeSet, Edges, FaceId, MaterialId, Mesh, Overlay, PaintId, PartId};
+use crate::surface::SmoothNormals;
+
+/// Texture coordinates and colours of new corners are rounded to this part.
+const UV_STEPS: f64 = 65536.0;
+
+/// Of more faces than this in a mesh that is given away, one thing is done after the other, so that less is there at a time.
+const MANY_FACES: usize = 500_000;
+
+/// A piece of a face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Facet {
+    /// Smooth vertices.
+    pub corners: [u32; 3],
+    /// Those of the sides 0-1, 1-2, 2-0.
+    pub marks: [EdgeMark; 3],
+    /// The face of the given mesh it is part of.
+    pub face: u32,
+}
+
+/// A mesh of which faces were cut.
+#[derive(Debug, Clone)]
+pub struct Refined {
+    /// The finer mesh; its first vertices are those of the given one.
+    pub mesh: Mesh,
+    /// Its normals.
+    pub smooth: SmoothNormals,
+    /// The face of the given mesh that each of its faces is, or is part of; those of the faces that were kept ascend.
+    pub hosts: Vec<u32>,
+    /// How many faces were kept, which are the first ones.
+    pub kept: usize,
+    /// The edge of the finer mesh that each edge of the given one is, `u32::MAX` for those that were cut.
+    pub edges: Vec<u32>,
+}
+
+/// What is cut of a mesh, and into what.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Cuts {
+    /// The new vertices: positions and normals.
+    pub(crate) positions: Vec<DVec3>,
+    pub(crate) normals: Vec<DVec3>,
+    /// In smooth vertices, of which the new ones are numbered behind those of the mesh.
+    pub(crate) pieces: Vec<Facet>,
+    pub(crate) kept: Kept,
+    /// Edges that stay straight.
+    pub(crate) thin: Vec<usize>,
+    /// The smooth vertices at the ends of new edges that are straight.
+    pub(crate) straight: Vec<[u32; 2]>,
+}
+
+/// The faces that stay as they are.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Kept {
+    runs: Vec<Range<usize>>,
+    count: usize,
+    of: usize,
+}
+
+impl Kept {
+    /// All of so many faces but these, which ascend.
+    pub fn without(of: usize, cut: impl Iterator<Item = u32>) -> Self {
+        let (mut runs, mut next, mut count) = (Vec::new(), 0, of);
+        for face in cut.map(|face| face as usize) {
+            if next < face {
+                runs.push(next..face);
+            }
+            next = face + 1;
+            count -= 1;
+        }
+        if next < of {
+            runs.push(next..of);
+        }
+        Self { runs, count, of }
+    }
+
+    /// What a list has of the faces that are kept, and `more` for the pieces; nothing if the list has nothing.
+    fn carry<T: Copy>(&self, list: Cow<'_, [T]>, more: impl ExactSizeIterator<Item = T>) -> Vec<T> {
+        if list.is_empty() {
+            return Vec::new();
+        }
+        let mut carried = match list {
+            Cow::Borrowed(list) => {
+                let mut carried = Vec::with_capacity(self.count + more.len());
+                self.runs.iter().for_each(|run| carried.extend_from_slice(&list[run.clone()]));
+                carried
+            }
+            Cow::Owned(mut list) => {
+                let mut next = 0;
+                for run in &self.runs {
+                    list.copy_within(run.clone(), next);
+                    next += run.len();
+                }
+                list.truncate(next);
+                list.reserve_exact(more.len());
+                list
+            }
+        };
+        carried.extend(more);
+        carried
+    }
+
+    /// The faces themselves, and `more`.
+    fn hosts(&self, more: impl ExactSizeIterator<Item = u32>) -> Vec<u32> {
+        let mut hosts = Vec::with_capacity(self.count + more.len());
+        self.runs.iter().for_each(|run| hosts.extend(run.start as u32..run.end as u32));
+        hosts.extend(more);
+        hosts
+    }
+
+    /// How many faces before one are kept.
+    fn before(&self, face: usize) -> usize {
+        self.runs.iter().map(|run| run.end.min(face).saturating_sub(run.start)).sum()
+    }
+
+    /// The kept faces among some with their carriers, ascending, as far as these are kept as well.
+    fn carriers(&self, carriers: &[[u32; 2]]) -> Vec<[u32; 2]> {
+        if carriers.is_empty() {
+            return Vec::new();
+        }
+        let renamed = self.renamed();
+        let pairs = carriers.iter().map(|pair| pair.map(|face| renamed[face as usize]));
+        pairs.filter(|[face, carrier]| *face != u32::MAX && *carrier != u32::MAX).collect()
+    }
+
+    /// The number that each face has among those that are kept, `u32::MAX` for the others.
+    fn renamed(&self) -> Vec<u32> {
+        let mut renamed = Vec::with_capacity(self.of);
+        let mut next = 0;
+        for run in &self.runs {
+            renamed.resize(run.start, u32::MAX);
+            renamed.extend(next..next + run.len() as u32);
+            next += run.len() as u32;
+        }
+        renamed.resize(self.of, u32::MAX);
+        renamed
+    }
+}
+
+/// A field of something that may be one's own: then it is taken.
+macro_rules! part {
+    ($of:ident, $field:ident) => {
+        match &mut $of {
+            Cow::Borrowed(of) => Cow::Borrowed(of.$field.as_slice()),
+            Cow::Owned(of) => Cow::Owned(std::mem::take(&mut of.$field)),
+        }
+    };
+}
+
+/// The finer mesh. One that is given away is changed rather than copied.
+pub fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: Cuts) -> Refined {
+    let old = mesh.positions.len();
+    let vertex = |v: u32| match smooth.vertices.get(v as usize) {
+        Some(vertex) => *vertex,
+        None => (old + v as usize - smooth.vertices.len()) as u32,
+    };
+    let triangles: Vec<[u32; 3]> = cuts.pieces.iter().map(|piece| piece.corners.map(vertex)).collect();
+    let edges = match &mut mesh {
+        Cow::Borrowed(mesh) => Cow::Borrowed(&mesh.edges),
+        Cow::Owned(mesh) => Cow::Owned(std::mem::take(&mut mesh.edges)),
+    };
+    let sets = [&smooth.straight, &smooth.parting].map(EdgeSet::clone);
+    let level: Vec<[u32; 2]> = cuts.straight.iter().map(|ends| ends.map(vertex)).collect();
+    let by_edges = || OfEdges::new(&edges, sets, (&cuts, old, &level), &triangles);
+    let (of_edges, (mut mesh, mut smooth)) = if matches!(mesh, Cow::Owned(_)) && cuts.kept.of > MANY_FACES {
+        let of_edges = by_edges();
+        drop(edges);
+        (of_edges, of_faces(mesh, smooth, &cuts, &triangles))
+    } else {
+        crate::parallel::join(by_edges, || of_faces(mesh, smooth, &cuts, &triangles))
+    };
+    mesh.edges = of_edges.edges;
+    (smooth.straight, smooth.parting) = (of_edges.straight, of_edges.parting);
+    let Cuts { pieces, kept, .. } = &cuts;
+    let hosts = kept.hosts(pieces.iter().map(|piece| piece.face));
+    Refined { mesh, smooth, hosts, kept: kept.count, edges: of_edges.ids }
+}
+
+/// What the finer mesh has by edges.
+struct OfEdges {
+    edges: Edges,
+    straight: EdgeSet,
+    parting: EdgeSet,
+    /// See [`Refined::edges`].
+    ids: Vec<u32>,
+}
+
+impl OfEdges {
+    fn new(
+        edges: &Edges,
+        [straight, parting]: [EdgeSet; 2],
+        (cuts, old, level): (&Cuts, usize, &[[u32; 2]]),
+        triangles: &[[u32; 3]],
+    ) -> Self {
+        let Cuts { kept, thin, .. } = cuts;
+        let (before, vertices) = (edges.len(), old + cuts.positions.len());
+        let (edges, ids) = edges.spliced(&kept.renamed(), kept.count as u32, vertices, triangles);
+        let find = |[a, b]: &[u32; 2]| edges.vertices.binary_search(&[*a.min(b), *a.max(b)]).ok();
+        let level: Vec<usize> = level.iter().filter_map(find).collect();
+        let straight = straight.with(thin, before).carried(&ids, edges.len()).with(&level, edges.len());
+        let parting = parting.carried(&ids, edges.len());
+        Self { edges, straight, parting, ids }
+    }
+}
+
+/// All of the finer mesh and its normals that is not by edges.
+fn of_faces(
+    mut mesh: Cow<'_, Mesh>,
+    mut smooth: Cow<'_, SmoothNormals>,
+    cuts: &Cuts,
+    triangles: &[[u32; 3]],
+) -> (Mesh, SmoothNormals) {
+    let Cuts { pieces, kept, .. } = cuts;
+    let own = |piece: &Facet| piece.face as usize;
+    let old = mesh.positions.len();
+    let at = |vertex: u32| match mesh.positions.get(vertex as usize) {
+        Some(at) => *at,
+        None => cuts.positions[vertex as usize - old],
+    };
+    let (new_uvs, corner_uvs) = texture(&mesh, pieces, triangles, at);
+    let colours = colours(&mesh, pieces, triangles, at);
+    let positions = extended(part!(mesh, positions), &cuts.positions);
+    let scale = |piece: usize| mesh.extent(FaceId(pieces[piece].face)).scale;
+    let normals = face_normals(&positions, triangles, scale);
+    let own_parts: Vec<PartId> = pieces.iter().map(|piece| mesh.face_part[own(piece)]).collect();
+    let own_materials: Vec<MaterialId> = pieces.iter().map(|piece| mesh.face_material[own(piece)]).collect();
+    let own_paints: Vec<PaintId> =
+        pieces.iter().filter_map(|piece| mesh.face_paint.get(own(piece)).copied()).collect();
+    let own_overlays: Vec<Overlay> =
+        pieces.iter().filter_map(|piece| mesh.overlays.get(own(piece)).copied()).collect();
+    let finer = Mesh {
+        uvs: extended(part!(mesh, uvs), &new_uvs),
+        corner_uvs: kept.carry(part!(mesh, corner_uvs), corner_uvs.into_iter()),
+        corner_colours: kept.carry(part!(mesh, corner_colours), colours.into_iter()),
+        normals: part!(mesh, normals).into_owned(),
+        // What was cut is rounded, and has the smooth normals.
+        corner_normals: kept.carry(part!(mesh, corner_normals), pieces.iter().map(|_| [u32::MAX; 3])),
+        origin: mesh.origin,
+        extents: mesh.extents.clone(),
+        bodies: mesh.bodies.clone(),
+        face_normals: kept.carry(part!(mesh, face_normals), normals.into_iter()),
+        first_piece: Some(mesh.first_piece.map_or(kept.count, |first| kept.before(first as usize)) as u32),
+        carriers: kept.carriers(&mesh.carriers),
+        face_part: kept.carry(part!(mesh, face_part), own_parts.into_iter()),
+        face_material: kept.carry(part!(mesh, face_material), own_materials.into_iter()),
+        face_paint: kept.carry(part!(mesh, face_paint), own_paints.into_iter()),
+        overlays: kept.carry(part!(mesh, overlays), own_overlays.into_iter()),
+        edge_marks: kept.carry(part!(mesh, edge_marks), pieces.iter().map(|piece| piece.marks)),
+        triangles: kept.carry(part!(mesh, triangles), triangles.iter().copied()),
+        edges: Edges::default(),
+        positions,
+        wires: part!(mesh, wires).into_owned(),
+        cleaning: mesh.cleaning,
+        turned: mesh.turned.clone(),
+    };
+    let added = old as u32..finer.positions.len() as u32;
+    let smooth = SmoothNormals {
+        vertices: extended(part!(smooth, vertices), &added.collect::<Vec<_>>()),
+        normals: extended(part!(smooth, normals), &cuts.normals),
+        corners: kept.carry(part!(smooth, corners), pieces.iter().map(|piece| piece.corners)),
+        parting: EdgeSet::default(),
+        straight: EdgeSet::default(),
+        gentle: EdgeSet::default(),
+        seamless: smooth.seamless,
+    };
+    (finer, smooth)
+}
+
+/// A list and what comes after it.
+fn extended<T: Copy>(list: Cow<'_, [T]>, more: &[T]) -> Vec<T> {
+    match list {
+        Cow::Borrowed(list) => [list, more].concat(),
+        Cow::Owned(mut list) => {
+            list.reserve_exact(more.len());
+            list.extend_from_slice(more);
+            list
+        }
+    }
+}
+
+/// Texture coordinates at the corners of the pieces, to stand behind those of the mesh, and which of all belong to which
+/// corner: on a piece of a face what the face has there.
+fn texture(
+    mesh: &Mesh,
+    pieces: &[Facet],
+    triangles: &[[u32; 3]],
+    at: impl Fn(u32) -> DVec3,
+) -> (Vec<[f32; 2]>, Vec<[u32; 3]>) {
+    if mesh.corner_uvs.is_empty() {
+        return (Vec::new(), Vec::new());
+    }
+    let mut uvs: Vec<[f32; 2]> = Vec::new();
+    let of_piece = |(piece, triangle): (&Facet, &[u32; 3])| {
+        let own = mesh.corner_uvs[piece.face as usize].map(|uv| mesh.uvs.get(uv as usize).copied());
+        let [Some(a), Some(b), Some(c)] = own else { return [u32::MAX; 3] };
+        mixed(mesh, piece.face, triangle.map(&at), [a, b, c]).map(|uv| {
+            uvs.push(uv);
+            (mesh.uvs.len() + uvs.len()) as u32 - 1
+        })
+    };
+    let corner_uvs = pieces.iter().zip(triangles).map(of_piece).collect();
+    (uvs, corner_uvs)
+}
+
+/// The colours of the corners of the pieces: on a piece of a face what the face has there.
+fn colours(
+    mesh: &Mesh,
+    pieces: &[Facet],
+    triangles: &[[u32; 3]],
+    at: impl Fn(u32) -> DVec3,
+) -> Vec<[[f32; 3]; 3]> {
+    if mesh.corner_colours.is_empty() {
+        return Vec::new();
+    }
+    let of_piece = |(piece, triangle): (&Facet, &[u32; 3])| {
+        mixed(mesh, piece.face, triangle.map(&at), mesh.corner_colours[piece.face as usize])
+    };
+    pieces.iter().zip(triangles).map(of_piece).collect()
+}
+
+/// At points of a face what it has there, of what it has at its own corners.
+fn mixed<const N: usize>(mesh: &Mesh, face: u32, points: [DVec3; 3], own: [[f32; N]; 3]) -> [[f32; N]; 3] {
+    points.map(|at| {
+        let weights = mesh.weights(FaceId(face), at);
+        std::array::from_fn(|k| {
+            let exact: f64 = own.iter().zip(weights).map(|(own, w)| f64::from(own[k]) * w).sum();
+            // Neighbours that see the same point from their own planes are to agree.
+            ((exact * UV_STEPS).round() / UV_STEPS) as f32
+        })
+    })
+}

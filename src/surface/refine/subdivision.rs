@@ -1,0 +1,423 @@
+//! Finer triangles on rounded surfaces: edges are cut in the middle of their arcs where the caller
+//! wants it, until it wants no more.
+//!
+//! Whether and where an edge is cut depends on the edge alone, so that the faces on both its sides
+//! agree and no crack opens. Faces are cut by the patterns of their cut sides.
+
+use std::borrow::Cow;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::edge_marks::{Marks, marks};
+use super::face_pieces::{CLOSED, Fate, Parted, Piece, STRAIGHT, Side, is_open};
+use super::mesh_splice::{Cuts, Facet, Kept, Refined, splice};
+use crate::mesh::{EdgeMark, Mesh};
+use crate::surface::normals::smooth_normals::NO_NORMAL;
+use crate::surface::patches::planar_regions::area;
+use crate::surface::{EdgeArc, SmoothNormals};
+
+/// An edge is cut at most this many times over: into 256 pieces.
+const MOST_CUTS: usize = 8;
+
+/// Pieces that one task cuts.
+const CHUNK: usize = 1 << 10;
+
+/// The mesh and its normals with all edges of rounded surfaces cut that are wanted, or `None` where
+/// hardly any is: see [`cuts`].
+#[must_use]
+pub fn refined(
+    mesh: &Mesh,
+    smooth: &SmoothNormals,
+    is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
+    want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
+) -> Option<Refined> {
+    let cuts = cuts(mesh, smooth, |_| true, is_long, |_, _| true, want)?;
+    Some(splice(Cow::Borrowed(mesh), Cow::Borrowed(smooth), cuts))
+}
+
+/// What is cut of a mesh where all edges of rounded surfaces are cut that are wanted, or `None` where
+/// hardly any is. Only runs of [`RUN`](super::edge_marks::RUN) edges for which `is_asked` holds are looked at. `want` is given positions and unit normals of the ends of an edge, always in the
+/// same order, if `is_long`, which is quickly told, holds for its ends, and, where it is gentle, `may` holds for its ends and its
+/// length squared; an edge is cut if it says more than 1. Edges that part surfaces are never cut, nor thin ones, nor those of large parts that are dense enough. What was
+/// cut loses the file's normals.
+#[must_use]
+pub fn cuts(
+    mesh: &Mesh,
+    smooth: &SmoothNormals,
+    is_asked: impl Fn(usize) -> bool + Sync,
+    is_long: impl Fn(DVec3, DVec3) -> bool + Sync,
+    may: impl Fn([u32; 2], f64) -> bool + Sync,
+    want: impl Fn([DVec3; 2], [DVec3; 2]) -> f64 + Sync,
+) -> Option<Cuts> {
+    if smooth.is_empty() {
+        return None;
+    }
+    let Marks { cut, edges, thin } = marks(mesh, smooth, (&is_asked, &is_long, &may), &want);
+    if cut.is_empty() && thin.is_empty() {
+        return None;
+    }
+    let mut work = Work::of(mesh, smooth, &cut);
+    let (kept, mut open) = work.affected(&edges, &thin);
+    let mut done: Vec<Facet> = Vec::new();
+    let mut straight: Vec<[u32; 2]> = Vec::new();
+    for cuts in 0..MOST_CUTS {
+        if cuts > 0 {
+            work.decide(&open, |ends, normals| is_long(ends[0], ends[1]) && want(ends, normals) > 1.0);
+        }
+        let parted = work.parted(&open);
+        open.clear();
+        for Parted { open: left, whole, inner, straight: level } in parted {
+            open.extend(left);
+            done.extend(whole);
+            work.sides.extend(inner);
+            straight.extend(level);
+        }
+        if open.is_empty() {
+            break;
+        }
+    }
+    done.extend(open.iter().map(|piece| piece.facet));
+    let Work { positions, normals, .. } = work;
+    Some(Cuts { positions, normals, pieces: done, kept, thin, straight })
+}
+
+struct Work<'a> {
+    mesh: &'a Mesh,
+    smooth: &'a SmoothNormals,
+    /// The new vertices, which are numbered behind those of the mesh: positions and normals.
+    positions: Vec<DVec3>,
+    normals: Vec<DVec3>,
+    /// All that are, or were, open. Neighbours know a side by its number, so that no vertex is made twice.
+    sides: Vec<Side>,
+}
+
+impl<'a> Work<'a> {
+    /// With the sides between some smooth vertices cut, as those of the first numbers.
+    fn of(mesh: &'a Mesh, smooth: &'a SmoothNormals, cut: &[[u32; 2]]) -> Self {
+        let sides = cut.iter().map(|[a, b]| Side::open(*a, *b)).collect();
+        let mut work = Self { mesh, smooth, positions: Vec::new(), normals: Vec::new(), sides };
+        work.cut(&(0..cut.len() as u32).collect::<Vec<_>>(), |_, _| true);
+        work
+    }
+
+    fn position(&self, v: u32) -> DVec3 {
+        match self.smooth.vertices.get(v as usize) {
+            Some(vertex) => self.mesh.positions[*vertex as usize],
+            None => self.positions[v as usize - self.smooth.vertices.len()],
+        }
+    }
+
+    fn normal(&self, v: u32) -> DVec3 {
+        match self.smooth.normals.get(v as usize) {
+            Some(normal) => *normal,
+            None => self.normals[v as usize - self.smooth.normals.len()],
+        }
+    }
+
+    /// Cuts those of some sides for which `wanted` holds; the others stay whole.
+    fn cut(&mut self, sides: &[u32], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
+        let middle = |side: &u32| {
+            let [a, b] = self.sides[*side as usize].ends;
+            let positions = [self.position(a), self.position(b)];
+            let normals = [self.normal(a), self.normal(b)];
+            wanted(positions, normals).then(|| {
+                let arc = EdgeArc::new(positions, normals);
+                (arc.at(0.5), arc.middle_normal())
+            })
+        };
+        let middles: Vec<Option<(DVec3, DVec3)>> =
+            sides.par_iter().with_min_len(1 << 8).map(middle).collect();
+        for (side, middle) in sides.iter().zip(middles) {
+            let Some((position, normal)) = middle else {
+                self.sides[*side as usize].fate = Fate::Whole;
+                continue;
+            };
+            let middle = (self.smooth.vertices.len() + self.normals.len()) as u32;
+            let halves = self.sides.len() as u32;
+            let [a, b] = self.sides[*side as usize].ends;
+            self.sides[*side as usize].fate = Fate::Cut { middle, halves };
+            self.sides.extend([Side::open(a, middle), Side::open(b, middle)]);
+            self.positions.push(position);
+            self.normals.push(normal);
+        }
+    }
+
+    /// Decides about the open sides of pieces that are not decided yet.
+    fn decide(&mut self, pieces: &[Piece], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
+        // A side is mostly that of two pieces.
+        let mut asked = Vec::with_capacity(pieces.len() * 3 / 2);
+        for side in pieces.iter().flat_map(|piece| piece.sides).filter(is_open) {
+            let fate = &mut self.sides[side as usize].fate;
+            if *fate == Fate::Open {
+                *fate = Fate::Whole;
+                asked.push(side);
+            }
+        }
+        self.cut(&asked, wanted);
+    }
+
+    /// Which faces of the mesh stay as they are, and the pieces to begin with: those at the edges that are cut, which are
+    /// the first sides; `thin` edges stay straight.
+    fn affected(&self, cut: &[u32], thin: &[usize]) -> (Kept, Vec<Piece>) {
+        let Self { mesh, smooth, .. } = self;
+        // Few vertices lie at straight edges, which spares most sides a search.
+        let has_straight = !(smooth.straight.is_empty() && thin.is_empty());
+        let mut at_straight = vec![false; if has_straight { mesh.positions.len() } else { 0 }];
+        for edge in smooth.straight.iter().chain(thin.iter().copied()) {
+            mesh.edges.vertices[edge].iter().for_each(|v| at_straight[*v as usize] = true);
+        }
+        let is_straight = |[a, b]: [u32; 2]| {
+            let ends = [a, b].map(|v| smooth.vertices[v as usize]);
+            if !ends.iter().all(|v| at_straight[*v as usize]) {
+                return false;
+            }
+            let edge = mesh.edges.vertices.binary_search(&[ends[0].min(ends[1]), ends[0].max(ends[1])]);
+            edge.is_ok_and(|edge| smooth.straight.contains(edge) || thin.binary_search(&edge).is_ok())
+        };
+        // Whether the curve over a side of a face would rise by more than the face is wide.
+        let is_sliver = |face: u32, ends: [u32; 2]| {
+            let at = ends.map(|v| self.position(v));
+            let rise = EdgeArc::new(at, ends.map(|v| self.normal(v))).height().length();
+            rise * at[0].distance(at[1]) > 2.0 * area(mesh, face)
+        };
+        // A face with a side, of all that are cut.
+        let mut at: Vec<(u32, u32)> = Vec::with_capacity(2 * cut.len());
+        for (side, edge) in cut.iter().enumerate() {
+            at.extend(mesh.edges.faces(*edge as usize).list().iter().map(|face| (*face, side as u32)));
+        }
+        at.par_sort_unstable();
+        let open_piece = |at: &[(u32, u32)]| {
+            let face = at.first()?.0;
+            let corners = smooth.corners_of(face)?;
+            let marks = mesh.edge_marks.get(face as usize).copied().unwrap_or_default();
+            let ends = [0, 1, 2].map(|k| Side::open(corners[k], corners[(k + 1) % 3]).ends);
+            let stay = ends.map(|ends| has_straight && is_straight(ends));
+            let is_between = stay.iter().filter(|stays| **stays).count() > 1;
+            let sides = [0, 1, 2].map(|k| {
+                match at.iter().find(|(_, side)| self.sides[*side as usize].ends == ends[k]) {
+                    Some((_, side)) => *side,
+                    None if stay[k] && (is_between || is_sliver(face, ends[k])) => STRAIGHT,
+                    None => CLOSED,
+                }
+            });
+            let facet = Facet { corners, marks, face };
+            sides.iter().any(is_open).then_some(Piece { facet, sides })
+        };
+        let open: Vec<Piece> = at.par_chunk_by(|a, b| a.0 == b.0).filter_map(open_piece).collect();
+        let kept = Kept::without(mesh.triangles.len(), open.iter().map(|piece| piece.facet.face));
+        (kept, open)
+    }
+
+    /// The middles of the sides of a piece that are cut, and where their halves are.
+    #[inline]
+    fn cuts(&self, piece: &Piece) -> [Option<(u32, u32)>; 3] {
+        let mut cuts = [None; 3];
+        for (cut, side) in cuts.iter_mut().zip(piece.sides) {
+            if let Some(Side { fate: Fate::Cut { middle, halves }, .. }) = self.sides.get(side as usize) {
+                *cut = Some((*middle, *halves));
+            }
+        }
+        cuts
+    }
+
+    /// Cuts pieces whose sides are decided about.
+    fn parted(&self, pieces: &[Piece]) -> Vec<Parted> {
+        // As many sides are new inside a piece as are cut around it.
+        let inner = |pieces: &[Piece]| {
+            pieces.iter().map(|piece| self.cuts(piece).iter().flatten().count()).sum::<usize>()
+        };
+        let counts: Vec<usize> = pieces.par_chunks(CHUNK).with_max_len(1).map(inner).collect();
+        let mut first = self.sides.len();
+        let of_chunk = |(pieces, count): (_, usize)| {
+            first += count;
+            (pieces, first - count)
+        };
+        let chunks: Vec<(&[Piece], usize)> = pieces.chunks(CHUNK).zip(counts).map(of_chunk).collect();
+        let part = |(pieces, first): (&[Piece], usize)| {
+            let mut parted = Parted {
+                open: Vec::with_capacity(pieces.len() * 2),
+                whole: Vec::with_capacity(pieces.len() * 2),
+                inner: Vec::with_capacity(pieces.len() * 3),
+                straight: Vec::new(),
+            };
+            pieces.iter().for_each(|piece| self.split(piece, first, &mut parted));
+            parted
+        };
+        chunks.into_par_iter().with_max_len(1).map(part).collect()
+    }
+
+    /// Cuts a piece by the pattern of its cut sides; `first` is the number of the first new side of all that are parted with it.
+    fn split(&self, piece: &Piece, first: usize, out: &mut Parted) {
+        let cuts = self.cuts(piece);
+        let count = cuts.iter().flatten().count();
+        // Turned so that side 0 is the only cut one, or side 2 the only whole one.
+        let turn = match count {
+            1 => cuts.iter().position(Option::is_some).unwrap_or(0),
+            2 => (cuts.iter().position(Option::is_none).unwrap_or(0) + 1) % 3,
+            _ => 0,
+        };
+        let Piece { facet, sides } = piece.turned(turn);
+        let cut = |side: usize| cuts[(side + turn) % 3].unwrap_or((NO_NORMAL, CLOSED));
+        let m = |side: usize| cut(side).0;
+        let [a, b, c] = facet.corners;
+        // A whole side was decided about and stays; halves and new sides may be cut again.
+        let own = |side: usize| (if sides[side] == STRAIGHT { STRAIGHT } else { CLOSED }, facet.marks[side]);
+        let half = |side: usize, end: u32| {
+            let is_second = end != self.sides[sides[side] as usize].ends[0];
+            (cut(side).1 + u32::from(is_second), facet.marks[side])
+        };
+        // Between two straight sides, and along one of a sliver, the surface does not bend either: from the middle of a short
+        // side it would rise over all the length of the long ones.
+        let is_level = (0..3).any(|side| sides[side] == STRAIGHT);
+        let new = |k: usize| (if is_level { STRAIGHT } else { (first + k) as u32 }, EdgeMark::Unmarked);
+        let known = out.inner.len();
+        let mut push = |corners: [u32; 3], sides: [(u32, EdgeMark); 3]| {
+            let facet = Facet { corners, marks: sides.map(|side| side.1), face: facet.face };
+            let sides = sides.map(|side| side.0);
+            if sides.iter().any(is_open) {
+                out.open.push(Piece { facet, sides });
+            } else {
+                out.whole.push(facet);
+            }
+        };
+        match count {
+            0 => push([a, b, c], [own(0), own(1), own(2)]),
+            1 => {
+                let across = new(known);
+                push([a, m(0), c], [half(0, a), across, own(2)]);
+                push([m(0), b, c], [half(0, b), own(1), across]);
+                out.inner.push(Side::open(m(0), c));
+            }
+            2 => {
+                let (across, rest) = (new(known), new(known + 1));
+                push([m(0), b, m(1)], [half(0, b), half(1, b), across]);
+                let length = |p: u32, q: u32| self.position(p).distance_squared(self.position(q));
+                let diagonal = if length(a, m(1)) <= length(m(0), c) {
+                    push([a, m(0), m(1)], [half(0, a), across, rest]);
+                    push([a, m(1), c], [rest, half(1, c), own(2)]);
+                    Side::open(a, m(1))
+                } else {
+                    push([a, m(0), c], [half(0, a), rest, own(2)]);
+                    push([m(0), m(1), c], [across, half(1, c), rest]);
+                    Side::open(m(0), c)
+                };
+                out.inner.extend([Side::open(m(0), m(1)), diagonal]);
+            }
+            _ => {
+                let [at_a, at_b, at_c] = [0, 1, 2].map(|k| new(known + k));
+                push([a, m(0), m(2)], [half(0, a), at_a, half(2, a)]);
+                push([m(0), b, m(1)], [half(0, b), half(1, b), at_b]);
+                push([m(2), m(1), c], [at_c, half(1, c), half(2, c)]);
+                push([m(0), m(1), m(2)], [at_b, at_c, at_a]);
+                out.inner.extend([[m(0), m(2)], [m(0), m(1)], [m(1), m(2)]].map(|[p, q]| Side::open(p, q)));
+            }
+        }
+        if is_level {
+            out.straight.extend(out.inner[known..].iter().map(|side| side.ends));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::numbers::portable_math::{cos, sin};
+    use crate::mesh::Soup;
+
+    fn icosahedron() -> Mesh {
+        let golden = (1.0 + 5f64.sqrt()) / 2.0;
+        let mut positions = Vec::new();
+        for (x, y) in [(1.0, golden), (1.0, -golden), (-1.0, golden), (-1.0, -golden)] {
+            let p = DVec3::new(x, y, 0.0).normalize();
+            positions.extend([p, DVec3::new(p.y, 0.0, p.x), DVec3::new(0.0, p.x, p.y)]);
+        }
+        // Three corners an edge's length from each other are a face.
+        let near = |a: usize, b: usize| positions[a].distance(positions[b]) < 1.1;
+        let mut triangles = Vec::new();
+        for a in 0..12 {
+            for b in a + 1..12 {
+                for c in (b + 1..12).filter(|c| near(a, b) && near(b, *c) && near(*c, a)) {
+                    let outward = (positions[b] - positions[a]).cross(positions[c] - positions[a]);
+                    let face = [a as u32, b as u32, c as u32];
+                    let [a, b, c] = face;
+                    triangles.push(if outward.dot(positions[a as usize]) > 0.0 { face } else { [a, c, b] });
+                }
+            }
+        }
+        Mesh::build(Soup { positions, triangles, ..Soup::default() })
+    }
+
+    #[test]
+    fn a_refined_icosahedron_is_a_sphere_without_cracks() {
+        let mesh = icosahedron();
+        let smooth = SmoothNormals::rounded(&mesh);
+        // Only one half is refined, so that all patterns occur.
+        let wanted = |ends: [DVec3; 2], _: [DVec3; 2]| {
+            let half = ends[0].x + ends[1].x + 0.3 * (ends[0].y + ends[1].y) > 0.4;
+            if half { ends[0].distance(ends[1]) * 10.0 } else { 0.0 }
+        };
+        let Refined { mesh: finer, smooth: normals, hosts, edges, .. } =
+            refined(&mesh, &smooth, |_, _| true, wanted).expect("edges are longer than that");
+        assert_eq!((mesh.triangles.len(), edges.len()), (20, 30));
+        assert!(finer.triangles.len() > 500 && hosts.len() == finer.triangles.len());
+        assert_eq!((finer.edges.border_count(), finer.edges.non_manifold_count()), (0, 0));
+        let euler = finer.positions.len() as i64 - finer.edges.len() as i64 + finer.triangles.len() as i64;
+        assert_eq!(euler, 2);
+        for (vertex, normal) in normals.vertices.iter().zip(&normals.normals) {
+            let p = finer.positions[*vertex as usize];
+            assert!((p.length() - 1.0).abs() < 1e-9 && p.distance(*normal) < 1e-6, "{p} {normal}");
+        }
+        for face in 0..finer.triangles.len() {
+            let [a, b, c] = finer.corners(crate::mesh::FaceId(face as u32));
+            assert!((b - a).cross(c - a).dot(a + b + c) > 0.0, "every face keeps its side");
+        }
+    }
+
+    /// A long bar of six sides, closed at its ends, where its normals lean out as those of bevels do.
+    fn bar(length: f64) -> Mesh {
+        let mut positions = vec![DVec3::ZERO, DVec3::new(0.0, 0.0, length)];
+        let mut normals = vec![DVec3::NEG_Z, DVec3::Z];
+        let mut triangles = Vec::new();
+        for k in 0..6u32 {
+            let turn = f64::from(k) * std::f64::consts::FRAC_PI_3;
+            let out = DVec3::new(cos(turn), sin(turn), 0.0);
+            positions.extend([out, out + DVec3::new(0.0, 0.0, length)]);
+            normals.extend([out - DVec3::Z, out + DVec3::Z].map(DVec3::normalize));
+            let [a, b] = [2 + 2 * k, 2 + 2 * ((k + 1) % 6)];
+            triangles.extend([[a, b, a + 1], [b, b + 1, a + 1], [0, b, a], [1, a + 1, b + 1]]);
+        }
+        let normals = normals.iter().map(|normal| normal.as_vec3().to_array()).collect();
+        let corner_normals = triangles.clone();
+        Mesh::build(Soup { positions, normals, corner_normals, triangles, ..Soup::default() })
+    }
+
+    #[test]
+    fn a_bar_does_not_swell_from_the_middles_of_its_short_sides() {
+        // A long one of slivers, and one whose faces are wider than the curves over its long edges would rise.
+        for length in [40.0, 6.0] {
+            let mesh = bar(length);
+            let smooth = SmoothNormals::new(&mesh, |_| true, |_| false);
+            assert!(!smooth.straight.is_empty(), "normals lean out at both its ends");
+            let wanted =
+                |ends: [DVec3; 2], normals: [DVec3; 2]| EdgeArc::new(ends, normals).height().length() * 100.0;
+            let Refined { mesh: finer, smooth, .. } =
+                refined(&mesh, &smooth, |_, _| true, wanted).expect("it is rounder than six sides");
+            let widest =
+                finer.positions.iter().map(|p| (*p + finer.origin).truncate().length()).fold(0.0, f64::max);
+            assert!((1.0..1.1).contains(&widest), "{length}: {widest}");
+            // What is said of the curves over its edges, wherever contours may cross them, holds as well.
+            for edge in 0..finer.edges.len() {
+                let Some(ends) = smooth.across(&finer, edge) else { continue };
+                assert!(EdgeArc::over(&finer, &smooth, ends).height().length() < 0.2, "{length}: {edge}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_nobody_wants_is_left() {
+        let mesh = icosahedron();
+        assert!(refined(&mesh, &SmoothNormals::rounded(&mesh), |_, _| true, |_, _| 0.0).is_none());
+        assert!(refined(&mesh, &SmoothNormals::default(), |_, _| true, |_, _| 2.0).is_none());
+    }
+}

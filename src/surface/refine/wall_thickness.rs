@@ -1,0 +1,162 @@
+//! `thin`: edges whose arcs would stand out from them by more than half of what is between them and the
+//! wall behind.
+//!
+//! Blades, fins and plates have long edges, and normals that turn at their ends; rounded over these, both
+//! their sides would swell to an egg. A shell is as thin, but both its walls bend the same way, and keep
+//! their distance.
+
+use crate::parallel::prelude::*;
+use glam::{DVec3, Vec3};
+
+use super::segment_grid::near_faces;
+use crate::mesh::bvh::rays::ray_tree::RayTree;
+use crate::mesh::{FaceId, Mesh};
+use crate::surface::{EdgeArc, SmoothNormals};
+
+/// An arc stands out by no more than this part of the thickness, and changes that by no more.
+const HALF: f64 = 0.5;
+/// A ray starts so many heights of the arc inside the edge, so as not to meet the faces beside it.
+const INSIDE: f64 = 1e-3;
+
+/// What is asked of an edge: whether a ray from beside its middle meets the wall behind.
+struct Question {
+    edge: usize,
+    start: DVec3,
+    /// The normal in the middle of the arc.
+    normal: DVec3,
+    reach: f64,
+    rise: f64,
+}
+
+impl Question {
+    fn of(mesh: &Mesh, smooth: &SmoothNormals, edge: usize, ends: [u32; 2]) -> Self {
+        let arc = EdgeArc::over(mesh, smooth, ends);
+        let (height, normal) = (arc.height(), arc.middle_normal());
+        let rise = height.dot(normal);
+        let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
+        let start = (a + b) / 2.0 - normal * (INSIDE * rise.abs());
+        Self { edge, start, normal, reach: rise.abs() / HALF, rise }
+    }
+}
+
+/// Which of the edges, with the smooth vertices at their ends, are thin; in order.
+pub(crate) fn thin(mesh: &Mesh, smooth: &SmoothNormals, edges: &[(usize, [u32; 2])]) -> Vec<usize> {
+    if edges.is_empty() {
+        return Vec::new();
+    }
+    let questions: Vec<Question> =
+        edges.par_iter().map(|(edge, ends)| Question::of(mesh, smooth, *edge, *ends)).collect();
+    let rays: Vec<[DVec3; 2]> = questions.iter().map(|q| [q.start, q.start - q.normal * q.reach]).collect();
+    let near = near_faces(mesh, &rays);
+    let tree = RayTree::new(&only(mesh, &near));
+    let is_thin = |q: &Question| {
+        let own = mesh.body(mesh.edges.faces(q.edge).list()[0]);
+        // The ray leaves the part where it meets the wall behind, which does not begin at the edge.
+        let is_wall = |face: u32| {
+            let face = near[face as usize];
+            let outward = Vec3::from_array(mesh.face_normals[face as usize]).as_dvec3();
+            let corners = mesh.triangles[face as usize];
+            mesh.body(face) == own
+                && outward.dot(q.normal) < 0.0
+                && !mesh.edges.vertices[q.edge].iter().any(|v| corners.contains(v))
+        };
+        let behind = tree.first_met(q.start, -q.normal, q.reach, is_wall);
+        behind.is_some_and(|(face, thickness)| {
+            (q.rise + swelling(mesh, smooth, near[face as usize])).abs() > HALF * thickness
+        })
+    };
+    questions
+        .par_iter()
+        .with_max_len(256)
+        .filter(|question| is_thin(question))
+        .map(|question| question.edge)
+        .collect()
+}
+
+/// Some faces of a mesh, enough of it for rays to meet them.
+fn only(mesh: &Mesh, faces: &[u32]) -> Mesh {
+    Mesh {
+        extents: mesh.extents.clone(),
+        positions: faces.iter().flat_map(|face| mesh.corners(FaceId(*face))).collect(),
+        triangles: (0..faces.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect(),
+        face_normals: faces.iter().map(|face| mesh.face_normals[*face as usize]).collect(),
+        ..Mesh::default()
+    }
+}
+
+/// How far a face stands out where it is rounded, on the mean over its sides; negative where it is hollow.
+fn swelling(mesh: &Mesh, smooth: &SmoothNormals, face: u32) -> f64 {
+    let Some(corners) = smooth.corners_of(face) else { return 0.0 };
+    let [a, b, c] = mesh.corners(FaceId(face));
+    let normal = (b - a).cross(c - a).normalize_or_zero();
+    let rise = |k: usize| {
+        let (a, b) = (corners[k], corners[(k + 1) % 3]);
+        EdgeArc::over(mesh, smooth, [a.min(b), a.max(b)]).height().dot(normal)
+    };
+    (0..3).map(rise).sum::<f64>() / 3.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::subdivision::refined;
+    use super::*;
+    use crate::mesh::Soup;
+
+    /// Two square sheets back to back, so far apart; each with normals by which it bends outward, or inward if
+    /// `bend` is below zero.
+    fn strip(bend: [f64; 2], apart: f64) -> (Mesh, SmoothNormals) {
+        let mut soup = Soup::default();
+        for (sheet, bend) in bend.into_iter().enumerate() {
+            let (up, first) = (1.0 - 2.0 * sheet as f64, soup.positions.len() as u32);
+            for (x, y) in [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)] {
+                soup.positions.push(DVec3::new(x, y, up * apart / 2.0));
+                let normal = DVec3::new(bend * (x - 2.0), 0.0, up).normalize();
+                soup.normals.push(normal.as_vec3().to_array());
+            }
+            let quad = [[0, 1, 2], [0, 2, 3]].map(|t: [u32; 3]| t.map(|v| v + first));
+            soup.triangles.extend(if sheet == 0 { quad } else { quad.map(|[a, b, c]| [a, c, b]) });
+        }
+        soup.corner_normals = soup.triangles.clone();
+        let mesh = Mesh::build(soup);
+        let smooth = SmoothNormals::rounded(&mesh);
+        (mesh, smooth)
+    }
+
+    fn thin_edges(bend: [f64; 2], apart: f64) -> usize {
+        let (mesh, smooth) = strip(bend, apart);
+        let edges: Vec<(usize, [u32; 2])> = (0..mesh.edges.len())
+            .filter_map(|edge| Some((edge, smooth.across(&mesh, edge)?)))
+            .filter(|(_, ends)| EdgeArc::over(&mesh, &smooth, *ends).height().length() > 1e-6)
+            .collect();
+        assert_eq!(edges.len(), 6, "two long sides and a diagonal of each sheet bend");
+        thin(&mesh, &smooth, &edges).len()
+    }
+
+    #[test]
+    fn a_blade_does_not_swell_and_a_shell_bends() {
+        // Both sheets stand out by 0.25 over their sides.
+        assert_eq!(thin_edges([0.13, 0.13], 0.4), 6, "a blade");
+        assert_eq!(thin_edges([0.13, 0.13], 0.6), 0, "a cushion");
+        assert_eq!(thin_edges([0.13, -0.13], 0.4), 0, "a shell");
+    }
+
+    #[test]
+    fn blades_are_drawn_as_thick_as_they_are() {
+        let thickness = |bend: [f64; 2], apart: f64| {
+            let (mesh, smooth) = strip(bend, apart);
+            let want =
+                |ends: [DVec3; 2], normals: [DVec3; 2]| EdgeArc::new(ends, normals).height().length() * 100.0;
+            let finer = refined(&mesh, &smooth, |_, _| true, want).expect("normals turn");
+            let (low, high) = finer
+                .mesh
+                .positions
+                .iter()
+                .fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.z), high.max(p.z)));
+            high - low
+        };
+        // Each sheet stands out by 0.25.
+        assert!((thickness([0.13, 0.13], 0.4) - 0.4).abs() < 1e-12, "a blade");
+        assert!((thickness([0.13, 0.13], 0.6) - 1.1).abs() < 0.05, "a cushion");
+        assert!((thickness([0.13, -0.13], 0.4) - 0.65).abs() < 0.05, "a shell");
+    }
+}

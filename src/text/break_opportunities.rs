@@ -1,0 +1,102 @@
+//! Where lines may be broken: between words as Unicode says, and inside words as their language parts them.
+
+use hypher::Lang;
+use unicode_linebreak::{BreakOpportunity, linebreaks};
+
+use crate::error::Error;
+
+/// Shorter words stay whole, letters.
+const SHORTEST_PARTED: usize = 5;
+
+/// A place where a line may end and the next begin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Break {
+    /// The byte of the text.
+    pub at: usize,
+    /// Whether it is inside a word, so that the line ends with a hyphen.
+    pub hyphen: bool,
+    /// Whether a line must end here.
+    pub must: bool,
+}
+
+/// The language of two letters.
+pub(crate) fn language(code: &str) -> Result<Lang, Error> {
+    let bytes = <[u8; 2]>::try_from(code.to_lowercase().as_bytes()).ok();
+    bytes.and_then(Lang::from_iso).ok_or_else(|| {
+        Error::new(format!("ligne cannot hyphenate the language `{code}`"))
+            .remedy("give two letters of ISO 639-1, such as en, de, fr or pl, or none to keep words whole")
+    })
+}
+
+/// All places where lines of a text may be broken, its start and its end among them.
+pub(crate) fn breaks(text: &str, language: Option<Lang>) -> Vec<Break> {
+    let mut found = vec![Break { at: 0, hyphen: false, must: true }];
+    let mut from = 0;
+    for (at, opportunity) in linebreaks(text) {
+        if let Some(language) = language {
+            part(text, from..at, language, &mut found);
+        }
+        let hyphen = text[..at].ends_with('\u{ad}');
+        found.push(Break { at, hyphen, must: opportunity == BreakOpportunity::Mandatory });
+        from = at;
+    }
+    found
+}
+
+/// Adds the places inside the words of a stretch of text.
+fn part(text: &str, range: std::ops::Range<usize>, language: Lang, found: &mut Vec<Break>) {
+    let stretch = &text[range.clone()];
+    let mut words = stretch.char_indices().peekable();
+    while let Some((start, c)) = words.next() {
+        if !c.is_alphabetic() {
+            continue;
+        }
+        let mut end = start + c.len_utf8();
+        while let Some((at, _)) = words.next_if(|(_, c)| c.is_alphabetic()) {
+            end = at + stretch[at..].chars().next().map_or(0, char::len_utf8);
+        }
+        let word = &stretch[start..end];
+        if word.chars().count() < SHORTEST_PARTED {
+            continue;
+        }
+        let mut at = range.start + start;
+        let syllables: Vec<&str> = hypher::hyphenate(word, language).collect();
+        for syllable in syllables.iter().take(syllables.len().saturating_sub(1)) {
+            at += syllable.len();
+            found.push(Break { at, hyphen: true, must: false });
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(text: &str, code: Option<&str>) -> String {
+        let mut out = text.to_owned();
+        for Break { at, hyphen, must } in
+            breaks(text, code.map(|code| language(code).unwrap())).into_iter().rev()
+        {
+            out.insert(
+                at,
+                if hyphen {
+                    '-'
+                } else if must {
+                    '!'
+                } else {
+                    '|'
+                },
+            );
+        }
+        out
+    }
+
+    #[test]
+    fn lines_break_between_words_and_where_a_language_parts_them() {
+        assert_eq!(shown("a well-known fact.\nSo", None), "!a |well-|known |fact.\n!So!");
+        assert_eq!(shown("Extensive hyphenation!", Some("en")), "!Ex-ten-sive |hy-phen-ation!!");
+        assert_eq!(shown("Kraftfahrzeug", Some("de")), "!Kraft-fahr-zeug!");
+        assert!(language("xx").unwrap_err().to_string().contains("`xx`"));
+        assert!(language("english").is_err());
+    }
+}

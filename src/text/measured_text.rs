@@ -1,0 +1,195 @@
+//! [`Source`]: a text with the places where its lines may be broken, and the widths of lines between them.
+
+use std::sync::Arc;
+
+use super::Setting;
+use super::break_opportunities::{Break, breaks, language};
+use super::line_breaking::{choose, greedy};
+use super::shaped_pieces::{Piece, Pieces};
+use crate::error::{Error, ErrorKind};
+
+/// Lines times places where they may break that are looked through for the best breaks.
+const MOST_WAYS: usize = 4_000_000;
+
+/// A text with its breaks and its measures; lengths in ems.
+pub(crate) struct Source<'a> {
+    text: &'a str,
+    pub setting: &'a Setting,
+    pub breaks: Vec<Break>,
+    pub pieces: Pieces<'a>,
+    /// Of each break, the whole stretches before it and their width with all blanks.
+    stretches: Vec<usize>,
+    widths: Vec<f64>,
+    /// The breaks between whole stretches.
+    whole: Vec<usize>,
+    /// How far letters reach above the line of writing and below it.
+    pub reach: [f64; 2],
+    /// What went wrong while widths were asked for.
+    fault: Option<Error>,
+}
+
+impl<'a> Source<'a> {
+    /// Shapes a text whose lines are tidy.
+    pub fn new(text: &'a str, setting: &'a Setting) -> Result<Self, Error> {
+        let em = setting.em();
+        if !(em.is_finite() && em > 0.0 && setting.leading.is_finite() && setting.leading >= 0.0) {
+            return Err(
+                Error::new("the letter size or line spacing is not above 0").remedy("give numbers above 0")
+            );
+        }
+        let language = setting.language.as_deref().map(language).transpose()?;
+        let breaks = breaks(text, language);
+        let mut pieces = Pieces::new(text, setting);
+        let whole: Vec<usize> = (0..breaks.len()).filter(|number| !breaks[*number].hyphen).collect();
+        let mut widths = vec![0.0];
+        let mut reach = [setting.font.file().cap_height, 0.0];
+        for pair in whole.windows(2) {
+            let piece = pieces.piece(breaks[pair[0]].at, breaks[pair[1]].at, false)?;
+            widths.push(widths.last().unwrap_or(&0.0) + piece.width + piece.blank_width);
+            reach = [reach[0].max(piece.reach[0]), reach[1].max(piece.reach[1])];
+        }
+        let mut stretches = Vec::with_capacity(breaks.len());
+        let mut count: usize = 0;
+        for place in &breaks {
+            count += usize::from(!place.hyphen);
+            stretches.push(count - 1);
+        }
+        Ok(Self { text, setting, breaks, pieces, stretches, widths, whole, reach, fault: None })
+    }
+
+    /// Says what went wrong while widths were asked for.
+    pub fn take_fault(&mut self) -> Result<(), Error> {
+        self.fault.take().map_or(Ok(()), Err)
+    }
+
+    /// A length in ems.
+    pub fn in_ems(&self, units: f64) -> f64 {
+        units / self.setting.em()
+    }
+
+    /// The bytes of the pieces of a line between two breaks: the first, those between, the last; with a hyphen or none.
+    pub fn parts(&self, from: usize, to: usize) -> Vec<(usize, usize, bool)> {
+        let (begin, end) = (self.breaks[from], self.breaks[to]);
+        let mut parts = Vec::new();
+        let mut at = begin.at;
+        let first = self.stretches[from] + 1;
+        let last = if end.hyphen { self.stretches[to] } else { self.stretches[to] - 1 };
+        for stretch in first..=last {
+            let border = self.breaks[self.whole[stretch]].at;
+            parts.push((at, border, false));
+            at = border;
+        }
+        parts.push((at, end.at, end.hyphen));
+        parts
+    }
+
+    /// The width of a line between two breaks, all ink included; none if a letter is missing or the line must end before.
+    pub fn line_width(&mut self, from: usize, to: usize) -> Option<f64> {
+        if (from + 1..to).rev().any(|between| self.breaks[between].must) {
+            return None;
+        }
+        self.measured(from, to).map_err(|error| self.fault = Some(error)).ok()
+    }
+
+    /// The width of a line between two breaks.
+    pub fn measured(&mut self, from: usize, to: usize) -> Result<f64, Error> {
+        let parts_whole = !self.breaks[from].hyphen && !self.breaks[to].hyphen;
+        let at = |source: &Self, number: usize| source.breaks[source.whole[number]].at;
+        let (first, last, sum) = if parts_whole {
+            let (begin, end) = (self.stretches[from], self.stretches[to]);
+            let first = self.pieces.piece(at(self, begin), at(self, begin + 1), false)?;
+            let last = self.pieces.piece(at(self, end - 1), at(self, end), false)?;
+            (first, last, self.widths[end] - self.widths[begin])
+        } else {
+            let parts = self.parts(from, to);
+            let pieces: Vec<Arc<Piece>> = parts
+                .iter()
+                .map(|(from, to, hyphen)| self.pieces.piece(*from, *to, *hyphen))
+                .collect::<Result<_, _>>()?;
+            let sum = pieces.iter().map(|piece| piece.width + piece.blank_width).sum::<f64>();
+            match (pieces.first(), pieces.last()) {
+                (Some(first), Some(last)) => (Arc::clone(first), Arc::clone(last), sum),
+                _ => return Ok(0.0),
+            }
+        };
+        // Where letters run to the left the last piece is the first one that is seen.
+        let [left, right] = if self.pieces.runs_left { [&last, &first] } else { [&first, &last] };
+        Ok(left.overhang[0] + sum - last.blank_width + right.overhang[1])
+    }
+
+    /// The ends of lines that are as full as can be, or the break from which nothing fits.
+    pub fn greedy(&mut self, width: f64, parted: bool) -> Result<Vec<usize>, usize> {
+        let limit = self.in_ems(width);
+        let breaks = self.breaks.clone();
+        let mut fits = |from: usize, to: usize| self.line_width(from, to).is_some_and(|width| width <= limit);
+        let last = breaks.len() - 1;
+        greedy(last, &mut fits, &|at| parted || !breaks[at].hyphen, &|at| breaks[at].must)
+    }
+
+    /// Says which word is too wide.
+    pub fn too_wide(&mut self, begin: usize, width: f64) -> Error {
+        if let Some(fault) = self.fault.take() {
+            return fault;
+        }
+        let end = (begin + 1..self.breaks.len()).find(|at| !self.breaks[*at].hyphen).unwrap_or(begin);
+        let word =
+            self.text.get(self.breaks[begin].at..self.breaks[end].at).unwrap_or_default().trim().to_owned();
+        let own = self.line_width(begin, end).unwrap_or_default() * self.setting.em();
+        Error::new(format!("`{word}` is {own:.2} wide, but the text has a width of {width:.2}"))
+            .remedy("make the text wider, set it smaller, or name the language for hyphenation")
+    }
+
+    /// An error if the best breaks would be sought among too many.
+    pub fn refuse_many(&self, lines: usize) -> Result<(), Error> {
+        if lines.saturating_mul(self.breaks.len()) <= MOST_WAYS {
+            return Ok(());
+        }
+        Err(Error::new("the text is too long to balance its lines").remedy("give it a width"))
+    }
+
+    /// The best ends of so many lines, and what the costliest costs.
+    pub fn best(
+        &mut self,
+        lines: usize,
+        parted: bool,
+        cost: &mut dyn FnMut(&mut Self, usize, usize, usize) -> Option<f64>,
+    ) -> Option<(f64, Vec<usize>)> {
+        let may_end: Vec<bool> = self.breaks.iter().map(|place| parted || !place.hyphen).collect();
+        let last = self.breaks.len() - 1;
+        choose(lines, last, &mut |line, from, to| cost(self, line, from, to), &|at| may_end[at])
+    }
+
+    /// Half the width of the smallest ellipse, and the ends of lines.
+    pub fn smallest_ellipse(&mut self, aspect: f64, parted: bool) -> Result<(f64, Vec<usize>), Error> {
+        let [above, below] = self.reach;
+        let leading = self.setting.leading;
+        let mut best: Option<(f64, Vec<usize>)> = None;
+        for lines in 1..self.breaks.len() {
+            let height = above + below + (lines - 1) as f64 * leading;
+            let reached = best.as_ref().map_or(f64::INFINITY, |(square, _)| *square);
+            // Corners of lines that are nearest to the top or to the bottom.
+            let corner = |line: usize| {
+                let top = line as f64 * leading - height / 2.0;
+                top.abs().max((top + above + below).abs()) / aspect
+            };
+            if corner(0) * corner(0) >= reached {
+                break;
+            }
+            self.refuse_many(lines)?;
+            let mut cost = |source: &mut Self, line: usize, from: usize, to: usize| {
+                let half = source.line_width(from, to)? / 2.0;
+                let square = half * half + corner(line) * corner(line);
+                (half * half < reached).then_some(square)
+            };
+            if let Some(found) = self.best(lines, parted, &mut cost)
+                && found.0 < reached
+            {
+                best = Some(found);
+            }
+        }
+        self.take_fault()?;
+        let (square, ends) =
+            best.ok_or_else(|| Error::new("the text has no lines").of_kind(ErrorKind::Empty))?;
+        Ok((square.sqrt(), ends))
+    }
+}

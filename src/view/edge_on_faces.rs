@@ -1,0 +1,105 @@
+//! Which faces are seen edge-on, decided once for all faces of a plane.
+//!
+//! 1. A face is edge-on if the angle between its plane and the line of sight is below
+//!    [`EDGE_ON_SINE`](tolerance::EDGE_ON_SINE): nothing of it can be seen.
+//! 2. Rounding turns a face by up to the rounding divided by its height. Where the angle is smaller than that, the face is *unsure*.
+//! 3. Connected unsure faces of one plane ([`carriers`](crate::mesh::normals::normal_carriers)) are decided together. They follow the widest sure face of
+//!    the plane next to them.
+//! 4. If there is none, they are edge-on. But on a bent surface, which goes on all around them, each face keeps its own angle: the
+//!    contour runs on one side of them or the other, and both are as right.
+//!
+//! Edge-on faces count as averted. Pieces of faces that were cut to bend are exact: nothing rounded their corners.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::Frame;
+use crate::geometry::numbers::tolerance;
+use crate::mesh::normals::normal_carriers::Faces;
+use crate::mesh::{FaceId, Mesh};
+use crate::parallel::task_size::GRAIN;
+
+/// Beyond an angle with this sine no face is unsure; narrow faces that rounding may turn by more have a carrier in the mesh, or none.
+const MAX_UNSURE_SINE: f64 = 1e-2;
+
+/// Whether each face turns its outside to the eye, and the faces, ascending, for which this does not follow from their own angle.
+pub(crate) fn facing(mesh: &Mesh, frame: &Frame) -> (Vec<bool>, Vec<u32>) {
+    let is_rounded = mesh.extents.is_rounded();
+    let whole = mesh.first_piece.unwrap_or(mesh.triangles.len() as u32);
+    let mut facing = vec![false; mesh.triangles.len()];
+    let of_chunk = |(chunk, facing): (usize, &mut [bool])| {
+        let mut unsure = Vec::new();
+        for (face, facing) in ((chunk * GRAIN) as u32..).zip(facing) {
+            let corners = mesh.corners(FaceId(face));
+            *facing = frame.faces_eye(corners[0], corners[1], corners[2]);
+            if is_rounded && face < whole {
+                let rounding = mesh.extent(FaceId(face)).rounding;
+                unsure.extend((rounding > 0.0 && is_unsure(frame, &corners, rounding)).then_some(face));
+            }
+        }
+        unsure
+    };
+    let unsure: Vec<Vec<u32>> = facing.par_chunks_mut(GRAIN).enumerate().map(of_chunk).collect();
+    let unsure = unsure.concat();
+    for [face, carrier] in &mesh.carriers {
+        facing[*face as usize] = facing[*carrier as usize];
+    }
+    if !is_rounded {
+        return (facing, Vec::new());
+    }
+    let decided = decide(&Faces::of(mesh), &unsure, &mut facing);
+    let mut others: Vec<u32> = mesh.carriers.iter().map(|[face, _]| *face).chain(decided).collect();
+    others.sort_unstable();
+    others.dedup();
+    (facing, others)
+}
+
+/// Decides for each plane in which unsure faces, ascending, are connected, and gives those that do not keep their own angle.
+fn decide(faces: &Faces, unsure: &[u32], facing: &mut [bool]) -> Vec<u32> {
+    let near: Vec<Vec<u32>> = unsure.par_iter().map(|face| faces.neighbours_in_plane(*face)).collect();
+    let mut is_seen = vec![false; unsure.len()];
+    let mut others = Vec::new();
+    for first in 0..unsure.len() {
+        let (mut plane, mut open) = (Vec::new(), vec![first]);
+        let mut widest: Option<(f64, u32)> = None;
+        while let Some(at) = open.pop() {
+            if std::mem::replace(&mut is_seen[at], true) {
+                continue;
+            }
+            plane.push(unsure[at]);
+            for other in &near[at] {
+                if let Ok(place) = unsure.binary_search(other) {
+                    open.push(place);
+                    continue;
+                }
+                let height = faces.height_of(*other);
+                let is_wider = |(most, face): &(f64, u32)| height > *most || height == *most && other < face;
+                if widest.as_ref().is_none_or(is_wider) {
+                    widest = Some((height, *other));
+                }
+            }
+        }
+        if widest.is_none() && plane.iter().all(|face| faces.is_facet(*face)) {
+            continue;
+        }
+        let decided = widest.is_some_and(|(_, sure)| facing[sure as usize]);
+        plane.iter().for_each(|face| facing[*face as usize] = decided);
+        others.append(&mut plane);
+    }
+    others
+}
+
+/// Whether rounding may have turned a triangle through the line of sight.
+fn is_unsure(frame: &Frame, &[a, b, c]: &[DVec3; 3], rounding: f64) -> bool {
+    let (u, v, w) = (b - a, c - a, c - b);
+    let normal = u.cross(v);
+    let to_eye = if frame.perspective { frame.eye - a } else { -frame.forward };
+    let (area, away) = (normal.length_squared(), normal.dot(to_eye));
+    let far = to_eye.length_squared();
+    if away * away > MAX_UNSURE_SINE * MAX_UNSURE_SINE * area * far {
+        return false;
+    }
+    let longest = u.length_squared().max(v.length_squared()).max(w.length_squared()).sqrt();
+    let least = tolerance::EDGE_ON_SINE * area.sqrt() + 2.0 * rounding * longest;
+    away * away <= least * least * far
+}

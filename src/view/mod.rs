@@ -1,0 +1,61 @@
+//! [`View`]: a mesh projected by a camera, the only place where 3-D becomes 2-D.
+//!
+//! Image space has x to the right and y down, in user units, and a *nearness* q that grows towards the eye:
+//! 1/depth in perspective, −depth in a parallel view. Straight lines stay straight and planes stay planes in
+//! (x, y, q), so all later interpolation is linear.
+//!
+//! 1. Every vertex is projected.
+//! 2. Faces are classified as facing or averted; faces seen edge-on are decided once per plane.
+//! 3. Faces that cross the near plane are clipped.
+//!
+//! Files, in reading order: [`frame`] the camera's axes and projection; [`edge_on_faces`] step 2;
+//! [`clipping`] step 3; [`raster`] pixel buffers of a view.
+
+pub mod clipping;
+mod edge_on_faces;
+pub mod frame;
+pub mod raster;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+pub use clipping::ClippedFace;
+pub use frame::Frame;
+
+use crate::geometry::numbers::tolerance;
+use crate::mesh::Mesh;
+use crate::parallel::task_size::GRAIN;
+use crate::scene::Camera;
+
+/// A mesh seen by a camera.
+#[derive(Debug, Clone)]
+pub struct View {
+    /// The camera, relative to the mesh's origin.
+    pub frame: Frame,
+    /// Image-space point (x, y, q) of each vertex; q is NaN where the vertex is nearer than the
+    /// near plane or behind the eye.
+    pub points: Vec<DVec3>,
+    /// Whether each face turns its outside to the eye; faces seen edge-on do not.
+    pub facing: Vec<bool>,
+    /// Faces, ascending, that turn to the eye as other faces of their plane do: their own angle to the line of sight is unknown.
+    pub unsure: Vec<u32>,
+    /// What is left of faces that the near plane cuts.
+    pub clipped: Vec<ClippedFace>,
+}
+
+impl View {
+    /// Projects a mesh.
+    #[must_use]
+    pub fn new(mesh: &Mesh, camera: &Camera) -> Self {
+        let mut frame = Frame::new(camera, mesh.origin);
+        if frame.near.is_none() && frame.perspective {
+            frame.near = Some(frame.focus.max(f64::MIN_POSITIVE) * tolerance::NEAR_OF_TARGET);
+        }
+        let points =
+            || mesh.positions.par_iter().with_min_len(GRAIN).map(|p| frame.image_from_local(*p)).collect();
+        let (points, (facing, unsure)): (Vec<DVec3>, _) =
+            crate::parallel::join(points, || edge_on_faces::facing(mesh, &frame));
+        let clipped = clipping::clip_faces(mesh, &frame, &points);
+        Self { frame, points, facing, unsure, clipped }
+    }
+}

@@ -1,0 +1,165 @@
+//! [`FaceBuffer`]: which face is in front at each pixel of a view.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use crate::parallel::prelude::*;
+
+use super::Screen;
+use super::depth_cell::{self, Cell, cell};
+
+/// Triangles handled by one task.
+const TASK: usize = 1 << 13;
+
+/// The face nearest to the eye at the centre of each pixel, row after row from the top.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct FaceBuffer {
+    /// Pixels in a row.
+    pub columns: usize,
+    /// Number of rows.
+    pub rows: usize,
+    cells: Vec<Cell>,
+}
+
+impl FaceBuffer {
+    /// Draws all triangles of a screen.
+    ///
+    /// The nearer face wins, of equally near ones that of the lesser id, whatever the order and
+    /// the number of threads.
+    #[must_use]
+    pub fn new(screen: &Screen) -> Self {
+        Self::of(screen, |_| true)
+    }
+
+    /// Draws the triangles of some faces of a screen, as [`FaceBuffer::new`] does.
+    #[must_use]
+    pub fn of(screen: &Screen, draws: impl Fn(u32) -> bool + Sync) -> Self {
+        let cells: Vec<AtomicU64> = (0..screen.columns * screen.rows).map(|_| AtomicU64::new(0)).collect();
+        let count = screen.triangle_count();
+        (0..count.div_ceil(TASK)).into_par_iter().with_max_len(1).for_each(|task| {
+            for id in task * TASK..((task + 1) * TASK).min(count) {
+                let (corners, face) = screen.triangle(id);
+                if !draws(face) {
+                    continue;
+                }
+                screen.cover(&corners, |pixel, nearness| {
+                    let own = cell(face, nearness);
+                    // Most triangles lose, and looking is cheaper than writing.
+                    if own > cells[pixel].load(Ordering::Relaxed) {
+                        cells[pixel].fetch_max(own, Ordering::Relaxed);
+                    }
+                });
+            }
+        });
+        let cells = cells.into_iter().map(AtomicU64::into_inner).collect();
+        Self { columns: screen.columns, rows: screen.rows, cells }
+    }
+
+    /// The face in front at a pixel.
+    #[inline]
+    #[must_use]
+    pub fn front(&self, pixel: usize) -> Option<u32> {
+        depth_cell::front(self.cells[pixel])
+    }
+
+    /// How near the face in front is at a pixel, on the screen's scale from 0 to 1.
+    #[inline]
+    #[must_use]
+    pub fn nearness(&self, pixel: usize) -> Option<f32> {
+        depth_cell::nearness(self.cells[pixel])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::super::row_bands::Bands;
+    use super::*;
+    use crate::mesh::{FaceId, Mesh, Soup};
+    use crate::scene::{Camera, UpAxis};
+    use crate::view::View;
+
+    /// Seen from above in a parallel view of 10 × 10 world units.
+    fn from_above(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> (Mesh, View) {
+        let positions: Vec<DVec3> = positions.iter().map(|p| DVec3::from(*p)).collect();
+        let soup = Soup { positions: positions.clone(), triangles: triangles.to_vec(), ..Soup::default() };
+        let mesh = Mesh::build(soup);
+        let camera = Camera::azimuth_elevation(0.0, 90.0, UpAxis::Z).fit_points(&positions, 0.0);
+        let view = View::new(&mesh, &camera);
+        (mesh, view)
+    }
+
+    fn faces(buffer: &FaceBuffer) -> Vec<Option<u32>> {
+        (0..buffer.columns * buffer.rows).map(|pixel| buffer.front(pixel)).collect()
+    }
+
+    #[test]
+    fn a_quad_of_two_triangles_has_no_hole() {
+        let corners = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 9.0, 0.0], [0.0, 9.0, 0.0]];
+        let (mesh, view) = from_above(&corners, &[[0, 1, 2], [0, 2, 3]]);
+        let screen = Screen::new(&mesh, &view);
+        let buffer = FaceBuffer::new(&screen);
+        let (left, right) = (view.points[0].x, view.points[1].x);
+        let (top, bottom) = (view.points[2].y, view.points[0].y);
+        let per_unit = 1024.0 / view.frame.width.max(view.frame.height);
+        for row in 0..buffer.rows {
+            for column in 0..buffer.columns {
+                let (x, y) = ((column as f64 + 0.5) / per_unit, (row as f64 + 0.5) / per_unit);
+                let inside = x > left && x < right && y > top && y < bottom;
+                assert_eq!(buffer.front(row * buffer.columns + column).is_some(), inside, "{column} {row}");
+            }
+        }
+        assert!(faces(&buffer).contains(&Some(0)) && faces(&buffer).contains(&Some(1)));
+    }
+
+    #[test]
+    fn the_nearer_triangle_wins_whatever_the_order() {
+        // Faces go by their corners: one that begins far before the other comes first, though it is nearer.
+        for (low, high, nearer) in [(0., 9., 1), (-3., 16., 0)] {
+            let far = [[0., 0., 0.], [9., 0., 0.], [0., 9., 0.]];
+            let near = [[low, low, 1.], [high, low, 1.], [low, high, 1.]];
+            let (mesh, view) = from_above(&[far, near].concat(), &[[0, 1, 2], [3, 4, 5]]);
+            assert!(mesh.corners(FaceId(nearer))[0].z > 0.0);
+            let buffer = FaceBuffer::new(&Screen::new(&mesh, &view));
+            let shown = faces(&buffer);
+            let count = |face: u32| shown.iter().filter(|f| **f == Some(face)).count();
+            assert!(count(nearer) > 1000);
+            assert!(count(1 - nearer) * 20 < count(nearer), "but for what perspective leaves of it");
+        }
+    }
+
+    /// Thousands of triangles of all heights, over and through each other.
+    fn crowd() -> (Mesh, View) {
+        let mut positions = Vec::new();
+        let mut triangles = Vec::new();
+        for i in 0..30_000_u32 {
+            let x = |k: u32| f64::from((i * 7919 + k * 104_729) % 1000);
+            let (a, b, c) = (x(0), x(1), x(2) / 100.0);
+            let first = positions.len() as u32;
+            positions.extend([[a, b, c], [a + 9.0, b, c], [a, b + 7.0, 0.5 * c]]);
+            triangles.push([first, first + 1, first + 2]);
+        }
+        from_above(&positions, &triangles)
+    }
+
+    #[test]
+    fn bands_of_rows_show_what_the_buffer_does() {
+        let (mesh, view) = crowd();
+        let screen = Screen::new(&mesh, &view);
+        let bands = Bands::new(&screen);
+        let mut cells = vec![0; screen.columns * screen.rows];
+        cells.chunks_mut(bands.pixels()).enumerate().for_each(|(band, cells)| bands.draw(band, cells));
+        assert!(FaceBuffer::new(&screen).cells == cells);
+    }
+
+    #[test]
+    fn threads_do_not_change_the_result() {
+        let (mesh, view) = crowd();
+        let screen = Screen::new(&mesh, &view);
+        let with = |threads: usize| {
+            let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+            pool.install(|| FaceBuffer::new(&screen))
+        };
+        assert_eq!(with(1), with(3));
+    }
+}

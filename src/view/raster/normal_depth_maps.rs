@@ -1,0 +1,214 @@
+//! [`Maps`]: the normals and the depth of what is in front at each pixel of a view.
+//!
+//! Source: Scheelk, Non-Photorealistic Rendering, sections 3.4.1 and 3.4.2: images that are made from the surface beforehand, and in
+//! which edges are sought afterwards.
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use super::Screen;
+use super::depth_cell::{front, nearness};
+use super::row_bands::Bands;
+use crate::mesh::{FaceId, Mesh};
+use crate::view::View;
+
+/// Where no face is in front at a pixel.
+pub const NO_FRONT: u32 = u32::MAX;
+
+/// The depth of pixels that show no face.
+pub const FAR: f32 = 1.0;
+
+/// No map has more pixels than this along its longer side.
+pub const LONGEST_SIDE: f64 = 4096.0;
+
+/// The depth map begins a little before the nearest point of the picture and ends a little behind the farthest, so that what is
+/// nearest is not at 0, where a test that scales with depth would not scale, and background is not at the depth of anything. In
+/// parts of the depth between the two.
+const BEFORE: f64 = 0.15;
+const BEHIND: f64 = 0.1;
+
+/// Normals that are reckoned at a time.
+const LANES: usize = 4;
+
+/// What is in front at the centre of each pixel, row after row from the top.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Maps {
+    /// Pixels in a row.
+    pub columns: usize,
+    /// Number of rows.
+    pub rows: usize,
+    /// Pixels per user unit.
+    pub scale: f64,
+    /// The face in front, [`NO_FRONT`] for none.
+    pub faces: Vec<u32>,
+    /// Unit normals on the side that is seen, in camera axes: right, up, towards the eye. Zero where no face is.
+    pub normals: Vec<[f32; 3]>,
+    /// Depth along the optical axis, linear, 0 to 1: what is in the view lies between 0.12 and 0.92, background at 1.
+    pub depths: Vec<f32>,
+    /// Depths of 0 and 1, world units from the eye along the optical axis.
+    pub planes: [f64; 2],
+}
+
+impl Maps {
+    /// The maps of a view with so many pixels a user unit, or fewer where they would be more than 4096 along a side.
+    /// `normals` gives those at the corners of a face, on its outer side, in local space.
+    #[must_use]
+    pub fn new(mesh: &Mesh, view: &View, per_unit: f64, normals: impl Fn(u32) -> [DVec3; 3] + Sync) -> Self {
+        let side = (view.frame.width.max(view.frame.height) * per_unit).clamp(1.0, LONGEST_SIDE);
+        let screen = Screen::of_side(mesh, view, side);
+        let bands = Bands::new(&screen);
+        let planes = planes(&screen, view);
+        let (columns, rows) = (screen.columns, screen.rows);
+        // Zeros cost nothing before they are written, which each band does for itself.
+        let mut maps = Self {
+            columns,
+            rows,
+            scale: screen.scale(),
+            faces: vec![0; columns * rows],
+            normals: vec![[0.0; 3]; columns * rows],
+            depths: vec![0.0; columns * rows],
+            planes,
+        };
+        let per_depth = 1.0 / (planes[1] - planes[0]);
+        let depth_at = |nearness: f32| {
+            let depth = view.frame.depth_of(screen.image_nearness(nearness));
+            (((depth - planes[0]) * per_depth) as f32).clamp(0.0, FAR)
+        };
+        let centre = |i: usize| (i as f64 + 0.5) / maps.scale;
+        let across: Vec<f64> = (0..columns).map(centre).collect();
+        let band = bands.pixels();
+        let of_band = maps.faces.par_chunks_mut(band).zip(maps.normals.par_chunks_mut(band));
+        let of_band = of_band.zip(maps.depths.par_chunks_mut(band)).enumerate();
+        of_band.for_each_init(
+            || (vec![0; band], LastShown::new()),
+            |(cells, shown), (number, ((faces, band_normals), depths))| {
+                cells.fill(0);
+                bands.draw(number, cells);
+                let mut next = 0;
+                for (cells, row) in cells.chunks(columns).zip(bands.rows(number)) {
+                    let first = next;
+                    for cells in cells.chunk_by(|a, b| front(*a) == front(*b)) {
+                        let own = next..next + cells.len();
+                        next = own.end;
+                        let Some(face) = front(cells[0]) else {
+                            faces[own.clone()].fill(NO_FRONT);
+                            depths[own].fill(FAR);
+                            continue;
+                        };
+                        faces[own.clone()].fill(face);
+                        let on_face = shown.of(face, || FaceNormals::new(mesh, view, face, normals(face)));
+                        let across = &across[own.start - first..own.end - first];
+                        on_face.along(across, centre(row), &mut band_normals[own.clone()]);
+                        for (depth, cell) in depths[own].iter_mut().zip(cells) {
+                            *depth = nearness(*cell).map_or(FAR, depth_at);
+                        }
+                    }
+                }
+            },
+        );
+        maps
+    }
+
+    /// Depth along the optical axis at a pixel, world units.
+    #[must_use]
+    pub fn depth(&self, pixel: usize) -> f64 {
+        self.planes[0] + f64::from(self.depths[pixel]) * (self.planes[1] - self.planes[0])
+    }
+}
+
+/// The depths of 0 and 1 of the depth map.
+fn planes(screen: &Screen, view: &View) -> [f64; 2] {
+    let Some([near, far]) = screen.depths() else { return [0.0, 1.0] };
+    // A flat thing seen square on has no depth of its own.
+    let range = (far - near).max(view.frame.px_at(far)).max(f64::MIN_POSITIVE);
+    [near - BEFORE * range, far + BEHIND * range]
+}
+
+/// What was last made of faces, as long as no other face takes its slot: the same faces come again in the next row.
+struct LastShown {
+    faces: Vec<u32>,
+    normals: Vec<FaceNormals>,
+}
+
+impl LastShown {
+    /// A power of two, and few enough for a near cache.
+    const SLOTS: usize = 1 << 10;
+
+    fn new() -> Self {
+        let none = FaceNormals { weights: [[0.0; 3]; 3], normals: [DVec3::ZERO; 3] };
+        Self { faces: vec![NO_FRONT; Self::SLOTS], normals: vec![none; Self::SLOTS] }
+    }
+
+    #[inline]
+    fn of(&mut self, face: u32, make: impl FnOnce() -> FaceNormals) -> &FaceNormals {
+        let slot = face as usize % Self::SLOTS;
+        if self.faces[slot] != face {
+            self.faces[slot] = face;
+            self.normals[slot] = make();
+        }
+        &self.normals[slot]
+    }
+}
+
+/// The normals of a face as the image has them: the weights of its corners, times 1/depth in perspective, are linear there.
+#[derive(Debug, Clone, Copy)]
+struct FaceNormals {
+    /// What a weight is at the origin, and how it changes to the right and down; for each corner.
+    weights: [[f64; 3]; 3],
+    /// In camera axes, on the side that is seen.
+    normals: [DVec3; 3],
+}
+
+impl FaceNormals {
+    fn new(mesh: &Mesh, view: &View, face: u32, normals: [DVec3; 3]) -> Self {
+        let side = if view.facing[face as usize] { 1.0 } else { -1.0 };
+        let frame = &view.frame;
+        let seen = |n: DVec3| DVec3::new(n.dot(frame.right), n.dot(frame.up), -n.dot(frame.forward)) * side;
+        let normals = normals.map(seen);
+        let corners = mesh.triangles[FaceId(face).index()].map(|v| view.points[v as usize]);
+        // What the near plane cuts is given the mean of its corners.
+        let even = Self { weights: [[1.0, 0.0, 0.0]; 3], normals };
+        let [a, b, c] = corners;
+        let area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+        if area == 0.0 || !area.is_finite() || corners.iter().any(|corner| corner.z.is_nan()) {
+            return even;
+        }
+        let weight = |p: DVec3, q: DVec3, own: DVec3| {
+            let nearness = if frame.perspective { own.z } else { 1.0 };
+            let k = nearness / area;
+            [k * (p.x * q.y - q.x * p.y), k * (p.y - q.y), k * (q.x - p.x)]
+        };
+        Self { weights: [weight(b, c, a), weight(c, a, b), weight(a, b, c)], normals }
+    }
+
+    /// The normals at places of a row.
+    fn along(&self, across: &[f64], y: f64, to: &mut [[f32; 3]]) {
+        // Several at a time, each in its lane.
+        for (across, to) in across.chunks(LANES).zip(to.chunks_mut(LANES)) {
+            let mut x = [0.0; LANES];
+            x[..across.len()].copy_from_slice(across);
+            let mut sums = [[0.0; LANES]; 3];
+            for (weight, normal) in self.weights.iter().zip(self.normals) {
+                for lane in 0..LANES {
+                    // Centres of pixels may lie a rounding beside their face.
+                    let weight = (weight[0] + weight[1] * x[lane] + weight[2] * y).max(0.0);
+                    sums[0][lane] += normal.x * weight;
+                    sums[1][lane] += normal.y * weight;
+                    sums[2][lane] += normal.z * weight;
+                }
+            }
+            let [xs, ys, zs] = sums;
+            let mut per_length = [0.0; LANES];
+            for lane in 0..LANES {
+                let [x, y, z] = [xs[lane], ys[lane], zs[lane]];
+                per_length[lane] = 1.0 / (x * x + y * y + z * z).sqrt();
+            }
+            for (lane, to) in to.iter_mut().enumerate() {
+                let sum = DVec3::new(xs[lane], ys[lane], zs[lane]);
+                let k = per_length[lane];
+                let normal = if k > 0.0 && k.is_finite() { sum * k } else { self.normals[0] };
+                *to = normal.to_array().map(|x| x as f32);
+            }
+        }
+    }
+}

@@ -1,0 +1,330 @@
+//! [`Screen`]: a view on a grid of pixels, and which pixels a triangle covers.
+//!
+//! Single precision is enough here, since buffers only propose. Nearness is brought to the range
+//! 0 to 1 first, so that no digits are lost on far-away eyes.
+
+use std::ops::Range;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use crate::mesh::Mesh;
+use crate::view::View;
+
+/// Pixels along the longer side of the frame.
+const LONGER_SIDE: f64 = 1024.0;
+/// How far beside a triangle a pixel's centre still counts as covered, pixels: more than rounding,
+/// so that no pixel falls between two triangles.
+const SLACK: f32 = 1e-4;
+/// Triangles whose box holds at most this many pixels are tested pixel by pixel.
+const FEW: i32 = 16;
+
+/// A corner on the screen: x to the right and y down in pixels, and nearness.
+pub type ScreenPoint = [f32; 3];
+
+/// A view on a grid of pixels.
+#[derive(Debug, Clone)]
+pub struct Screen<'a> {
+    mesh: &'a Mesh,
+    view: &'a View,
+    /// Pixels in a row.
+    pub columns: usize,
+    /// Number of rows.
+    pub rows: usize,
+    /// Pixels per user unit.
+    scale: f64,
+    /// Nearness of the farthest point, and what brings the rest to the range 0 to 1.
+    farthest: f64,
+    per_nearness: f64,
+    /// Each vertex; x is NaN where the near plane cuts it off.
+    points: Vec<ScreenPoint>,
+}
+
+/// The plane of a triangle over the screen.
+#[derive(Debug, Clone, Copy)]
+struct ScreenPlane {
+    origin: ScreenPoint,
+    /// Change of nearness per pixel to the right and down.
+    slope: [f32; 2],
+}
+
+impl ScreenPlane {
+    fn new([a, b, c]: [ScreenPoint; 3]) -> Self {
+        let (u, v) = (minus(b, a), minus(c, a));
+        let area = u[0] * v[1] - u[1] * v[0];
+        let per_area = 1.0 / area;
+        let slope = [(u[2] * v[1] - v[2] * u[1]) * per_area, (u[0] * v[2] - v[0] * u[2]) * per_area];
+        Self { origin: a, slope }
+    }
+
+    #[inline]
+    fn at(&self, x: f32, y: f32) -> f32 {
+        self.origin[2] + self.slope[0] * (x - self.origin[0]) + self.slope[1] * (y - self.origin[1])
+    }
+}
+
+#[inline]
+fn minus(a: ScreenPoint, b: ScreenPoint) -> ScreenPoint {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+impl<'a> Screen<'a> {
+    /// The screen of a view, about a thousand pixels along the longer side of the frame.
+    #[must_use]
+    pub fn new(mesh: &'a Mesh, view: &'a View) -> Self {
+        Self::of_side(mesh, view, LONGER_SIDE)
+    }
+
+    /// The screen of a view with so many pixels along the longer side of the frame.
+    #[must_use]
+    pub fn of_side(mesh: &'a Mesh, view: &'a View, longer_side: f64) -> Self {
+        const TASK: usize = 1 << 14;
+        let none = || (f64::INFINITY, f64::NEG_INFINITY);
+        // Comparisons with NaN fail, so that points cut off take no part.
+        let (farthest, nearest) = view
+            .points
+            .par_iter()
+            .with_min_len(TASK)
+            .fold(none, |(low, high), p| {
+                (if p.z < low { p.z } else { low }, if p.z > high { p.z } else { high })
+            })
+            .reduce(none, |a, b| (a.0.min(b.0), a.1.max(b.1)));
+        let scale = longer_side / view.frame.width.max(view.frame.height);
+        let pixels = |length: f64| (length * scale).ceil().clamp(1.0, longer_side.ceil()) as usize;
+        let mut screen = Self {
+            mesh,
+            view,
+            columns: pixels(view.frame.width),
+            rows: pixels(view.frame.height),
+            scale,
+            farthest,
+            per_nearness: if nearest > farthest { 1.0 / (nearest - farthest) } else { 0.0 },
+            points: Vec::new(),
+        };
+        screen.points = view.points.par_iter().with_min_len(TASK).map(|p| screen.point(*p)).collect();
+        screen
+    }
+
+    /// A point of image space; x is NaN where there is none.
+    #[must_use]
+    pub fn point(&self, p: DVec3) -> ScreenPoint {
+        let x = if p.z.is_nan() { f64::NAN } else { p.x * self.scale };
+        [x as f32, (p.y * self.scale) as f32, ((p.z - self.farthest) * self.per_nearness) as f32]
+    }
+
+    /// Pixels per user unit.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// The least and the greatest depth of what is in the view, world units; none if nothing is.
+    #[must_use]
+    pub fn depths(&self) -> Option<[f64; 2]> {
+        let nearest = self.farthest + 1.0 / self.per_nearness;
+        let nearest = if self.per_nearness > 0.0 { nearest } else { self.farthest };
+        let frame = &self.view.frame;
+        self.farthest.is_finite().then(|| [frame.depth_of(nearest), frame.depth_of(self.farthest)])
+    }
+
+    /// Image-space nearness of a nearness on the screen.
+    #[inline]
+    #[must_use]
+    pub fn image_nearness(&self, nearness: f32) -> f64 {
+        let range = if self.per_nearness > 0.0 { f64::from(nearness) / self.per_nearness } else { 0.0 };
+        self.farthest + range
+    }
+
+    /// Number of triangles: those of the mesh, then those left of faces that the near plane cuts.
+    #[must_use]
+    pub fn triangle_count(&self) -> usize {
+        self.mesh.triangles.len() + self.view.clipped.len()
+    }
+
+    /// The corners of a triangle and the face that it is (part) of.
+    #[inline]
+    #[must_use]
+    pub fn triangle(&self, id: usize) -> ([ScreenPoint; 3], u32) {
+        match self.mesh.triangles.get(id) {
+            Some(t) => (t.map(|v| self.points[v as usize]), id as u32),
+            None => {
+                let clipped = &self.view.clipped[id - self.mesh.triangles.len()];
+                (clipped.points.map(|p| self.point(p)), clipped.face.0)
+            }
+        }
+    }
+
+    /// The pixels whose centres lie in the box around a triangle: the first column and the one
+    /// after the last, and so for the rows. None if there are none.
+    #[inline]
+    fn pixel_box(&self, [a, b, c]: &[ScreenPoint; 3]) -> Option<[i32; 4]> {
+        let place = |x: f32, count: usize| x.max(0.0).min(count as f32) as i32;
+        let low = |axis: usize| a[axis].min(b[axis]).min(c[axis]) + (0.5 - SLACK);
+        let high = |axis: usize| a[axis].max(b[axis]).max(c[axis]) + (0.5 + SLACK);
+        let (left, right) = (place(low(0), self.columns), place(high(0), self.columns));
+        let (top, bottom) = (place(low(1), self.rows), place(high(1), self.rows));
+        ((left < right) & (top < bottom)).then_some([left, right, top, bottom])
+    }
+
+    /// The rows that a triangle may cover pixels in; none if it covers no pixel.
+    #[inline]
+    pub(crate) fn rows_of(&self, corners: &[ScreenPoint; 3]) -> Option<Range<usize>> {
+        self.pixel_box(corners).map(|[_, _, top, bottom]| top as usize..bottom as usize)
+    }
+
+    /// Calls `visit` with each pixel whose centre a triangle covers, and its nearness there.
+    #[inline]
+    pub fn cover(&self, corners: &[ScreenPoint; 3], visit: impl FnMut(usize, f32)) {
+        self.cover_within(0..self.rows, corners, visit);
+    }
+
+    /// Calls `visit` with the pixels of some rows as [`Screen::cover`] does.
+    #[inline]
+    pub(crate) fn cover_within(
+        &self,
+        rows: Range<usize>,
+        corners: &[ScreenPoint; 3],
+        visit: impl FnMut(usize, f32),
+    ) {
+        let Some([left, right, top, bottom]) = self.pixel_box(corners) else { return };
+        let within = [left, right, top.max(rows.start as i32), bottom.min(rows.end as i32)];
+        // All rows of a triangle are found one way.
+        if (right - left) * (bottom - top) <= FEW {
+            self.cover_few(corners, within, visit);
+        } else {
+            self.cover_rows(corners, within, visit);
+        }
+    }
+
+    /// Four pixels at a time: nearly all triangles of a scan lie between two rows and columns.
+    #[inline]
+    fn cover_few(
+        &self,
+        &[a, b, c]: &[ScreenPoint; 3],
+        [left, right, top, bottom]: [i32; 4],
+        mut visit: impl FnMut(usize, f32),
+    ) {
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        if area == 0.0 || !area.is_finite() {
+            return;
+        }
+        // The corners in turn, so that inside is positive.
+        let (b, c) = if area > 0.0 { (b, c) } else { (c, b) };
+        for row in (top..bottom).step_by(2) {
+            for column in (left..right).step_by(2) {
+                let (x, y) = (column as f32 + 0.5, row as f32 + 0.5);
+                let quad = Quad { x: [x, x + 1.0, x, x + 1.0], y: [y, y, y + 1.0, y + 1.0] };
+                let (at_a, by_a) = quad.side(b, c);
+                let (at_b, by_b) = quad.side(c, a);
+                let (at_c, by_c) = quad.side(a, b);
+                let first = row as usize * self.columns + column as usize;
+                let (right_too, below_too) = (column + 1 < right, row + 1 < bottom);
+                let places = [
+                    (true, first),
+                    (right_too, first + 1),
+                    (below_too, first + self.columns),
+                    (right_too & below_too, first + self.columns + 1),
+                ];
+                for (i, (in_box, pixel)) in places.into_iter().enumerate() {
+                    if in_box & by_a[i] & by_b[i] & by_c[i] {
+                        let q = (at_a[i] * a[2] + at_b[i] * b[2] + at_c[i] * c[2]) / area.abs();
+                        visit(pixel, within_corners(q, a, b, c));
+                    }
+                }
+            }
+        }
+    }
+
+    /// Row by row.
+    fn cover_rows(
+        &self,
+        &[a, b, c]: &[ScreenPoint; 3],
+        [left, right, top, bottom]: [i32; 4],
+        mut visit: impl FnMut(usize, f32),
+    ) {
+        let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        if area == 0.0 || !area.is_finite() {
+            return;
+        }
+        let plane = ScreenPlane::new([a, b, c]);
+        let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| Side::new(p, q, area));
+        for row in top..bottom {
+            let y = row as f32 + 0.5;
+            let first = row as usize * self.columns;
+            for column in span(&sides, f64::from(y), f64::from(left), f64::from(right)) {
+                let q = plane.at(column as f32 + 0.5, y);
+                visit(first + column, within_corners(q, a, b, c));
+            }
+        }
+    }
+}
+
+/// The centres of four pixels.
+struct Quad {
+    x: [f32; 4],
+    y: [f32; 4],
+}
+
+impl Quad {
+    /// Twice the areas between a side and the centres, and whether they are on its inner side.
+    #[inline]
+    fn side(&self, p: ScreenPoint, q: ScreenPoint) -> ([f32; 4], [bool; 4]) {
+        let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
+        let least = -SLACK * (dx.abs() + dy.abs());
+        let mut areas = [0.0; 4];
+        let mut inside = [false; 4];
+        for i in 0..4 {
+            areas[i] = dx * (self.y[i] - p[1]) - dy * (self.x[i] - p[0]);
+            inside[i] = areas[i] >= least;
+        }
+        (areas, inside)
+    }
+}
+
+/// A nearness no farther than the farthest and no nearer than the nearest corner: the planes of
+/// steep triangles reach beyond them within a pixel.
+#[inline]
+fn within_corners(q: f32, a: ScreenPoint, b: ScreenPoint, c: ScreenPoint) -> f32 {
+    q.min(a[2].max(b[2]).max(c[2])).max(a[2].min(b[2]).min(c[2])).max(0.0)
+}
+
+/// A side of a triangle, from a corner on, so that inside is on one hand of all three.
+struct Side {
+    x: f64,
+    y: f64,
+    dx: f64,
+    dy: f64,
+    slack: f64,
+}
+
+impl Side {
+    #[inline]
+    fn new(p: ScreenPoint, q: ScreenPoint, area: f32) -> Self {
+        let sign = f64::from(area.signum());
+        let [x, y, qx, qy] = [p[0], p[1], q[0], q[1]].map(f64::from);
+        let (dx, dy) = ((qx - x) * sign, (qy - y) * sign);
+        Self { x, y, dx, dy, slack: f64::from(SLACK) * (dx.abs() + dy.abs()) }
+    }
+}
+
+/// The columns from `left` up to `right` whose centres lie inside all sides, in the row at `y`.
+#[inline]
+fn span(sides: &[Side; 3], y: f64, left: f64, right: f64) -> Range<usize> {
+    let (mut from, mut to) = (left, right);
+    for side in sides {
+        let room = side.dx * (y - side.y) + side.slack;
+        // Inside is dy · (x − px) ≤ room.
+        let x = side.x + room / side.dy;
+        if side.dy > 0.0 {
+            to = to.min(x + 0.5);
+        } else if side.dy < 0.0 {
+            from = from.max(x - 0.5);
+        } else if room < 0.0 {
+            return 0..0;
+        }
+    }
+    // By way of integers, which is much faster than rounding.
+    let from = from.min(right);
+    let whole = from as usize;
+    whole + usize::from(from > whole as f64)..to.max(0.0) as usize
+}

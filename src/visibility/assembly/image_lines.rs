@@ -1,0 +1,168 @@
+//! Lines that were found in the image join the view map: as visible lines of their own.
+
+use glam::{DVec2, DVec3};
+use kurbo::Point;
+
+use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use crate::geometry::plane::planar_distance::distance2;
+use crate::lines::image::{ImageLines, ImagePiece, ImagePoint};
+use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE, Role};
+use crate::mesh::Mesh;
+use crate::surface::Origin;
+use crate::view::View;
+use crate::visibility::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+use crate::visibility::tiles::tile_grid::Grid;
+
+/// An image line has a line of the surface beside it that is no farther away than this, px of the frame.
+const SAME_PX: f64 = 1.5;
+
+/// Image lines are asked for that at places no farther apart, px.
+const STEP_PX: f64 = 1.0;
+
+/// What is left of image lines between lines of the surface is a line itself if it is as long as this, px.
+const REST_PX: f64 = 6.0;
+
+/// Adds image lines to a view map, and their segments to its feature lines. Where `beside` says so, only what of them lies
+/// beside no visible line of the map.
+pub fn join(
+    map: &mut ViewMap,
+    lines: &mut FeatureLines,
+    image: &ImageLines,
+    mesh: &Mesh,
+    view: &View,
+    beside: bool,
+) {
+    let rest = beside.then(|| rest(map, image, view));
+    let image = rest.as_ref().unwrap_or(image);
+    let first_point = mesh.positions.len() + lines.points.len();
+    let first_vertex = map.vertices.len() as u32;
+    for ImagePoint { position, depth } in &image.points {
+        let nearness = view.frame.nearness_of(*depth);
+        lines.points.push(view.frame.local_from_image(position.extend(nearness)));
+        map.vertices.push(ViewVertex {
+            position: Point::new(position.x, position.y),
+            depth: *depth,
+            strength: 1.0,
+            kind: ViewVertexKind::Vertex,
+        });
+    }
+    for piece in &image.pieces {
+        let [start, end] = piece.ends.map(|id| ViewVertexId(first_vertex + id));
+        map.edges.push(ViewEdge {
+            start,
+            end,
+            kind: LineKind::Image,
+            invisibility: 0,
+            silhouette: piece.silhouette,
+            both_seen: piece.both_seen,
+            smooth: true,
+            origin: Origin::Constructed,
+            strength: 180.0,
+            part: piece.part,
+            material: piece.material,
+            segment: lines.segments.len() as u32,
+        });
+        lines.segments.push(FeatureSegment {
+            ends: piece.ends.map(|id| first_point as u32 + id),
+            hosts: [NO_FACE; 2],
+            kind: LineKind::Image,
+            both_seen: piece.both_seen,
+            smooth: true,
+            origin: Origin::Constructed,
+            role: Role::Line,
+            strength: 180.0,
+            part: piece.part,
+            material: piece.material,
+        });
+    }
+}
+
+/// What of image lines lies beside no visible line of a map.
+fn rest(map: &ViewMap, image: &ImageLines, view: &View) -> ImageLines {
+    let px = view.frame.px();
+    let drawn = Drawn::new(map, view);
+    let mut rest = ImageLines { lines: image.lines, ..ImageLines::default() };
+    // Lines as they run, piece after piece, in steps that are beside something or not.
+    for line in image.pieces.chunk_by(|a, b| a.line == b.line && a.ends[1] == b.ends[0]) {
+        let mut steps: Vec<(ImagePoint, ImagePoint, ImagePiece)> = Vec::new();
+        for piece in line {
+            let [a, b] = piece.ends.map(|id| image.points[id as usize]);
+            let count = (a.position.distance(b.position) / (STEP_PX * px)).ceil().clamp(1.0, 1e4);
+            for i in 0..count as usize {
+                let at = |k: usize| {
+                    let t = k as f64 / count;
+                    ImagePoint {
+                        position: a.position.lerp(b.position, t),
+                        depth: a.depth + (b.depth - a.depth) * t,
+                    }
+                };
+                steps.push((at(i), at(i + 1), *piece));
+            }
+        }
+        let is_new: Vec<bool> = steps
+            .iter()
+            .map(|(a, b, _)| drawn.distance2(a.position.midpoint(b.position)) > (SAME_PX * px).powi(2))
+            .collect();
+        let mut at = 0;
+        for run in is_new.chunk_by(|a, b| a == b) {
+            let of_run = &steps[at..at + run.len()];
+            at += run.len();
+            let length: f64 = of_run.iter().map(|(a, b, _)| a.position.distance(b.position)).sum();
+            if run[0] && length >= REST_PX * px {
+                rest.points.push(of_run[0].0);
+                for (_, to, piece) in of_run {
+                    let last = (rest.points.len() - 1) as u32;
+                    rest.points.push(*to);
+                    rest.pieces.push(ImagePiece { ends: [last, last + 1], ..*piece });
+                }
+            }
+        }
+    }
+    rest
+}
+
+/// The visible lines of a map, to be found by place.
+struct Drawn {
+    lines: Vec<[Point; 2]>,
+    /// What tiles of a grid they pass through, or near by.
+    near: Option<(Grid, Grouped<u32>)>,
+}
+
+impl Drawn {
+    fn new(map: &ViewMap, view: &View) -> Self {
+        let at = |id: ViewVertexId| map.vertices[id.index()].position;
+        let lines: Vec<[Point; 2]> = map
+            .edges
+            .iter()
+            .filter(|edge| edge.invisibility == 0)
+            .map(|edge| [at(edge.start), at(edge.end)])
+            .collect();
+        if lines.is_empty() {
+            return Self { lines, near: None };
+        }
+        let (width, height) = (view.frame.width, view.frame.height);
+        let across = (width.max(height) / (4.0 * SAME_PX * view.frame.px())) as u32;
+        let grid = Grid::new(DVec2::ZERO, DVec2::new(width, height), across.clamp(16, 1024));
+        let reach = SAME_PX * view.frame.px();
+        let near = grouped(grid.len(), |put| {
+            for (id, [a, b]) in lines.iter().enumerate() {
+                for (dx, dy) in [(0.0, 0.0), (-1.0, -1.0), (1.0, -1.0), (-1.0, 1.0), (1.0, 1.0)] {
+                    let moved = |p: &Point| DVec3::new(p.x + dx * reach, p.y + dy * reach, 0.0);
+                    grid.walk(moved(a), moved(b), |tile, _, _| put(tile, id as u32));
+                }
+            }
+        });
+        Self { lines, near: Some((grid, near)) }
+    }
+
+    /// The square of the distance to the nearest line within reach.
+    fn distance2(&self, p: DVec2) -> f64 {
+        let Some((grid, near)) = &self.near else { return f64::INFINITY };
+        let at = Point::new(p.x, p.y);
+        let of = |id: &u32| {
+            let [a, b] = self.lines[*id as usize];
+            distance2(at, a, b)
+        };
+        near.of(grid.tile(grid.column(p.x), grid.row(p.y))).iter().map(of).fold(f64::INFINITY, f64::min)
+    }
+}

@@ -1,0 +1,308 @@
+//! From decided segments to the [`ViewMap`]: nodes by identity, pieces between them.
+
+use crate::parallel::prelude::*;
+use kurbo::Point;
+
+use crate::lines::{FeatureLines, FeatureSegment, HiddenLines, LineKind, LineOptions, Role};
+use crate::mesh::Mesh;
+use crate::view::View;
+use crate::visibility::contours::contour_visibility::{self, Rounded, Smooth};
+use crate::visibility::contours::thin_folds;
+use crate::visibility::culling::view_occlusion::ViewCovers;
+use crate::visibility::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+use crate::visibility::occlusion::interval_sweep::{self, Layer};
+use crate::visibility::overlap::coincident_lines;
+use crate::visibility::projection::image_segments::{ImageSegment, project};
+use crate::visibility::sweep::segment_pieces::{Cuts, Seen, SegmentPart};
+use crate::visibility::sweep::segment_visibility::{self, Visibility, decide_with};
+use crate::visibility::view_tolerances::Limits;
+
+const UNSET: u32 = u32::MAX;
+
+/// Segments that one task cuts.
+const CHUNK: usize = 1 << 10;
+
+/// Which hidden pieces a view map keeps beside the visible ones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum HiddenPieces {
+    /// All, with their counts.
+    All,
+    /// Those of contours, from which chains tell a line that ducks under a fold from one that
+    /// ends.
+    Contours,
+}
+
+/// Builds the view map of all feature lines.
+#[must_use]
+pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptions) -> ViewMap {
+    build_with(mesh, view, lines, options, None)
+}
+
+/// The same with the help of covers that were made of the view before.
+#[must_use]
+pub fn build_with(
+    mesh: &Mesh,
+    view: &View,
+    lines: &FeatureLines,
+    options: &LineOptions,
+    covers: Option<&ViewCovers>,
+) -> ViewMap {
+    let asked = Asked::new(mesh, view, lines, options);
+    let told = asked.decide(mesh, covers);
+    asked.map(&told, None)
+}
+
+/// Builds the view map of all feature lines in front of a mesh some of whose faces one sees through, and that of what is seen of
+/// them through these faces alone: `clear` is the same mesh, but that those faces hide nothing.
+#[must_use]
+pub fn build_through(
+    mesh: &Mesh,
+    clear: &Mesh,
+    view: &View,
+    lines: &FeatureLines,
+    options: &LineOptions,
+) -> [ViewMap; 2] {
+    let options = LineOptions { hidden: HiddenLines::None, ..options.clone() };
+    let asked = Asked::new(mesh, view, lines, &options);
+    let (front, behind) = (asked.decide(mesh, None), asked.decide(clear, None));
+    [asked.map(&behind, None), asked.map(&behind, Some(&front))]
+}
+
+/// The view map of what is seen of plain lines, of which is known what is hidden.
+pub(crate) fn of_hidden(
+    mesh: &Mesh,
+    view: &View,
+    lines: &FeatureLines,
+    segments: &[ImageSegment],
+    hidden: &[Vec<Layer>],
+) -> ViewMap {
+    let limits = Limits::new(&view.frame);
+    let mut cuts = Cuts::default();
+    for (id, (segment, hidden)) in segments.iter().zip(hidden).enumerate() {
+        cuts.add(id, segment, Seen { hidden, backed: &[] }, limits.piece, false);
+    }
+    let mut builder = Builder::new(mesh, view, lines);
+    builder.add_all(segments, &cuts);
+    let mut map = builder.map;
+    coincident_lines::remove(&mut map, limits.double, &view.frame, &mesh.extents);
+    map
+}
+
+/// Lines in the image, of which visibility is asked.
+struct Asked<'a> {
+    mesh: &'a Mesh,
+    view: &'a View,
+    lines: &'a FeatureLines,
+    limits: Limits,
+    segments: Vec<ImageSegment>,
+    hidden: HiddenPieces,
+}
+
+/// What is seen of them, with a mesh before them.
+struct Told {
+    seen: Visibility,
+    rounded: Rounded,
+}
+
+impl<'a> Asked<'a> {
+    fn new(mesh: &'a Mesh, view: &'a View, lines: &'a FeatureLines, options: &LineOptions) -> Self {
+        let segments = project(mesh, view, lines);
+        let none = options.hidden == HiddenLines::None;
+        let hidden = if none { HiddenPieces::Contours } else { HiddenPieces::All };
+        Self { mesh, view, lines, limits: Limits::new(&view.frame), segments, hidden }
+    }
+
+    fn decide(&self, mesh: &Mesh, covers: Option<&ViewCovers>) -> Told {
+        let Self { view, lines, limits, segments, .. } = self;
+        let counting = self.hidden == HiddenPieces::All;
+        let is_round = segments.iter().any(|s| s.role != Role::Line);
+        let (seen, smooth) = crate::parallel::join(
+            || decide_with(mesh, view, segments, limits, counting, covers),
+            || is_round.then(|| Smooth::new(lines, segments, limits)),
+        );
+        let rounded = smooth.map_or_else(Rounded::default, |smooth| {
+            contour_visibility::decide(self.mesh, view, smooth, segments, &seen, limits, counting)
+        });
+        Told { seen, rounded }
+    }
+
+    /// The map of what is seen; or of what is seen so, but not with another mesh before it.
+    fn map(&self, told: &Told, but: Option<&Told>) -> ViewMap {
+        let Self { mesh, view, lines, limits, .. } = self;
+        let (mut map, needles) = crate::parallel::join(
+            || self.map_with_doubles(told, but),
+            || thin_folds::find(mesh, view, lines, &self.segments),
+        );
+        map.tests = told.seen.tests;
+        map.contours = told.rounded.counts;
+        map.seen_contours = told.rounded.seen.clone();
+        map.needles = needles;
+        coincident_lines::remove(&mut map, limits.double, &view.frame, &mesh.extents);
+        map
+    }
+
+    fn map_with_doubles(&self, told: &Told, but: Option<&Told>) -> ViewMap {
+        let ids: Vec<usize> = (0..self.segments.len()).step_by(CHUNK).collect();
+        let cuts: Vec<Cuts> =
+            ids.into_par_iter().with_max_len(1).map(|first| self.cuts(first, told, but)).collect();
+        let mut builder = Builder::new(self.mesh, self.view, self.lines);
+        // What grows by doubling is copied again and again; most lines are drawn whole, where anything is.
+        let drawn = cuts.iter().map(|cuts| cuts.segments.len()).sum::<usize>();
+        builder.map.edges.reserve(drawn);
+        builder.map.vertices.reserve(drawn + drawn / 8);
+        cuts.iter().for_each(|cuts| builder.add_all(&self.segments, cuts));
+        builder.map
+    }
+
+    /// Cuts those of some segments, from the first on, of which anything is kept.
+    fn cuts(&self, first: usize, told: &Told, but: Option<&Told>) -> Cuts {
+        let mut cuts = Cuts::default();
+        let end = (first + CHUNK).min(self.segments.len());
+        for (i, segment) in (first..end).zip(&self.segments[first..end]) {
+            let seen = told.of(i, segment.role);
+            let mut drawn = told.draws(i, segment.role);
+            let left;
+            let seen = match but {
+                None => seen,
+                Some(but) => {
+                    let front = but.of(i, segment.role);
+                    let front =
+                        if but.draws(i, segment.role) { front.hidden } else { &segment_visibility::BURIED };
+                    drawn &= !front.is_empty();
+                    left = interval_sweep::only_behind(front, seen.hidden);
+                    Seen { hidden: &left, backed: seen.backed }
+                }
+            };
+            if drawn {
+                let source = &self.lines.segments[segment.source as usize];
+                let keeps_hidden = but.is_none() && keeps_hidden(self.hidden, segment, source.kind);
+                cuts.add(i, segment, seen, self.limits.piece, keeps_hidden);
+            }
+        }
+        cuts
+    }
+}
+
+/// Whether what is hidden of a segment is kept beside what is seen.
+fn keeps_hidden(hidden: HiddenPieces, segment: &ImageSegment, kind: LineKind) -> bool {
+    let is_witness = matches!(segment.role, Role::Witness { .. });
+    !is_witness && (hidden == HiddenPieces::All || kind == LineKind::Contour)
+}
+
+impl Told {
+    /// Whether anything of a segment may be drawn.
+    fn draws(&self, segment: usize, role: Role) -> bool {
+        role == Role::Line || self.rounded.is_drawn(segment, role)
+    }
+
+    /// What is known of a segment.
+    fn of(&self, segment: usize, role: Role) -> Seen<'_> {
+        if role == Role::Line {
+            return Seen { hidden: self.seen.hidden(segment), backed: self.seen.backed(segment) };
+        }
+        Seen { hidden: self.rounded.hidden.of(segment), backed: self.rounded.backed.of(segment) }
+    }
+}
+
+struct Builder<'a> {
+    mesh: &'a Mesh,
+    view: &'a View,
+    lines: &'a FeatureLines,
+    map: ViewMap,
+    vertex_of_end: Vec<u32>,
+}
+
+impl<'a> Builder<'a> {
+    fn new(mesh: &'a Mesh, view: &'a View, lines: &'a FeatureLines) -> Self {
+        let vertex_of_end = vec![UNSET; mesh.positions.len() + lines.points.len()];
+        let map = ViewMap { bodies: mesh.bodies.clone(), ..ViewMap::default() };
+        Self { mesh, view, lines, map, vertex_of_end }
+    }
+
+    /// Adds the pieces of segments, of which these are all.
+    fn add_all(&mut self, segments: &[ImageSegment], cuts: &Cuts) {
+        let mut pieces = cuts.pieces.as_slice();
+        for cut in &cuts.segments {
+            let own;
+            (own, pieces) = pieces.split_at(cut.count);
+            self.add(&segments[cut.segment], own, cut.keeps_hidden);
+        }
+    }
+
+    /// Adds the pieces of a segment that are seen, and with `keeps_hidden` the others.
+    fn add(&mut self, segment: &ImageSegment, pieces: &[SegmentPart], keeps_hidden: bool) {
+        let source = &self.lines.segments[segment.source as usize];
+        let mut start: Option<ViewVertexId> = None;
+        for (i, piece) in pieces.iter().enumerate() {
+            if piece.invisibility > 0 && !keeps_hidden {
+                start = None;
+                continue;
+            }
+            let from = match start {
+                Some(vertex) => vertex,
+                None if i == 0 => self.end_vertex(segment, 0),
+                None => self.cut_vertex(segment, piece.start, pieces[i - 1].end_kind),
+            };
+            let to = if i + 1 == pieces.len() {
+                self.end_vertex(segment, 1)
+            } else {
+                self.cut_vertex(segment, piece.end, piece.end_kind)
+            };
+            self.map.edges.push(view_edge(source, segment.source, from, to, piece));
+            start = Some(to);
+        }
+    }
+
+    /// The node at an end of a segment: shared by all segments that end there.
+    fn end_vertex(&mut self, segment: &ImageSegment, end: usize) -> ViewVertexId {
+        let point = if end == 0 { segment.a } else { segment.b };
+        let source = &self.lines.segments[segment.source as usize];
+        let strength = self.lines.strength(self.mesh, source.ends[end]);
+        if segment.cut[end] {
+            return self.push_vertex(point, strength, ViewVertexKind::Frame);
+        }
+        let slot = segment.ends[end] as usize;
+        if self.vertex_of_end[slot] == UNSET {
+            self.vertex_of_end[slot] = self.map.vertices.len() as u32;
+            self.push_vertex(point, strength, ViewVertexKind::Vertex);
+        }
+        ViewVertexId(self.vertex_of_end[slot])
+    }
+
+    fn cut_vertex(&mut self, segment: &ImageSegment, t: f64, kind: ViewVertexKind) -> ViewVertexId {
+        let ends = self.lines.segments[segment.source as usize].ends;
+        let [from, to] = ends.map(|end| self.lines.strength(self.mesh, end));
+        self.push_vertex(segment.at(t), from + (to - from) * t as f32, kind)
+    }
+
+    fn push_vertex(&mut self, point: glam::DVec3, strength: f32, kind: ViewVertexKind) -> ViewVertexId {
+        let id = ViewVertexId(self.map.vertices.len() as u32);
+        let depth = self.view.frame.depth_of(point.z);
+        self.map.vertices.push(ViewVertex { position: Point::new(point.x, point.y), depth, strength, kind });
+        id
+    }
+}
+
+fn view_edge(
+    source: &FeatureSegment,
+    segment: u32,
+    start: ViewVertexId,
+    end: ViewVertexId,
+    piece: &SegmentPart,
+) -> ViewEdge {
+    ViewEdge {
+        start,
+        end,
+        kind: source.kind,
+        invisibility: piece.invisibility,
+        silhouette: piece.silhouette,
+        // Where there is background on one side, only one of the two surfaces is seen.
+        both_seen: source.both_seen && !piece.silhouette,
+        smooth: source.smooth,
+        origin: source.origin,
+        strength: source.strength,
+        part: source.part,
+        material: source.material,
+        segment,
+    }
+}

@@ -1,0 +1,69 @@
+//! The view map of motion lines: what is seen of them beside the bodies that leave them.
+
+use std::ops::Range;
+
+use super::map_builder::of_hidden;
+use crate::lines::FeatureLines;
+use crate::mesh::Mesh;
+use crate::scene::Camera;
+use crate::view::View;
+use crate::visibility::graph::ViewMap;
+use crate::visibility::occlusion::interval_sweep::{Layer, sweep};
+use crate::visibility::occlusion::triangle_occlusion::Interval;
+use crate::visibility::projection::image_segments::{ImageSegment, project};
+use crate::visibility::sweep::segment_visibility::decide;
+use crate::visibility::view_tolerances::Limits;
+
+/// A body, and the feature segments that must not lie over it, however near they are.
+#[derive(Debug)]
+pub struct Beside {
+    /// Feature segments that follow each other.
+    pub segments: Range<u32>,
+    /// What they are beside.
+    pub body: Mesh,
+}
+
+/// Builds the view map of lines that are drawn where nothing hides them and they do not lie over their own bodies.
+#[must_use]
+pub fn build_beside(
+    mesh: &Mesh,
+    view: &View,
+    camera: &Camera,
+    lines: &FeatureLines,
+    bodies: &[Beside],
+) -> ViewMap {
+    let limits = Limits::new(&view.frame);
+    let segments = project(mesh, view, lines);
+    let seen = decide(mesh, view, &segments, &limits, false);
+    let mut hidden: Vec<Vec<Interval>> =
+        (0..segments.len()).map(|i| seen.hidden(i).iter().map(|layer| layer.interval).collect()).collect();
+    for Beside { segments: own, body } in bodies {
+        let of_body = View::new(body, camera);
+        // What lies behind all of a body is hidden wherever the body covers it in the image.
+        let nearness = of_body.points.iter().map(|point| point.z).filter(|nearness| !nearness.is_nan());
+        let least = nearness.fold(f64::INFINITY, f64::min);
+        let frame = &view.frame;
+        let far = if frame.perspective { least / 2.0 } else { least - frame.side_at(frame.focus) };
+        let behind = |segment: &ImageSegment| {
+            let [mut a, mut b] = [segment.a, segment.b];
+            (a.z, b.z) = (far, far);
+            // Its ends are no vertices of the body.
+            ImageSegment { a, b, ends: [u32::MAX; 2], ..*segment }
+        };
+        let numbers: Vec<usize> =
+            (0..segments.len()).filter(|i| own.contains(&segments[*i].source)).collect();
+        let pushed: Vec<ImageSegment> = numbers.iter().map(|i| behind(&segments[*i])).collect();
+        let covered = decide(body, &of_body, &pushed, &limits, false);
+        for (k, i) in numbers.into_iter().enumerate() {
+            hidden[i].extend(covered.hidden(k).iter().map(|layer| layer.interval));
+        }
+    }
+    let joined = hidden.iter_mut().zip(&segments).map(|(hidden, segment)| {
+        let shortest = limits.piece / segment.length().max(limits.piece);
+        let mut layers: Vec<Layer> = Vec::new();
+        sweep(hidden, &[], shortest, false, &mut layers);
+        layers
+    });
+    let hidden: Vec<Vec<Layer>> = joined.collect();
+    of_hidden(mesh, view, lines, &segments, &hidden)
+}

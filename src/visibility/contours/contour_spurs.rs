@@ -1,0 +1,65 @@
+//! Teeth: places where the contour of the polyhedron leaves the smooth one for a few edges and comes back
+//! to where it left.
+//!
+//! Thin faces seen edge-on stick out of the contour like teeth of a saw, and often only one side of a
+//! tooth is seen. The smooth contour passes below, and stands for them.
+
+use crate::parallel::prelude::*;
+
+use super::contour_matching::{Court, Place};
+use crate::lines::Role;
+use crate::visibility::projection::image_segments::ImageSegment;
+
+/// A detour of more edges than this is no tooth.
+const MOST_EDGES: usize = 12;
+
+/// The contour of the polyhedron as a graph, seen or hidden.
+pub(crate) struct Teeth<'a> {
+    court: &'a Court<'a>,
+    segments: &'a [ImageSegment],
+    /// Vertices with the witnesses that end there, by vertex.
+    ends: Vec<(u32, u32)>,
+}
+
+impl<'a> Teeth<'a> {
+    pub fn new(court: &'a Court<'a>, segments: &'a [ImageSegment]) -> Self {
+        let witnesses = segments.iter().enumerate().filter(|(_, s)| matches!(s.role, Role::Witness { .. }));
+        let mut ends: Vec<(u32, u32)> =
+            witnesses.flat_map(|(id, s)| s.ends.map(|end| (end, id as u32))).collect();
+        ends.par_sort_unstable();
+        Self { court, segments, ends }
+    }
+
+    /// Whether a witness is part of a tooth on a curve that `is_seen` (run, from, to) all along its foot.
+    pub fn holds(&self, id: u32, is_seen: impl Fn(u32, f64, f64) -> bool) -> bool {
+        let Some((p, there)) = self.walk(id, 0) else { return false };
+        let Some((q, back)) = self.walk(id, 1) else { return false };
+        let way = there + back + self.segments[id as usize].length();
+        p.run == q.run && self.court.runs[p.run as usize].between(p.at, q.at) <= way && {
+            is_seen(p.run, p.at.min(q.at), p.at.max(q.at))
+        }
+    }
+
+    /// The first place of a curve on the way from one end of a witness, and how long the way is.
+    fn walk(&self, id: u32, end: usize) -> Option<(Place, f64)> {
+        let mut way = 0.0;
+        let (mut at, mut vertex) = (id, self.segments[id as usize].ends[end]);
+        let mut passed = vec![id];
+        while passed.len() <= MOST_EDGES {
+            let segment = &self.segments[at as usize];
+            let point = if segment.ends[0] == vertex { segment.a } else { segment.b };
+            if let Some(place) = self.court.place(segment, point) {
+                return Some((place, way));
+            }
+            let first = self.ends.partition_point(|(of, _)| *of < vertex);
+            let here = self.ends[first..].iter().take_while(|(of, _)| *of == vertex);
+            let next = here.map(|(_, id)| *id).find(|id| !passed.contains(id))?;
+            let ends = self.segments[next as usize].ends;
+            vertex = if ends[0] == vertex { ends[1] } else { ends[0] };
+            way += self.segments[next as usize].length();
+            at = next;
+            passed.push(next);
+        }
+        None
+    }
+}

@@ -1,0 +1,289 @@
+//! What is drawn of rounded surfaces: of each smooth contour what its witnesses show, and of the
+//! witnesses what no smooth contour stands for.
+
+use crate::parallel::prelude::*;
+
+use super::contour_chains::{Run, runs};
+use super::contour_matching::{Bare, Court, REACH_PX, Sought, Told};
+use super::contour_spurs::Teeth;
+use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use crate::geometry::numbers::tolerance;
+use crate::lines::{FeatureLines, Role};
+use crate::mesh::Mesh;
+use crate::view::View;
+use crate::visibility::graph::{ContourCounts, SeenContour, ViewVertexKind};
+use crate::visibility::occlusion::interval_sweep::Layer;
+use crate::visibility::occlusion::triangle_occlusion::Interval;
+use crate::visibility::projection::image_segments::ImageSegment;
+use crate::visibility::sweep::segment_visibility::Visibility;
+use crate::visibility::view_tolerances::Limits;
+
+/// Gaps in what is seen of a curve no longer than this (px) come from the steps in which witnesses
+/// are asked: a contour of the polyhedron is seen without gaps.
+const GAP_PX: f64 = 1.0;
+
+/// What is seen of witnesses and curves: of each the ranges of its parameter that are drawn, by image
+/// segment.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Rounded {
+    /// What is not drawn of each image segment of a rounded surface, ascending.
+    pub hidden: Grouped<Layer>,
+    /// Where a surface lies beside it on the outer side, ascending.
+    pub backed: Grouped<Interval>,
+    /// Whether each is a witness of which something is drawn.
+    bare: Vec<bool>,
+    pub counts: ContourCounts,
+    /// What is seen of the contours of the polyhedron.
+    pub seen: Vec<SeenContour>,
+}
+
+impl Rounded {
+    /// Whether anything of an image segment of a rounded surface may be drawn.
+    pub fn is_drawn(&self, segment: usize, role: Role) -> bool {
+        role == Role::Curve || self.bare[segment]
+    }
+}
+
+/// The same as it is found.
+#[derive(Debug, Default)]
+struct Found {
+    hidden: Vec<(u32, Layer)>,
+    backed: Vec<(u32, Interval)>,
+    /// Witnesses of which something is drawn.
+    bare: Vec<u32>,
+    counts: ContourCounts,
+}
+
+impl Found {
+    /// Of so many image segments.
+    fn sorted(self, segments: usize, seen: Vec<SeenContour>) -> Rounded {
+        let mut bare = vec![false; segments];
+        self.bare.iter().for_each(|segment| bare[*segment as usize] = true);
+        let hidden = by_segment(segments, &self.hidden, |layer| layer.interval.start);
+        let backed = by_segment(segments, &self.backed, |interval| interval.start);
+        Rounded { hidden, backed, bare, counts: self.counts, seen }
+    }
+}
+
+/// What was found of each segment, in the order of where it starts.
+fn by_segment<T: Copy>(segments: usize, found: &[(u32, T)], start: impl Fn(&T) -> f64) -> Grouped<T> {
+    let mut sorted =
+        grouped(segments, |put| found.iter().for_each(|(segment, value)| put(*segment as usize, *value)));
+    for segment in 0..segments {
+        sorted.of_mut(segment).sort_by(|a, b| start(a).total_cmp(&start(b)));
+    }
+    sorted
+}
+
+/// The image of smooth contours, to be asked for.
+pub(crate) struct Smooth {
+    runs: Vec<Run>,
+    sought: Sought,
+}
+
+impl Smooth {
+    pub fn new(lines: &FeatureLines, segments: &[ImageSegment], limits: &Limits) -> Self {
+        let runs = runs(lines, segments, tolerance::CUSP_PX * limits.px);
+        Self { sought: Sought::new(segments, &runs), runs }
+    }
+}
+
+/// What is seen of the witnesses is known.
+pub(crate) fn decide(
+    mesh: &Mesh,
+    view: &View,
+    Smooth { runs, sought }: Smooth,
+    segments: &[ImageSegment],
+    seen: &Visibility,
+    limits: &Limits,
+    counting: bool,
+) -> Rounded {
+    let court = Court { mesh, view, segments, runs: &runs, sought, px: limits.px };
+    let mut testimony = court.hear(seen, counting);
+    testimony.told.par_sort_by(|a, b| {
+        a.run
+            .cmp(&b.run)
+            .then(a.from.total_cmp(&b.from))
+            .then(b.to.total_cmp(&a.to))
+            .then(a.kinds.cmp(&b.kinds))
+    });
+    let mut found = Found::default();
+    found.counts.curves = runs.len() as u64;
+    let mut seen_of_run: Vec<Vec<Told>> = Vec::with_capacity(runs.len());
+    let mut told = testimony.told.as_slice();
+    for (r, run) in runs.iter().enumerate() {
+        let count = told.partition_point(|t| t.run as usize == r);
+        let (own, rest) = told.split_at(count);
+        told = rest;
+        let visible = joined(own.iter().filter(|t| t.count == 0), GAP_PX * limits.px);
+        let silhouette = joined(own.iter().filter(|t| t.silhouette), GAP_PX * limits.px);
+        found.add_run(run, [&visible, &silhouette, own], REACH_PX * limits.px);
+        seen_of_run.push(visible);
+    }
+    found.add_bare(&court, segments, &testimony.bare, &seen_of_run);
+    found.sorted(segments.len(), testimony.seen)
+}
+
+/// Pieces in ascending order of where they begin, those joined that overlap or nearly meet.
+fn joined<'a>(pieces: impl Iterator<Item = &'a Told>, gap: f64) -> Vec<Told> {
+    let mut joined: Vec<Told> = Vec::new();
+    for piece in pieces {
+        match joined.last_mut() {
+            Some(last) if piece.from <= last.to + gap => {
+                if piece.to > last.to || (piece.to == last.to && piece.kinds[1] > last.kinds[1]) {
+                    last.to = piece.to;
+                    last.kinds[1] = piece.kinds[1];
+                }
+            }
+            _ => joined.push(*piece),
+        }
+    }
+    joined
+}
+
+/// What is seen of the runs: ascending pieces of each.
+struct SeenRuns<'a> {
+    runs: &'a [Run],
+    pieces: &'a [Vec<Told>],
+}
+
+impl SeenRuns<'_> {
+    fn at(&self, run: u32, place: f64) -> bool {
+        let pieces = &self.pieces[run as usize];
+        let next = pieces.partition_point(|t| t.to < place);
+        pieces.get(next).is_some_and(|t| t.from <= place)
+    }
+
+    /// Whether all is seen between two places of a run, one way round or the other.
+    fn between(&self, run: u32, from: f64, to: f64) -> bool {
+        let holds =
+            |from: f64, to: f64| self.pieces[run as usize].iter().any(|t| t.from <= from && t.to >= to);
+        let run = &self.runs[run as usize];
+        holds(from, to) || (run.closed && holds(0.0, from) && holds(to, run.length()))
+    }
+}
+
+impl Found {
+    /// Adds what has no curve: all but what has ink near it by chance, and ripples of the mesh that have
+    /// other surface behind them.
+    fn add_bare(&mut self, court: &Court, segments: &[ImageSegment], bare: &[Bare], seen: &[Vec<Told>]) {
+        let seen = SeenRuns { runs: court.runs, pieces: seen };
+        let teeth = Teeth::new(court, segments);
+        let is_ripple = |id: u32| {
+            matches!(segments[id as usize].role, Role::Witness { fold: true, .. })
+                || teeth.holds(id, |run, from, to| seen.between(run, from, to))
+        };
+        let mut drawn: Vec<Bare> = Vec::new();
+        for own in bare.chunk_by(|a, b| a.segment == b.segment) {
+            let segment = &segments[own[0].segment as usize];
+            let mut ripple = None;
+            for piece in own {
+                let middle = segment.at((piece.from + piece.to) / 2.0);
+                if court.is_inked(middle, |run, place| seen.at(run, place)) {
+                    continue;
+                }
+                if !piece.silhouette && *ripple.get_or_insert_with(|| is_ripple(piece.segment)) {
+                    self.counts.folds += 1;
+                    continue;
+                }
+                match drawn.last_mut() {
+                    Some(last)
+                        if last.segment == piece.segment
+                            && last.to == piece.from
+                            && last.silhouette == piece.silhouette =>
+                    {
+                        last.to = piece.to;
+                    }
+                    _ => drawn.push(*piece),
+                }
+            }
+        }
+        self.counts.bare = drawn.len() as u64;
+        for own in drawn.chunk_by(|a, b| a.segment == b.segment) {
+            self.add_witness(own);
+            self.bare.push(own[0].segment);
+        }
+    }
+
+    /// Adds what is hidden of a run: all that is not seen.
+    fn add_run(&mut self, run: &Run, [visible, silhouette, told]: [&[Told]; 3], cusp: f64) {
+        let mut at = 0.0;
+        let mut kind = ViewVertexKind::Vertex;
+        // Where no line covers it, a contour ends because it turns back in the image.
+        let ended = |place: f64, kind: ViewVertexKind| match kind {
+            ViewVertexKind::Vertex if run.turns_near(place, cusp) => ViewVertexKind::Cusp,
+            kind => kind,
+        };
+        for piece in visible {
+            self.hide(run, [at, piece.from], [kind, ended(piece.from, piece.kinds[0])], told);
+            (at, kind) = (piece.to, ended(piece.to, piece.kinds[1]));
+        }
+        self.hide(run, [at, run.length()], [kind, ViewVertexKind::Vertex], told);
+        let mut at = 0.0;
+        let ends = silhouette.iter().map(|piece| (piece.from, piece.to));
+        for (from, to) in ends.chain([(run.length(), run.length())]) {
+            let backdrop = ViewVertexKind::Backdrop;
+            each_part(run, at, from, |segment, start, end| {
+                let interval = Interval { start, end, start_kind: backdrop, end_kind: backdrop };
+                self.backed.push((segment, interval));
+            });
+            at = to;
+        }
+    }
+
+    fn hide(&mut self, run: &Run, [from, to]: [f64; 2], kinds: [ViewVertexKind; 2], told: &[Told]) {
+        // What nobody was asked about lies behind one surface at least.
+        let count = |from: f64, to: f64| {
+            let hidden = told.iter().filter(|t| t.count > 0 && t.from < to && t.to > from);
+            hidden.map(|t| t.count).max().unwrap_or(1)
+        };
+        let counted = told.iter().any(|t| t.count > 0);
+        each_part(run, from, to, |segment, start, end| {
+            let interval = Interval { start, end, start_kind: kinds[0], end_kind: kinds[1] };
+            let count = if counted { count(from, to) } else { 1 };
+            self.hidden.push((segment, Layer { interval, count }));
+        });
+    }
+
+    /// Adds what is not drawn of a witness: all that is not bare.
+    fn add_witness(&mut self, bare: &[Bare]) {
+        let inner = ViewVertexKind::Vertex;
+        let mut at = 0.0;
+        let segment = bare[0].segment;
+        let end = Bare { segment, from: 1.0, to: 1.0, silhouette: true };
+        for piece in bare.iter().chain([&end]) {
+            if piece.from > at {
+                let interval = Interval { start: at, end: piece.from, start_kind: inner, end_kind: inner };
+                self.hidden.push((segment, Layer { interval, count: 1 }));
+            }
+            if !piece.silhouette {
+                let kind = ViewVertexKind::Backdrop;
+                let interval =
+                    Interval { start: piece.from, end: piece.to, start_kind: kind, end_kind: kind };
+                self.backed.push((segment, interval));
+            }
+            at = piece.to;
+        }
+    }
+}
+
+/// Calls `visit(image segment, from, to)` for the parts of segments between two places of a run.
+fn each_part(run: &Run, from: f64, to: f64, mut visit: impl FnMut(u32, f64, f64)) {
+    if to <= from {
+        return;
+    }
+    let first = run.starts.partition_point(|start| *start <= from).saturating_sub(1);
+    for (k, id) in run.segments.iter().enumerate().skip(first) {
+        let (start, end) = (run.starts[k], run.starts[k + 1]);
+        if start >= to {
+            break;
+        }
+        let length = end - start;
+        if length > 0.0 {
+            let at = |place: f64| ((place - start) / length).clamp(0.0, 1.0);
+            if at(to) > at(from) {
+                visit(*id, at(from), at(to));
+            }
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! Needles: contours of folds that are thinner than a pen wherever one looks at them.
+//!
+//! A face much longer than wide that turns from the eye makes a contour out to its tip and one back, the surface
+//! going on on both sides. Of the two the nearer one is seen, and looks like a splinter. Where both lie in one stroke of
+//! a pen, in the image and in space, and no line goes on from them, neither tells anything.
+
+use glam::{DVec2, DVec3};
+
+use crate::geometry::numbers::tolerance;
+use crate::lines::{FeatureLines, LineKind, NO_FACE, Role};
+use crate::mesh::{FaceId, Mesh};
+use crate::view::View;
+use crate::visibility::projection::image_segments::ImageSegment;
+
+/// A needle is at least this many times longer than wide.
+const SLENDER: f64 = 3.0;
+
+/// Cosine of the largest angle (26 degrees) between a needle and a line that goes the same way.
+const SAME_WAY_COSINE: f64 = 0.9;
+
+/// The two sides of a fold, and where they meet.
+struct Needle {
+    /// Image segments.
+    sides: [u32; 2],
+    tip: u32,
+    /// The other end of each side.
+    feet: [u32; 2],
+    /// From the tip to the feet in the image.
+    along: DVec2,
+}
+
+/// The feature segments that are a side of a needle, ascending.
+pub(crate) fn find(mesh: &Mesh, view: &View, lines: &FeatureLines, segments: &[ImageSegment]) -> Vec<u32> {
+    let shortest = SLENDER * tolerance::NEEDLE_PX * view.frame.px();
+    let is_side = |s: &ImageSegment| {
+        lines.segments[s.source as usize].kind == LineKind::Contour
+            && s.role == Role::Line
+            && s.cut == [false; 2]
+            && !s.hosts.contains(&NO_FACE)
+            && s.length() >= shortest
+    };
+    let mut ends: Vec<(u32, u32)> = Vec::new();
+    for (id, segment) in segments.iter().enumerate().filter(|(_, s)| is_side(s)) {
+        ends.extend(segment.ends.map(|end| (end, id as u32)));
+    }
+    ends.sort_unstable();
+    let pairs = ends.chunk_by(|a, b| a.0 == b.0).filter(|ends| ends.len() == 2);
+    let of_pair =
+        |ends: &[(u32, u32)]| needle(mesh, view, lines, segments, [ends[0].1, ends[1].1], ends[0].0);
+    let needles: Vec<Needle> = pairs.filter_map(of_pair).collect();
+    let goes_on = going_on(&needles, lines, segments);
+    let bare = needles.iter().zip(goes_on).filter(|(_, goes_on)| !goes_on);
+    let sides = bare.flat_map(|(needle, _)| needle.sides.map(|id| segments[id as usize].source));
+    let mut found: Vec<u32> = sides.filter(|source| lines.segments[*source as usize].smooth).collect();
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// Of each needle whether another line ends at its tip, or a further contour goes from one of its feet the way of the
+/// tip: then the three of them are one line, to and fro.
+fn going_on(needles: &[Needle], lines: &FeatureLines, segments: &[ImageSegment]) -> Vec<bool> {
+    let mut goes_on = vec![false; needles.len()];
+    let mut places: Vec<(u32, u32)> = Vec::new();
+    for (needle, id) in needles.iter().zip(0..) {
+        places.extend([needle.tip, needle.feet[0], needle.feet[1]].map(|vertex| (vertex, id)));
+    }
+    places.sort_unstable();
+    if places.is_empty() {
+        return goes_on;
+    }
+    for (segment, id) in segments.iter().zip(0..) {
+        for (k, end) in segment.ends.iter().enumerate() {
+            let first = places.partition_point(|(vertex, _)| vertex < end);
+            for (_, of) in places[first..].iter().take_while(|(vertex, _)| vertex == end) {
+                let needle = &needles[*of as usize];
+                if needle.sides.contains(&id) {
+                    continue;
+                }
+                let ends = [segment.a, segment.b].map(DVec3::truncate);
+                let (way, back) = (ends[1 - k] - ends[k], -needle.along);
+                let is_contour = lines.segments[segment.source as usize].kind == LineKind::Contour;
+                // What is shorter is the base of the needle.
+                let same_way = SLENDER * way.length() > back.length()
+                    && way.dot(back) > SAME_WAY_COSINE * way.length() * back.length();
+                goes_on[*of as usize] |= *end == needle.tip || (is_contour && same_way);
+            }
+        }
+    }
+    goes_on
+}
+
+/// Two contours that end in one vertex, if they are the sides of a fold and lie in one stroke.
+fn needle(
+    mesh: &Mesh,
+    view: &View,
+    lines: &FeatureLines,
+    segments: &[ImageSegment],
+    sides: [u32; 2],
+    tip: u32,
+) -> Option<Needle> {
+    let (frame, px) = (&view.frame, view.frame.px());
+    let pair = sides.map(|id| &segments[id as usize]);
+    let far = pair.map(|s| usize::from(s.ends[0] == tip));
+    let along = [0, 1].map(|k| {
+        let ends = [pair[k].a, pair[k].b].map(DVec3::truncate);
+        ends[far[k]] - ends[1 - far[k]]
+    });
+    let lengths = along.map(DVec2::length);
+    let across = along[0].perp_dot(along[1]).abs();
+    if along[0].dot(along[1]) <= 0.0 || across > tolerance::NEEDLE_PX * px * lengths[0].max(lengths[1]) {
+        return None;
+    }
+    let feet = [0, 1].map(|k| pair[k].ends[far[k]]);
+    let [p, q] = feet.map(|foot| lines.position(mesh, foot));
+    let base = p.distance(q) / frame.px_at(frame.depth(p).min(frame.depth(q))) * px;
+    let is_slender = base <= tolerance::NEEDLE_BASE_PX * px && SLENDER * base <= lengths[0].min(lengths[1]);
+    // A spike has two ridges for sides, and no back.
+    let folds = || is_ridge(mesh, lines, pair[0]) != is_ridge(mesh, lines, pair[1]);
+    (is_slender && folds()).then_some(Needle { sides, tip, feet, along: along[0] })
+}
+
+/// Whether the second face beside a line falls away behind the outside of the first.
+fn is_ridge(mesh: &Mesh, lines: &FeatureLines, segment: &ImageSegment) -> bool {
+    let [first, second] = segment.hosts;
+    let third = mesh.triangles[second as usize].iter().find(|v| !segment.ends.contains(v));
+    let [a, b, c] = mesh.corners(FaceId(first));
+    let way = third.map_or(a, |v| mesh.positions[*v as usize]) - lines.position(mesh, segment.ends[0]);
+    (b - a).cross(c - a).dot(way) < 0.0
+}

@@ -1,0 +1,141 @@
+//! [`FarSides`]: which parts of a surface are the far sides of bodies.
+//!
+//! What the far side of a body hides, its near side hides before it. Nothing but time depends on what is told here.
+
+use std::sync::atomic::AtomicI32;
+use std::sync::atomic::Ordering::Relaxed;
+
+use crate::parallel::prelude::*;
+
+use crate::mesh::components::disjoint_sets::Groups;
+use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::{EdgeFaces, Mesh};
+use crate::parallel::task_size::GRAIN;
+use crate::view::View;
+
+/// Lengths are summed in so many parts of a user unit, as whole numbers have the same sum in any order.
+const PARTS: f64 = 16.0;
+/// Groups of faces between folds of the image of a surface, and which of them are far sides.
+pub(crate) struct FarSides {
+    groups: Groups,
+    /// By the first face of a group: the length of the folds at which it ends behind others, less that of those at which it
+    /// ends before them.
+    behind: Vec<AtomicI32>,
+}
+
+impl FarSides {
+    /// Those of `groups` of faces that hang together over the edges of `inner`, at which the image does not fold.
+    pub fn new(mesh: &Mesh, view: &View, inner: &EdgeSet, groups: Groups) -> Self {
+        let behind: Vec<AtomicI32> = mesh.triangles.par_iter().map(|_| AtomicI32::new(0)).collect();
+        let outer = (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN);
+        outer.filter(|edge| !inner.contains(*edge)).for_each(|edge| {
+            let EdgeFaces::Two { faces, same_way: false } = mesh.edges.faces(edge) else { return };
+            let [first, second] = faces.map(|face| groups.of(face));
+            if let Some((second_is_nearer, length)) = fold(mesh, view, edge, faces)
+                && first != second
+            {
+                let (near, far) = if second_is_nearer { (second, first) } else { (first, second) };
+                let length = (length * PARTS) as i32;
+                behind[far as usize].fetch_add(length, Relaxed);
+                behind[near as usize].fetch_sub(length, Relaxed);
+            }
+        });
+        Self { groups, behind }
+    }
+
+    /// The first face of the group that a face is in.
+    #[inline]
+    pub fn group(&self, face: u32) -> u32 {
+        self.groups.of(face)
+    }
+
+    /// Whether most of the folds at which the group of a face ends lead to faces that are nearer to the eye than its own.
+    #[inline]
+    pub fn holds(&self, face: u32) -> bool {
+        self.behind[self.groups.of(face) as usize].load(Relaxed) > 0
+    }
+}
+
+/// Whether the second of two faces at an edge lies before the first, and how long the edge is in the image; none where they do
+/// not lie on the same side of it.
+fn fold(mesh: &Mesh, view: &View, edge: usize, faces: [u32; 2]) -> Option<(bool, f64)> {
+    let ends = mesh.edges.vertices[edge];
+    let [from, to] = ends.map(|v| view.points[v as usize]);
+    let along = (to - from).truncate();
+    // On which side of the edge a face lies, and how steeply it rises to the eye from there.
+    let rise = |face: u32| {
+        let apex = mesh.triangles[face as usize].into_iter().find(|v| !ends.contains(v))?;
+        let way = view.points[apex as usize] - from;
+        let (side, t) = (along.perp_dot(way.truncate()), along.dot(way.truncate()));
+        Some((side, (way.z - t / along.length_squared() * (to.z - from.z)) / side.abs()))
+    };
+    let [Some(first), Some(second)] = faces.map(rise) else { return None };
+    (first.0 * second.0 > 0.0).then(|| (second.1 > first.1, along.length()))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, DVec3};
+
+    use super::super::occluder_fusion::Expanses;
+    use crate::mesh::{FaceId, Mesh, Soup};
+    use crate::scene::Camera;
+    use crate::view::View;
+    use crate::visibility::occlusion::tiled_triangles::Triangles;
+    use crate::visibility::tiles::tile_grid::Grid;
+    use crate::visibility::view_tolerances::Limits;
+
+    type Triangle = [DVec3; 3];
+
+    /// Of each face, in any order, its corners in the world and in the image, and whether it is of a far side.
+    fn far_sides(faces: &[Triangle]) -> Vec<(Triangle, Triangle, bool)> {
+        let positions = faces.concat();
+        let triangles = (0..faces.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+        let mesh = Mesh::build(Soup { positions, triangles, ..Soup::default() });
+        let camera = Camera::three_quarter().with_frame(200.0, 200.0).fit_points(&faces.concat(), 0.05);
+        let view = View::new(&mesh, &camera);
+        let limits = Limits::new(&view.frame);
+        let grid = Grid::new(DVec2::ZERO, DVec2::splat(200.0), 32);
+        let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
+        let expanses = Expanses::new(&triangles, grid.cell);
+        let of_face = |face: u32| {
+            let world = mesh.corners(FaceId(face)).map(|p| p + mesh.origin);
+            let image = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
+            (world, image, expanses.is_far_side(face))
+        };
+        (0..mesh.triangles.len() as u32).map(of_face).collect()
+    }
+
+    /// The faces of a box, outward.
+    fn cuboid() -> Vec<Triangle> {
+        let corner = |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2));
+        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+        quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).map(|t| t.map(corner)).collect()
+    }
+
+    #[test]
+    fn the_far_side_of_a_box_is_what_looks_away_however_it_is_wound() {
+        for is_outward in [true, false] {
+            let wound = |[a, b, c]: Triangle| if is_outward { [a, b, c] } else { [a, c, b] };
+            let found = far_sides(&cuboid().into_iter().map(wound).collect::<Vec<_>>());
+            assert_eq!(found.iter().filter(|(.., is_far)| *is_far).count(), 6);
+            // All three near sides meet at the nearest corner.
+            let all = || found.iter().flat_map(|(world, image, _)| world.iter().zip(image));
+            let nearest =
+                all().max_by(|a, b| a.1.z.total_cmp(&b.1.z)).map_or(DVec3::NAN, |(world, _)| *world);
+            for (world, _, is_far) in &found {
+                let is_near = (0..3).any(|axis| world.iter().all(|p| p[axis] == nearest[axis]));
+                assert_eq!(*is_far, !is_near, "{world:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_nothing_before_it_is_no_far_side() {
+        let found = far_sides(&cuboid());
+        let far: Vec<Triangle> =
+            found.into_iter().filter(|(.., is_far)| *is_far).map(|(world, ..)| world).collect();
+        assert_eq!(far.len(), 6);
+        assert!(far_sides(&far).iter().all(|(.., is_far)| !is_far));
+    }
+}

@@ -1,0 +1,124 @@
+//! [`EdgeFunctions`]: the sides of a triangle as functions of the point, by which most lines near it are told to lie beside it.
+//!
+//! Of the lines in a tile that overlap the box of a triangle, half lie beyond one of its sides. Single precision tells that of
+//! most: its values are raised by more than their rounding, so that nothing is beyond a side that is not so exactly
+//! ([`crate::visibility::occlusion::triangle_occlusion::covered`] decides about all others).
+//!
+//! Source: Juan Pineda, "A parallel algorithm for polygon rasterization", 1988.
+
+use glam::{DVec2, DVec3};
+
+use crate::visibility::view_tolerances::Limits;
+
+/// More than single precision may be off, as a share of the terms of a function.
+const ROUNDING: f64 = 1e-6;
+
+/// The area of the image that [`EdgeFunctions`] are asked about.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Window {
+    /// Its middle, from which points are measured.
+    pub(crate) middle: DVec2,
+    /// No coordinate of its points is farther from the middle.
+    pub(crate) reach: f64,
+}
+
+impl Window {
+    /// A point of the image as the functions are asked about it; none off the window.
+    #[inline]
+    pub(crate) fn point(&self, point: DVec2) -> Option<[f32; 2]> {
+        let from_middle = point - self.middle;
+        let is_here = from_middle.x.abs() <= self.reach && from_middle.y.abs() <= self.reach;
+        is_here.then_some([from_middle.x as f32, from_middle.y as f32])
+    }
+
+    /// Two points, if both are on the window.
+    #[inline]
+    pub(crate) fn both(&self, points: [DVec2; 2]) -> Option<[[f32; 2]; 2]> {
+        Some([self.point(points[0])?, self.point(points[1])?])
+    }
+}
+
+/// The sides of a triangle as functions that are negative beyond them. A fourth is negative nowhere, so that they fill the lanes
+/// of a register.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct EdgeFunctions {
+    x: [f32; 4],
+    y: [f32; 4],
+    at_middle: [f32; 4],
+}
+
+impl EdgeFunctions {
+    /// Those of a triangle in image space, for the points of a window.
+    #[inline]
+    pub(crate) fn new(corners: &[DVec3; 3], window: &Window, limits: &Limits) -> Self {
+        let [a, b, c] = corners.map(DVec3::truncate);
+        let sign = (b - a).perp_dot(c - a).signum();
+        let mut made = Self { x: [0.0; 4], y: [0.0; 4], at_middle: [1.0; 4] };
+        for (k, (corner, next)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
+            let side = (next - corner) * sign;
+            let at_middle = side.perp_dot(window.middle - corner);
+            let size = side.x.abs() + side.y.abs();
+            let raised = at_middle + limits.cover * size + ROUNDING * (at_middle.abs() + window.reach * size);
+            (made.x[k], made.y[k], made.at_middle[k]) = (-side.y as f32, side.x as f32, raised as f32);
+        }
+        made
+    }
+
+    /// Whether both of two points lie beyond the same side, and with them all between them.
+    #[inline]
+    pub(crate) fn are_beyond_a_side(&self, a: [f32; 2], b: [f32; 2]) -> bool {
+        let mut beyond = false;
+        for k in 0..4 {
+            let at = |p: [f32; 2]| self.x[k] * p[0] + self.y[k] * p[1] + self.at_middle[k];
+            let (at_a, at_b) = (at(a), at(b));
+            beyond |= at_a < 0.0 && at_b < 0.0;
+        }
+        beyond
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::dice::Dice;
+    use crate::mesh::{Mesh, Soup};
+    use crate::scene::Camera;
+    use crate::view::View;
+    use crate::visibility::occlusion::triangle_occlusion::covered;
+
+    #[test]
+    fn no_line_that_is_covered_is_beyond_a_side() {
+        let soup = Soup {
+            positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y],
+            triangles: vec![[0, 1, 2]],
+            ..Soup::default()
+        };
+        let view = View::new(&Mesh::build(soup), &Camera::three_quarter());
+        let limits = Limits::new(&view.frame);
+        let mut dice = Dice::new(11);
+        let [mut told, mut left, mut covering] = [0; 3];
+        // From triangles much smaller than the window to such whose corners are far off it, near the origin and away.
+        for size in [1e-3, 0.1, 3.0, 100.0, 1e5] {
+            for far in [0.0, 1e3, 1e7] {
+                let window = Window { middle: DVec2::new(far, -far), reach: 2.0 };
+                let centre = window.middle.extend(0.0);
+                for round in 0..2000 {
+                    let near = centre + dice.point(2.0);
+                    let corners = [0; 3].map(|_| near + dice.point(size));
+                    // Points anywhere, or along a side, where rounding matters.
+                    let anywhere = [0; 2].map(|_| (centre + dice.point(2.0)).truncate());
+                    let along = [0.2, 0.7].map(|t| corners[0].lerp(corners[1], t).truncate());
+                    let [p, q] = if round % 2 == 0 { anywhere } else { along };
+                    let Some([a, b]) = window.both([p, q]) else { continue };
+                    let beyond = EdgeFunctions::new(&corners, &window, &limits).are_beyond_a_side(a, b);
+                    let covers = covered(p, q, &corners, &limits).is_some();
+                    assert!(!(beyond && covers), "{size} {far}: {p} {q} {corners:?}");
+                    told += u32::from(beyond);
+                    left += u32::from(!beyond && !covers);
+                    covering += u32::from(covers);
+                }
+            }
+        }
+        assert!(told > 5 * left && covering > 3000, "{told} told, {left} left, {covering} covered");
+    }
+}

@@ -1,0 +1,127 @@
+//! [`Slope`]: how near a triangle is at least over the squares of a row of a grid.
+
+use glam::{DVec2, DVec3};
+
+use crate::view::Frame;
+use crate::visibility::view_tolerances::{Limits, Slack};
+
+/// The cover of a square that nothing fills.
+pub(crate) const OPEN: f32 = f32::NEG_INFINITY;
+
+/// Has a square covered by the nearer of two covers.
+#[inline]
+pub(crate) fn raise(own: &mut f32, other: f32) {
+    // Not `max`, which asks besides whether either is a number.
+    *own = if other > *own { other } else { *own };
+}
+
+/// By how much farther than a triangle all is that it hides for sure: twice what counts as touching where it is nearest.
+#[inline]
+pub(crate) fn step(points: &[DVec3; 3], limits: &Limits, slack: &Slack, frame: &Frame) -> f64 {
+    2.0 * limits.step(points[0].z.max(points[1].z).max(points[2].z), slack, false, frame)
+}
+
+/// The nearness of a triangle over the squares of a row: that of its farthest point over each. It is told in single precision, and is
+/// less than it would be without rounding.
+#[derive(Clone, Copy)]
+pub(crate) struct Slope {
+    /// In x and y, user units.
+    slope: DVec2,
+    /// A point of the image, and what it is over a square that has its centre there.
+    base: DVec3,
+    /// It is no less than this.
+    least: f32,
+}
+
+/// Such a sum is off by its rounding, and that of its terms, of a product and of its factor: six times 2⁻²⁴ of what is no larger
+/// than 1, at most.
+const ROUNDING: f64 = 5e-7;
+/// What is smaller than this has fewer digits.
+const LEAST: f64 = 1e-37;
+/// What is larger than this has no place.
+const MOST: f64 = 1e37;
+
+impl Slope {
+    /// That of a triangle over squares that meet it, half of whose side is `half`; everything less by `step`. The plane of a thin
+    /// triangle is not known well, and it counts as far as its farthest corner.
+    #[inline]
+    pub(crate) fn new(points: &[DVec3; 3], half: f64, step: f64, limits: &Limits) -> Self {
+        let (u, v) = (points[1] - points[0], points[2] - points[0]);
+        let area = u.truncate().perp_dot(v.truncate());
+        let is_thin = area.abs() <= limits.height * u.truncate().length().max(v.truncate().length());
+        let (low, high) =
+            (points[0].z.min(points[1].z).min(points[2].z), points[0].z.max(points[1].z).max(points[2].z));
+        let least = low - step;
+        if is_thin {
+            return Self::of_plane(DVec2::ZERO, points[0].truncate().extend(least), least, least.abs());
+        }
+        let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
+        let spread = (slope.x.abs() + slope.y.abs()) * half;
+        // At the centre of a square that meets the triangle.
+        let most = low.abs().max(high.abs()) + 2.0 * spread + step;
+        Self::of_plane(slope, points[0] - DVec3::Z * (spread + step), least, most)
+    }
+
+    /// That of the plane through `base`, where it is farther than `least` as far as that. No sum that is asked for, nor a part of one,
+    /// is larger than `most`, whatever its sign.
+    #[inline]
+    fn of_plane(slope: DVec2, base: DVec3, least: f64, most: f64) -> Self {
+        if most < MOST {
+            let less = ROUNDING * most + LEAST;
+            Self { slope, base: base - DVec3::Z * less, least: (least - less) as f32 }
+        } else {
+            Self { slope: DVec2::ZERO, base: DVec3::ZERO.with_z(f64::NEG_INFINITY), least: OPEN }
+        }
+    }
+
+    /// Over so many squares that begin at the one with this centre and follow each other in x, each as long as told.
+    #[inline]
+    pub(crate) fn over(&self, centre: DVec2, side: f64, count: usize) -> impl Iterator<Item = f32> {
+        let first = (self.base.z + self.slope.dot(centre - self.base.truncate())) as f32;
+        let (along, least) = ((self.slope.x * side) as f32, self.least);
+        (0..count as i32).map(move |k| {
+            let z = first + along * k as f32;
+            if z > least { z } else { least }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::numbers::noise::hash;
+
+    #[test]
+    fn single_precision_is_no_nearer_however_large_the_numbers() {
+        let part = |n: u64, axis: u64| hash(axis, &[n]) as f64 / u64::MAX as f64 * 2.0 - 1.0;
+        let mut apart = 0;
+        for n in 0..4000 {
+            let scale = 10.0_f64.powi((n % 90) as i32 - 45);
+            let slope = DVec2::new(part(n, 0), part(n, 1)) * scale;
+            let base = DVec3::new(part(n, 2), part(n, 3), part(n, 4) * scale);
+            let least = (part(n, 5) - 1.0) * scale;
+            let plane = Slope::of_plane(slope, base, least, 8.0 * scale);
+            let (centre, side) = (DVec2::new(part(n, 6), part(n, 7)), 0.01);
+            for (k, found) in plane.over(centre, side, 100).enumerate() {
+                let at = centre + DVec2::X * side * k as f64 - base.truncate();
+                let exact = (base.z + slope.dot(at)).max(least);
+                assert!(f64::from(found) < exact, "{n} {k}: {found} {exact}");
+                apart += u32::from(f64::from(found) < exact - 1e-5 * scale);
+            }
+        }
+        // Where numbers are too small or too large.
+        assert!(apart < 400_000 / 4, "{apart}");
+        let far = Slope::of_plane(DVec2::ZERO, DVec3::splat(1e300), 1e300, 1e300);
+        assert_eq!(far.over(DVec2::ZERO, 1.0, 3).collect::<Vec<_>>(), [OPEN; 3]);
+    }
+
+    #[test]
+    fn of_two_covers_the_nearer_one_stays() {
+        let raised = |mut own: f32, other: f32| {
+            raise(&mut own, other);
+            own
+        };
+        assert_eq!([raised(OPEN, -2.0), raised(-2.0, -3.0), raised(-3.0, -2.0)], [-2.0; 3]);
+        assert_eq!([raised(1.0, f32::NAN), raised(1.0, OPEN)], [1.0; 2]);
+    }
+}

@@ -1,0 +1,355 @@
+//! Expanses: faces joined over edges at which the image of the surface does not fold.
+//!
+//! Where an expanse meets a square of the image that no edge passes at which the expanse ends, it fills the square: what is met
+//! and not filled has an end in between. So many small faces cover together what none of them does alone, all but the squares
+//! along their contours. The nearness of all faces that meet the square is at least that of the farthest of them.
+//!
+//! The far side of a body covers next to nothing that its near side does not, and is left out.
+
+use crate::parallel::prelude::*;
+use glam::{DVec2, DVec3};
+use robust::{Coord, orient2d};
+
+use super::back_faces::FarSides;
+use super::nearness_bound::{OPEN, Slope, raise, step};
+use crate::geometry::lists::csr_lists::{Grouped, grouped, grouped_pairs};
+use crate::mesh::components::disjoint_sets::Groups;
+use crate::mesh::edges::edge_set::EdgeSet;
+use crate::mesh::{EdgeFaces, FaceId, Mesh};
+use crate::parallel::task_size::GRAIN;
+use crate::view::View;
+use crate::visibility::occlusion::tiled_triangles::Triangles;
+use crate::visibility::tiles::tile_grid::{Grid, TileBox};
+use crate::visibility::tiles::triangle_columns::Sides;
+use crate::visibility::view_tolerances::{Limits, Slack};
+
+/// A face this near to a square, in sides of it, may meet it.
+const MEETS: f64 = 1e-4;
+/// An expanse that ends this near to a square, in sides of it, does not fill it for sure; more than twice as much.
+const ENDS: f64 = 1e-2;
+/// An expanse of faces that are larger than so many squares, on the mean, is left to its faces: each of them fills most of those that all
+/// fill.
+const LARGE_FACE: f64 = 16.0;
+/// The box of an expanse has no more squares than this for each of its faces, or its share of a picture.
+const SQUARES_OF_FACE: usize = 64;
+const SQUARES: usize = 4_000_000;
+
+/// The expanses of a view that may fill a square.
+pub(crate) struct Expanses {
+    /// By expanse.
+    faces: Grouped<u32>,
+    /// The edges at which each ends.
+    ends: Grouped<u32>,
+    far: FarSides,
+}
+
+impl Expanses {
+    pub fn new(triangles: &Triangles, cell: f64) -> Self {
+        let Triangles { mesh, view, .. } = *triangles;
+        let turns: Vec<i8> = (0..mesh.triangles.len())
+            .into_par_iter()
+            .with_min_len(GRAIN)
+            .map(|face| turn(mesh, view, face as u32))
+            .collect();
+        let runs_on = |edge: usize| match mesh.edges.faces(edge) {
+            EdgeFaces::Two { faces: [a, b], same_way: false } => {
+                let turns = [a, b].map(|face| turns[face as usize]);
+                (turns[0] == turns[1] && turns[0] != 0).then_some([a, b])
+            }
+            _ => None,
+        };
+        let inner = EdgeSet::collect(mesh.edges.len(), |edge| runs_on(edge).is_some());
+        let groups = Groups::new(mesh.triangles.len(), |join| {
+            inner.par_for_each(|edge| {
+                if let Some([a, b]) = runs_on(edge) {
+                    join(a, b);
+                }
+            });
+        });
+        let far = FarSides::new(mesh, view, &inner, groups);
+        let ids = Self::large(view, mesh, &turns, &far, cell);
+        let count = ids.iter().filter(|id| **id != NONE).max().map_or(0, |id| *id as usize + 1);
+        let of = |face: u32| Some(ids[far.group(face) as usize]).filter(|id| *id != NONE);
+        let of_face = |face: u32| of(face).map(|id| (id as usize, face));
+        let (faces, ends) = crate::parallel::join(
+            || grouped_pairs(count, (0..turns.len() as u32).filter_map(of_face)),
+            || {
+                grouped(count, |put| {
+                    for edge in (0..mesh.edges.len()).filter(|edge| !inner.contains(*edge)) {
+                        let mut last = None;
+                        for id in mesh.edges.faces(edge).list().iter().filter_map(|face| of(*face)) {
+                            if last.replace(id) != Some(id) {
+                                put(id as usize, edge as u32);
+                            }
+                        }
+                    }
+                })
+            },
+        );
+        Self { faces, ends, far }
+    }
+
+    /// The numbers of those expanses, by root, that are no far sides, as large as a square, and not too large for their faces, nor
+    /// their faces too large; [`NONE`] for all other faces.
+    fn large(view: &View, mesh: &Mesh, turns: &[i8], far: &FarSides, cell: f64) -> Vec<u32> {
+        let mut found: Vec<(u32, [f32; 4], u32, f64)> = Vec::new();
+        let mut ids = vec![NONE; turns.len()];
+        for face in (0..turns.len()).filter(|face| turns[*face] != 0 && !far.holds(*face as u32)) {
+            let id = &mut ids[far.group(face as u32) as usize];
+            if *id == NONE {
+                *id = found.len() as u32;
+                found.push((
+                    face as u32,
+                    [f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::NEG_INFINITY],
+                    0,
+                    0.0,
+                ));
+            }
+            let (_, bounds, count, area) = &mut found[*id as usize];
+            let [a, b, c] = mesh.triangles[face].map(|v| view.points[v as usize].truncate());
+            *count += 1;
+            *area += (b - a).perp_dot(c - a).abs() / 2.0;
+            for v in mesh.triangles[face] {
+                let p = view.points[v as usize];
+                let (x, y) = (p.x as f32, p.y as f32);
+                *bounds = [bounds[0].min(x), bounds[1].min(y), bounds[2].max(x), bounds[3].max(y)];
+            }
+        }
+        let share = SQUARES / found.len().max(1);
+        let mut next = 0;
+        for (root, [left, top, right, bottom], count, area) in found {
+            let (width, height) = (f64::from(right - left) / cell, f64::from(bottom - top) / cell);
+            let most = (SQUARES_OF_FACE * count as usize + share) as f64;
+            let is_fine = area <= LARGE_FACE * cell * cell * f64::from(count);
+            let is_wanted =
+                is_fine && width >= 1.0 && height >= 1.0 && (width + 2.0) * (height + 2.0) <= most;
+            ids[root as usize] = if is_wanted { next } else { NONE };
+            next += u32::from(is_wanted);
+        }
+        ids
+    }
+
+    pub fn count(&self) -> usize {
+        self.faces.count()
+    }
+
+    /// Whether a face is of the far side of a body.
+    #[inline]
+    pub fn is_far_side(&self, face: u32) -> bool {
+        self.far.holds(face)
+    }
+
+    /// Raises the cover of the squares that an expanse fills.
+    pub fn add(
+        &self,
+        expanse: usize,
+        triangles: &Triangles,
+        squares: &Grid,
+        buffer: &mut Vec<f32>,
+        cover: &mut [f32],
+    ) {
+        let Triangles { mesh, view, limits, .. } = *triangles;
+        let corners = |face: u32| mesh.triangles[face as usize].map(|v| view.points[v as usize]);
+        let all = self.faces.of(expanse).iter().flat_map(|face| corners(*face));
+        let (low, high) =
+            all.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), p| (low.min(p), high.max(p)));
+        let own = squares.tile_box(low, high);
+        if own.is_empty() {
+            return;
+        }
+        let filled = &mut Filled::new(squares, own, buffer);
+        for face in self.faces.of(expanse) {
+            let slack = Slack::of(mesh.extent(FaceId(*face)));
+            let corners = corners(*face);
+            filled.meet(&corners, step(&corners, limits, &slack, &view.frame), limits);
+        }
+        for edge in self.ends.of(expanse) {
+            let ends = mesh.edges.vertices[*edge as usize].map(|v| view.points[v as usize].truncate());
+            filled.end(ends);
+        }
+        for row in own.top..=own.bottom {
+            let first = squares.tile(u32::from(own.left), u32::from(row));
+            let (place, width) = (filled.place(row, own.left), filled.width);
+            for (cover, least) in
+                cover[first..first + width].iter_mut().zip(&filled.least[place..place + width])
+            {
+                raise(cover, if *least < f32::INFINITY { *least } else { OPEN });
+            }
+        }
+    }
+}
+
+const NONE: u32 = u32::MAX;
+
+/// The squares around an expanse: the nearness of the farthest face that meets each, ∞ where none does and −∞ where the
+/// expanse ends.
+struct Filled<'a> {
+    squares: &'a Grid,
+    own: TileBox,
+    width: usize,
+    least: &'a mut [f32],
+}
+
+impl<'a> Filled<'a> {
+    fn new(squares: &'a Grid, own: TileBox, buffer: &'a mut Vec<f32>) -> Self {
+        let width = usize::from(own.right - own.left) + 1;
+        let height = usize::from(own.bottom - own.top) + 1;
+        buffer.clear();
+        buffer.resize(width * height, f32::INFINITY);
+        Self { squares, own, width, least: buffer }
+    }
+
+    fn place(&self, row: u16, column: u16) -> usize {
+        usize::from(row - self.own.top) * self.width + usize::from(column - self.own.left)
+    }
+
+    fn meet(&mut self, points: &[DVec3; 3], step: f64, limits: &Limits) {
+        let (squares, cell) = (self.squares, self.squares.cell);
+        let low = points[0].min(points[1]).min(points[2]);
+        let high = points[0].max(points[1]).max(points[2]);
+        let tiles = squares.tile_box(low - cell * MEETS, high + cell * MEETS).within(self.own);
+        if tiles.is_empty() {
+            return;
+        }
+        let half = cell * (0.5 + 2.0 * MEETS);
+        let slope = Slope::new(points, half, step, limits);
+        let sides = (tiles.area() > 1).then(|| Sides::new(points));
+        for row in tiles.top..=tiles.bottom {
+            let whole = u32::from(tiles.left)..u32::from(tiles.right) + 1;
+            let columns = sides.as_ref().map_or(whole, |sides| sides.columns(squares, tiles, row, half));
+            if columns.is_empty() {
+                continue;
+            }
+            let centre = squares.corner(columns.start, u32::from(row)) + cell / 2.0;
+            let first = self.place(row, columns.start as u16);
+            let own = &mut self.least[first..first + columns.len()];
+            let over = slope.over(centre, cell, columns.len());
+            own.iter_mut().zip(over).for_each(|(own, least)| *own = if least < *own { least } else { *own });
+        }
+    }
+
+    /// Tells the squares that an edge passes, at which the expanse ends.
+    fn end(&mut self, [a, b]: [DVec2; 2]) {
+        let (squares, reach) = (self.squares, self.squares.cell * ENDS);
+        let (low, high) = (a.min(b) - reach, a.max(b) + reach);
+        let tiles = squares.tile_box(low.extend(0.0), high.extend(0.0)).within(self.own);
+        if tiles.is_empty() {
+            return;
+        }
+        let way = b - a;
+        for row in tiles.top..=tiles.bottom {
+            let top = squares.corner(0, u32::from(row)).y - reach;
+            let bottom = top + squares.cell + 2.0 * reach;
+            // The part of the edge in the row.
+            let (mut from, mut to) = (0.0, 1.0);
+            if way.y != 0.0 {
+                let at = [top, bottom].map(|y| (y - a.y) / way.y);
+                (from, to) = (at[0].min(at[1]).clamp(0.0, 1.0), at[0].max(at[1]).clamp(0.0, 1.0));
+            }
+            let at = [from, to].map(|t| a.x + way.x * t);
+            let left = squares.column(at[0].min(at[1]) - reach).max(u32::from(tiles.left)) as u16;
+            let right = squares.column(at[0].max(at[1]) + reach).min(u32::from(tiles.right)) as u16;
+            if left <= right {
+                let first = self.place(row, left);
+                self.least[first..=first + usize::from(right - left)].fill(f32::NEG_INFINITY);
+            }
+        }
+    }
+}
+
+/// Which way the corners of a face run in the image; 0 if the near plane cuts it, or it has no area.
+fn turn(mesh: &Mesh, view: &View, face: u32) -> i8 {
+    let points = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
+    if points.iter().any(|p| p.z.is_nan()) || mesh.is_degenerate(FaceId(face)) {
+        return 0;
+    }
+    let [a, b, c] = points.map(|p| Coord { x: p.x, y: p.y });
+    let area = orient2d(a, b, c);
+    i8::from(area > 0.0) - i8::from(area < 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Soup;
+    use crate::scene::Camera;
+
+    /// A ball of many faces with dents, and a wavy sheet through it, in one view.
+    fn scene() -> (Mesh, View) {
+        let mut soup = Soup::default();
+        let n = 24u32;
+        let mut surface = |point: &dyn Fn(f64, f64) -> DVec3, closed: bool| {
+            let first = soup.positions.len() as u32;
+            for i in 0..=n {
+                let count = if closed { n } else { n + 1 };
+                soup.positions.extend(
+                    (0..count).map(|k| point(f64::from(i) / f64::from(n), f64::from(k) / f64::from(n))),
+                );
+                let at = |i: u32, k: u32| first + i * count + if closed { k % n } else { k };
+                if i < n {
+                    for k in 0..n {
+                        soup.triangles.push([at(i, k), at(i + 1, k), at(i + 1, k + 1)]);
+                        soup.triangles.push([at(i, k), at(i + 1, k + 1), at(i, k + 1)]);
+                    }
+                }
+            }
+        };
+        let turn = std::f64::consts::TAU;
+        let (sin, cos) =
+            (crate::geometry::numbers::portable_math::sin, crate::geometry::numbers::portable_math::cos);
+        surface(
+            &|i, k| {
+                let (up, round) = (turn / 2.0 * i, turn * k);
+                let radius = 1.0 + 0.15 * sin(5.0 * round) * sin(3.0 * up);
+                DVec3::new(sin(up) * cos(round), sin(up) * sin(round), cos(up)) * radius
+            },
+            true,
+        );
+        surface(&|i, k| DVec3::new(3.0 * i - 1.5, 3.0 * k - 1.5, 0.4 * sin(9.0 * i) * cos(7.0 * k)), false);
+        let mesh = Mesh::build(soup);
+        let points: Vec<DVec3> = mesh.positions.iter().map(|p| *p + mesh.origin).collect();
+        let camera = Camera::three_quarter().with_frame(200.0, 200.0).fit_points(&points, 0.05);
+        let view = View::new(&mesh, &camera);
+        (mesh, view)
+    }
+
+    #[test]
+    fn squares_are_filled_as_far_as_told() {
+        let (mesh, view) = scene();
+        let limits = Limits::new(&view.frame);
+        for across in [20, 64, 100] {
+            let grid = Grid::new(DVec2::ZERO, DVec2::splat(200.0), across);
+            let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
+            let expanses = Expanses::new(&triangles, grid.cell);
+            let mut cover = vec![OPEN; grid.len()];
+            for expanse in 0..expanses.count() {
+                expanses.add(expanse, &triangles, &grid, &mut Vec::new(), &mut cover);
+            }
+            let mut filled = 0;
+            for square in (0..grid.len()).filter(|square| cover[*square].is_finite()) {
+                filled += 1;
+                let corner = grid.corner(square as u32 % grid.columns, square as u32 / grid.columns);
+                for (x, y) in [(0.01, 0.01), (0.99, 0.02), (0.03, 0.98), (0.97, 0.99), (0.5, 0.5), (0.3, 0.8)]
+                {
+                    let p = corner + DVec2::new(x, y) * grid.cell;
+                    let nearness = |face: &[u32; 3]| {
+                        let [a, b, c] = face.map(|v| view.points[v as usize]);
+                        let (u, v, w) = ((b - a).truncate(), (c - a).truncate(), p - a.truncate());
+                        let (s, t) = (w.perp_dot(v) / u.perp_dot(v), u.perp_dot(w) / u.perp_dot(v));
+                        (s >= 0.0 && t >= 0.0 && s + t <= 1.0)
+                            .then_some(a.z + s * (b.z - a.z) + t * (c.z - a.z))
+                    };
+                    let nearest =
+                        mesh.triangles.iter().filter_map(nearness).fold(f64::NEG_INFINITY, f64::max);
+                    assert!(
+                        nearest > f64::from(cover[square]),
+                        "{across}: {nearest} before {} at {p}",
+                        cover[square]
+                    );
+                }
+            }
+            // The ball and the sheet fill some four tenths of the picture.
+            assert!(filled * 4 > grid.len(), "{across}: {filled} of {}", grid.len());
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! [`NearTiles`]: which of all triangles may lie over a few tiles, told by coarse squares of the frame.
+//!
+//! Some ways are asked about several times a view. Faces lie in an order of place: where each few of them lie together is found once
+//! for all ways, and by far the most are not looked at one by one.
+
+use crate::parallel::prelude::*;
+use glam::{DVec2, DVec3};
+
+use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::mesh::Mesh;
+use crate::view::View;
+use crate::visibility::occlusion::tiled_triangles::{Triangles, corners};
+use crate::visibility::tiles::tile_grid::{Grid, TileBox};
+use crate::visibility::tiles::tile_set::TileSet;
+use crate::visibility::view_tolerances::Limits;
+
+/// Squares along the longer side of the frame.
+const SQUARES: u32 = 256;
+
+/// Triangles that are looked at together.
+const BLOCK: usize = 32;
+
+/// The squares of the frame that the box of each block of triangles meets.
+#[derive(Debug)]
+pub struct NearTiles {
+    grid: Grid,
+    blocks: Vec<TileBox>,
+}
+
+impl NearTiles {
+    /// The squares of a view's frame.
+    #[must_use]
+    pub fn new(mesh: &Mesh, view: &View, limits: &Limits) -> Self {
+        let size = DVec2::new(view.frame.width, view.frame.height);
+        // Lines end where the frame does, but for rounding.
+        let grid = Grid::new(-DVec2::splat(limits.px), size + limits.px, SQUARES);
+        let triangles = Triangles { mesh, view, grid: &grid, limits };
+        let (count, slack) = (triangles.count(), triangles.slack());
+        let of_block = |block: usize| {
+            let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+            for id in block * BLOCK..((block + 1) * BLOCK).min(count) {
+                let (points, _) = corners(mesh, view, id as u32);
+                // Faces that the near plane cuts come after all others, as what it left of them.
+                if points.iter().all(|p| !p.z.is_nan()) {
+                    low = points.iter().fold(low, |low, p| low.min(*p));
+                    high = points.iter().fold(high, |high, p| high.max(*p));
+                }
+            }
+            if low.x <= high.x { grid.tile_box(low - slack, high + slack) } else { TileBox::EMPTY }
+        };
+        let blocks = (0..count.div_ceil(BLOCK)).into_par_iter().with_min_len(1 << 7).map(of_block).collect();
+        Self { grid, blocks }
+    }
+
+    /// The ids of the triangles of each wanted tile, ascending, by the number of the tile among these: [`Triangles::fill`] without
+    /// a cover.
+    #[must_use]
+    pub(crate) fn fill(&self, triangles: &Triangles, wanted: &TileSet) -> Grouped<u32> {
+        let found = match self.squares(triangles, wanted) {
+            Some(squares) => triangles.pairs_of(&self.over(&squares, triangles.count()), wanted),
+            None => triangles.pairs(triangles.tile_boxes(), wanted, None),
+        };
+        let numbered = |(tile, id): &(u32, u32)| (wanted.number(*tile as usize), *id);
+        grouped_pairs(wanted.count(), found.iter().flatten().map(numbered))
+    }
+
+    /// The squares in which a triangle may reach a wanted tile; none if a tile is not in the frame.
+    fn squares(&self, triangles: &Triangles, wanted: &TileSet) -> Option<TileSet> {
+        let (grid, own) = (triangles.grid, &self.grid);
+        // By so much a triangle may lie beside a tile that its box meets, and a little for rounding.
+        let slack = (grid.cell.max(own.cell) * 1e-3).max(4.0 * triangles.limits.beside);
+        let (low, high) = (own.corner(0, 0), own.corner(own.columns, own.rows));
+        let over = |tile: usize| {
+            let (column, row) = (tile as u32 % grid.columns, tile as u32 / grid.columns);
+            let (from, to) = (grid.corner(column, row) - slack, grid.corner(column + 1, row + 1) + slack);
+            let is_in_frame = from.cmpge(low).all() && to.cmple(high).all();
+            is_in_frame.then(|| own.tile_box(from.extend(0.0), to.extend(0.0)))
+        };
+        let over: Vec<TileBox> = wanted.iter().map(over).collect::<Option<_>>()?;
+        Some(TileSet::new(
+            own,
+            over.into_iter().flat_map(|tiles| own.tiles_of(tiles).map(|(square, _)| square)),
+        ))
+    }
+
+    /// The triangles of the blocks whose boxes meet one of some squares, ascending.
+    fn over(&self, squares: &TileSet, count: usize) -> Vec<u32> {
+        let is_near = |(_, tiles): &(usize, &TileBox)| !tiles.is_empty() && squares.has_any(**tiles);
+        let near = self.blocks.iter().enumerate().filter(is_near);
+        near.flat_map(|(k, _)| (k * BLOCK) as u32..((k + 1) * BLOCK).min(count) as u32).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::dice::Dice;
+    use crate::mesh::Soup;
+    use crate::scene::Camera;
+
+    /// Triangles of many sizes all over the frame and beyond it.
+    fn scene() -> (Mesh, View) {
+        let mut dice = Dice::new(1);
+        let mut soup = Soup::default();
+        for k in 0..6000u32 {
+            let middle = dice.point(1.0);
+            let size = 0.3 * 0.5f64.powi((k % 8) as i32);
+            soup.positions.extend([0; 3].map(|_| middle + dice.point(size)));
+            soup.triangles.push([3 * k, 3 * k + 1, 3 * k + 2]);
+        }
+        let mesh = Mesh::build(soup);
+        let camera = Camera::three_quarter().fit_points(&mesh.positions, 0.0);
+        let view = View::new(&mesh, &camera);
+        (mesh, view)
+    }
+
+    #[test]
+    fn the_triangles_of_a_few_tiles_are_those_of_looking_at_all() {
+        let (mesh, view) = scene();
+        let limits = Limits::new(&view.frame);
+        let near = NearTiles::new(&mesh, &view, &limits);
+        let mut wholly_near = 0;
+        for (low, high) in [(100.0, 400.0), (0.0, 1000.0), (-50.0, 200.0), (480.0, 481.0)] {
+            let grid = Grid::new(DVec2::splat(low), DVec2::splat(high), 64);
+            let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
+            // Many tiles all over, and single ones, over most of which few blocks lie.
+            let single = (0..60).map(|k| (k * 4097 / 60, usize::MAX));
+            for (first, step) in std::iter::once((0, 37)).chain(single) {
+                let wanted = TileSet::new(&grid, (first..grid.len()).step_by(step));
+                let is_in_frame = wanted.iter().all(|tile| {
+                    let (column, row) = (tile as u32 % grid.columns, tile as u32 / grid.columns);
+                    grid.corner(column, row).cmpge(DVec2::ZERO).all()
+                });
+                let squares = near.squares(&triangles, &wanted);
+                assert!(squares.is_some() || !is_in_frame);
+                wholly_near += usize::from(squares.is_some());
+                let all =
+                    triangles.fill(triangles.tile_boxes(), &wanted, &vec![f64::NEG_INFINITY; grid.len()]);
+                let found = near.fill(&triangles, &wanted);
+                assert_eq!(found.value_count(), all.value_count());
+                for (number, tile) in wanted.iter().enumerate() {
+                    assert_eq!(found.of(number), all.of(tile), "{tile} of {low} to {high}");
+                }
+            }
+        }
+        assert!((180..244).contains(&wholly_near), "{wholly_near}");
+    }
+}

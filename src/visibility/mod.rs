@@ -1,0 +1,32 @@
+//! [`ViewMap`]: the planar graph of the projected feature lines, cut where visibility changes.
+//!
+//! 1. `projection` projects the feature segments and clips them to the near plane and the page.
+//! 2. `tiles` lays a grid over the image; segments and triangles meet tile by tile.
+//! 3. `occlusion` computes the parameter interval of a segment that one triangle hides; a sweep merges the
+//!    intervals.
+//! 4. `culling` skips most of these comparisons. It changes the time, not the result.
+//! 5. `sweep` runs all tiles and cuts the segments into visible and hidden pieces.
+//! 6. `contours` transfers the visibility of the mesh contour to the smooth contour.
+//! 7. `assembly` builds the graph; `overlap` removes lines that coincide in the image.
+//!
+//! Types: [`graph`]; tolerances: [`view_tolerances`]. `queries` reports visibility at points and across gaps.
+//! Source: Appel, "The notion of quantitative invisibility and the machine rendering of solids", 1967.
+
+pub mod assembly;
+mod contours;
+pub mod culling;
+pub mod graph;
+pub mod occlusion;
+pub mod overlap;
+pub mod projection;
+pub mod queries;
+pub mod sweep;
+pub mod tiles;
+pub mod view_tolerances;
+
+pub use assembly::map_builder::{build, build_through, build_with};
+pub use assembly::motion_lines::{Beside, build_beside};
+pub use culling::view_occlusion::ViewCovers;
+pub use graph::{ContourCounts, SeenContour, ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+pub use queries::gap_occlusion::{Ahead, Way};
+pub use queries::nearest_faces::{Front, front_faces};

@@ -1,0 +1,313 @@
+//! Which triangles may hide something in which tile.
+//!
+//! Only tiles that hold a segment not yet decided are filled, and only with triangles that reach
+//! before their cover (see [`crate::visibility::culling::occlusion_buffer`]).
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+
+use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::mesh::{FaceId, Mesh};
+use crate::parallel::task_size::GRAIN;
+use crate::view::View;
+use crate::visibility::tiles::tile_grid::{Around, Grid, TileBox};
+use crate::visibility::tiles::tile_set::TileSet;
+use crate::visibility::tiles::triangle_columns::Sides;
+use crate::visibility::view_tolerances::{Limits, Slack};
+
+/// How far a triangle reaches in the image, which is all that most comparisons look at.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reach {
+    /// Least x, greatest x, least y, greatest y in the image, rounded outward.
+    pub bounds: [f32; 4],
+    /// Greatest nearness of any of its points, rounded towards the eye.
+    pub nearest: f32,
+    /// The triangle: a face, or beyond those, an entry of [`View::clipped`].
+    pub id: u32,
+}
+
+/// A triangle that may hide lines, with all that the comparison needs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Occluder {
+    /// The face it is, or is left of.
+    pub face: u32,
+    /// Vertex ids of that face.
+    pub ids: [u32; 3],
+    /// Its corners in image space.
+    pub corners: [DVec3; 3],
+    /// What counts as touching it, whatever the view.
+    pub slack: Slack,
+}
+
+/// The triangles of a view over a grid of tiles.
+#[derive(Debug, Clone, Copy)]
+pub struct Triangles<'a> {
+    /// The mesh.
+    pub mesh: &'a Mesh,
+    /// The view of it.
+    pub view: &'a View,
+    /// The tiles.
+    pub grid: &'a Grid,
+    /// The tolerances of the view.
+    pub limits: &'a Limits,
+}
+
+/// The corners in image space and the face of an occluder.
+#[inline]
+#[must_use]
+pub fn corners(mesh: &Mesh, view: &View, id: u32) -> ([DVec3; 3], u32) {
+    match mesh.triangles.get(id as usize) {
+        Some(t) => (t.map(|v| view.points[v as usize]), id),
+        None => {
+            let clipped = &view.clipped[id as usize - mesh.triangles.len()];
+            (clipped.points, clipped.face.0)
+        }
+    }
+}
+
+impl Triangles<'_> {
+    /// Faces and, after them, what the near plane left of faces it cuts.
+    pub(crate) fn count(&self) -> usize {
+        self.mesh.triangles.len() + self.view.clipped.len()
+    }
+
+    /// Triangles a task takes: a share of all that depends on nothing but their number.
+    fn chunk(&self) -> usize {
+        self.count().div_ceil(16).max(1 << 11)
+    }
+
+    /// The tiles that each triangle's box meets; an empty box for triangles that hide nothing or
+    /// lie off the grid.
+    #[must_use]
+    pub fn tile_boxes(&self) -> Vec<TileBox> {
+        // A vertex is a corner of six triangles on average: where it lies is found once.
+        let slack = self.slack();
+        let of_vertex = |p: &DVec3| if p.z.is_nan() { Around::CUT } else { self.grid.around(*p, slack) };
+        let vertices: Vec<Around> = self.view.points.par_iter().with_min_len(GRAIN).map(of_vertex).collect();
+        let of_triangle = |id: usize| match self.mesh.triangles.get(id) {
+            Some(_) if self.mesh.is_degenerate(FaceId(id as u32)) => TileBox::EMPTY,
+            Some(t) => self.grid.tiles_within(Around::of_all(t.map(|v| vertices[v as usize]))),
+            None => self.tile_box(id as u32),
+        };
+        (0..self.count()).into_par_iter().with_min_len(GRAIN).map(of_triangle).collect()
+    }
+
+    /// Lines are also asked about a little beside themselves.
+    pub(crate) fn slack(&self) -> f64 {
+        (self.grid.cell * 1e-6).max(2.0 * self.limits.beside)
+    }
+
+    #[inline]
+    fn tile_box(&self, id: u32) -> TileBox {
+        let (points, face) = corners(self.mesh, self.view, id);
+        let cut = points[0].z.is_nan() || points[1].z.is_nan() || points[2].z.is_nan();
+        if cut || self.mesh.is_degenerate(FaceId(face)) {
+            return TileBox::EMPTY;
+        }
+        let slack = self.slack();
+        let low = points[0].min(points[1]).min(points[2]) - slack;
+        let high = points[0].max(points[1]).max(points[2]) + slack;
+        self.grid.tile_box(low, high)
+    }
+
+    /// How many triangles lie over each other on average, over the grid.
+    pub(crate) fn mean_layers(&self) -> f64 {
+        // A sample is enough, and its order is fixed.
+        let step = (self.count() / 4_000).max(1);
+        step as f64 * self.layers_of((0..self.count() as u32).step_by(step))
+    }
+
+    /// The area of a triangle in the image; 0 where the near plane cuts it.
+    pub(crate) fn area(&self, id: u32) -> f64 {
+        let ([a, b, c], _) = corners(self.mesh, self.view, id);
+        let area = (b - a).truncate().perp_dot((c - a).truncate()).abs() / 2.0;
+        if area.is_finite() { area } else { 0.0 }
+    }
+
+    /// How many of these triangles lie over each other on average, over the grid.
+    pub(crate) fn layers_of(&self, ids: impl Iterator<Item = u32>) -> f64 {
+        let tile = self.grid.cell * self.grid.cell;
+        ids.map(|id| self.area(id)).sum::<f64>() / (tile * self.grid.len() as f64)
+    }
+
+    /// The triangle with this id: a face, or beyond those, an entry of [`View::clipped`].
+    #[inline]
+    #[must_use]
+    pub fn occluder(&self, id: u32) -> Occluder {
+        let (corners, face) = corners(self.mesh, self.view, id);
+        Occluder {
+            face,
+            ids: self.mesh.triangles[face as usize],
+            corners,
+            slack: Slack::of(self.mesh.extent(FaceId(face))),
+        }
+    }
+
+    /// How far the triangle with this id reaches.
+    #[inline]
+    #[must_use]
+    pub fn reach(&self, id: u32) -> Reach {
+        let (corners, _) = corners(self.mesh, self.view, id);
+        let nearest = corners[0].z.max(corners[1].z).max(corners[2].z);
+        Reach { bounds: outward_box(&corners), nearest: (nearest as f32).next_up(), id }
+    }
+
+    /// How far each triangle reaches.
+    pub(crate) fn reaches(&self) -> Vec<Reach> {
+        (0..self.count()).into_par_iter().with_min_len(GRAIN).map(|id| self.reach(id as u32)).collect()
+    }
+
+    /// The face that a triangle is, or is left of.
+    #[inline]
+    pub(crate) fn face(&self, id: u32) -> u32 {
+        match (id as usize).checked_sub(self.mesh.triangles.len()) {
+            None => id,
+            Some(clipped) => self.view.clipped[clipped].face.0,
+        }
+    }
+
+    /// The ids of the triangles of each tile of the grid, if it is wanted, that reach before its cover, ascending. The boxes of all
+    /// triangles are not held beside what comes of them.
+    #[must_use]
+    pub(crate) fn fill(&self, boxes: Vec<TileBox>, wanted: &TileSet, cover: &[f64]) -> Grouped<u32> {
+        let found = self.pairs(boxes, wanted, Some(cover));
+        grouped_pairs(self.grid.len(), found.iter().flatten().map(|(tile, id)| (*tile as usize, *id)))
+    }
+
+    /// Pairs of wanted tile and triangle, of each tile in the order of the triangles.
+    pub(crate) fn pairs(
+        &self,
+        boxes: Vec<TileBox>,
+        wanted: &TileSet,
+        cover: Option<&[f64]>,
+    ) -> Vec<Vec<(u32, u32)>> {
+        let chunk = self.chunk();
+        let found = boxes
+            .par_chunks(chunk)
+            .with_max_len(1)
+            .enumerate()
+            .map(|(k, boxes)| {
+                let mut pairs = Vec::new();
+                for (i, tiles) in boxes.iter().enumerate() {
+                    self.add_tiles((k * chunk + i) as u32, *tiles, wanted, cover, &mut pairs);
+                }
+                pairs
+            })
+            .collect();
+        drop(boxes);
+        found
+    }
+
+    /// The same without a cover, of some of the triangles, whose ids ascend.
+    pub(crate) fn pairs_of(&self, ids: &[u32], wanted: &TileSet) -> Vec<Vec<(u32, u32)>> {
+        let of_chunk = |ids: &[u32]| {
+            let mut pairs = Vec::with_capacity(ids.len());
+            ids.iter().for_each(|id| self.add_tiles(*id, self.tile_box(*id), wanted, None, &mut pairs));
+            pairs
+        };
+        ids.par_chunks(GRAIN).with_max_len(1).map(of_chunk).collect()
+    }
+
+    /// Adds a pair of tile and triangle for each wanted tile in which the triangle may matter.
+    #[inline]
+    fn add_tiles(
+        &self,
+        id: u32,
+        tiles: TileBox,
+        wanted: &TileSet,
+        cover: Option<&[f64]>,
+        pairs: &mut Vec<(u32, u32)>,
+    ) {
+        if tiles.is_empty() {
+            return;
+        }
+        let cover_of = |tile: usize| cover.map_or(f64::NEG_INFINITY, |cover| cover[tile]);
+        // For boxes of few tiles the exact test costs more than it saves.
+        if tiles.area() <= 4 {
+            for row in tiles.top..=tiles.bottom {
+                for column in tiles.left..=tiles.right {
+                    if !wanted.has(usize::from(column), usize::from(row)) {
+                        continue;
+                    }
+                    let tile = self.grid.tile(u32::from(column), u32::from(row));
+                    let before = cover_of(tile);
+                    if before == f64::NEG_INFINITY || self.nearest(id) >= before {
+                        pairs.push((tile as u32, id));
+                    }
+                }
+            }
+            return;
+        }
+        if !wanted.has_any(tiles) {
+            return;
+        }
+        let (points, _) = corners(self.mesh, self.view, id);
+        let nearest = points[0].z.max(points[1].z).max(points[2].z);
+        let sides = Sides::new(&points);
+        let reach = self.grid.cell / 2.0 * (1.0 + 1e-5) + 2.0 * self.limits.beside;
+        for row in tiles.top..=tiles.bottom {
+            for column in sides.columns(self.grid, tiles, row, reach) {
+                let tile = self.grid.tile(column, u32::from(row));
+                if wanted.has(column as usize, usize::from(row)) && nearest >= cover_of(tile) {
+                    pairs.push((tile as u32, id));
+                }
+            }
+        }
+    }
+
+    fn nearest(&self, id: u32) -> f64 {
+        let (points, _) = corners(self.mesh, self.view, id);
+        points[0].z.max(points[1].z).max(points[2].z)
+    }
+}
+
+fn outward_box(points: &[DVec3; 3]) -> [f32; 4] {
+    let low = points[0].min(points[1]).min(points[2]);
+    let high = points[0].max(points[1]).max(points[2]);
+    // A little wider than rounding, so that what lies on the border is still looked at.
+    let pad = 1e-4;
+    [
+        ((low.x - pad) as f32).next_down(),
+        ((high.x + pad) as f32).next_up(),
+        ((low.y - pad) as f32).next_down(),
+        ((high.y + pad) as f32).next_up(),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
+
+    use super::*;
+    use crate::geometry::dice::Dice;
+    use crate::mesh::Soup;
+    use crate::scene::Camera;
+
+    #[test]
+    fn boxes_by_vertices_are_those_of_each_triangle() {
+        let mut dice = Dice::new(3);
+        let mut soup = Soup::default();
+        for k in 0..3000u32 {
+            let middle = dice.point(2.0);
+            soup.positions.extend([0; 3].map(|_| middle + dice.point(0.4)));
+            soup.triangles.push([3 * k, 3 * k + 1, 3 * k + 2]);
+        }
+        let mesh = Mesh::build(soup);
+        // Among them, so that some lie behind the eye and some are cut.
+        let camera = Camera { eye: glam::DVec3::new(0.3, -1.2, 0.4), ..Camera::three_quarter() };
+        let view = View::new(&mesh, &camera);
+        let limits = Limits::new(&view.frame);
+        assert!(!view.clipped.is_empty() && view.points.iter().any(|p| p.z.is_nan()));
+        for (low, high, across) in [(100.0, 400.0, 64), (-2000.0, 3000.0, 300), (480.0, 481.0, 7)] {
+            let grid = Grid::new(DVec2::splat(low), DVec2::splat(high), across);
+            let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
+            let boxes = triangles.tile_boxes();
+            assert!(
+                boxes.iter().any(|tiles| !tiles.is_empty()) && boxes.iter().any(|tiles| tiles.is_empty())
+            );
+            for (id, tiles) in boxes.iter().enumerate() {
+                assert_eq!(*tiles, triangles.tile_box(id as u32), "{id} from {low} to {high}");
+            }
+        }
+    }
+}

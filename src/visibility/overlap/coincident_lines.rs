@@ -1,0 +1,428 @@
+//! No line twice: where two visible lines run on top of each other, the stronger one stays.
+//!
+//! Edges of parts that touch, coplanar faces and T-vertices make lines that coincide in the image
+//! without being one edge of the mesh. Of two such lines the weaker kind gives way, of equal kinds
+//! the farther one, whatever the order of the parts in the file. Lines that share a node may be a fold of one curve, and must coincide to rounding.
+
+use std::cmp::Ordering;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+use kurbo::{Point, Vec2};
+
+use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::mesh::Extents;
+use crate::view::Frame;
+use crate::visibility::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
+use crate::visibility::tiles::tile_grid::Grid;
+
+/// Lines shorter than this many times the distance have no direction to speak of, and are left
+/// alone.
+const SHORTEST_SHARE: f64 = 8.0;
+
+/// Lines that share a node count as coinciding within this share of the distance of others: the
+/// two sides of a T-vertex do, the folds of a contour hardly ever.
+const JOINED_SHARE: f64 = 1e-3;
+
+/// Lines that one task walks through the tiles.
+const WALKED: usize = 1 << 11;
+
+/// Drops the parts of visible edges that lie within `within` (user units) of a stronger visible
+/// edge of the mesh with these `extents`, seen in a frame.
+pub fn remove(map: &mut ViewMap, within: f64, frame: &Frame, extents: &Extents) {
+    let perspective = frame.perspective;
+    let covered = find_covered(map, within, frame, extents);
+    if covered.is_empty() {
+        return;
+    }
+    let mut edges = Vec::with_capacity(map.edges.len());
+    let mut covered = covered.into_iter().peekable();
+    for (id, edge) in map.edges.iter().enumerate() {
+        let mut ranges: Vec<(f64, f64)> = Vec::new();
+        while let Some((_, range)) = covered.next_if(|(of, _)| *of as usize == id) {
+            ranges.push(range);
+        }
+        if ranges.is_empty() {
+            edges.push(*edge);
+        } else {
+            cut(&mut map.vertices, &mut edges, edge, &mut ranges, within, perspective);
+        }
+    }
+    map.edges = edges;
+}
+
+/// For each edge that gives way, the range of its parameter that another covers; ascending.
+fn find_covered(map: &ViewMap, within: f64, frame: &Frame, extents: &Extents) -> Vec<(u32, (f64, f64))> {
+    let seen = map.edges.iter().zip(0..).filter(|(edge, _)| edge.invisibility == 0);
+    let seen: Vec<u32> = seen.map(|(_, id)| id).collect();
+    let of_edge = |id: &u32| (*id, Line::of(map, &map.edges[*id as usize]));
+    let mut lines: Vec<(u32, Line)> = seen.par_iter().with_min_len(1 << 10).map(of_edge).collect();
+    drop(seen);
+    lines.retain(|(_, line)| line.length > SHORTEST_SHARE * within);
+    if lines.is_empty() {
+        return Vec::new();
+    }
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = lines
+        .iter()
+        .map(|(_, line)| line.ends())
+        .fold(nothing, |(low, high), [p, q]| (low.min(p).min(q), high.max(p).max(q)));
+    let across = ((lines.len() as f64).sqrt() as u32 * 2).clamp(16, 1024);
+    let grid = Grid::new(low.truncate(), high.truncate(), across);
+    let walked: Vec<Vec<(u32, u32)>> = lines
+        .par_chunks(WALKED)
+        .enumerate()
+        .map(|(chunk, lines)| {
+            let mut passed = Vec::with_capacity(2 * lines.len());
+            for ((_, line), number) in lines.iter().zip((chunk * WALKED) as u32..) {
+                let [p, q] = line.ends();
+                grid.walk(p, q, |tile, _, _| passed.push((tile as u32, number)));
+            }
+            passed
+        })
+        .collect();
+    let passed = walked.iter().flatten().map(|(tile, number)| (*tile as usize, *number));
+    let in_tile = grouped_pairs(grid.len(), passed);
+    drop(walked);
+    let among = Among { map, extents, frame, within, lines, grid, in_tile };
+    let mut covered: Vec<(u32, (f64, f64))> = (0..among.lines.len())
+        .into_par_iter()
+        .with_min_len(256)
+        .map_init(Near::default, |near, k| among.covered_with(k, near))
+        .flatten_iter()
+        .collect();
+    covered.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.0.total_cmp(&b.1.0)));
+    covered
+}
+
+/// The lines that are long enough to have a direction, and what tiles of a grid they pass.
+struct Among<'a> {
+    map: &'a ViewMap,
+    extents: &'a Extents,
+    frame: &'a Frame,
+    within: f64,
+    /// With the numbers of their edges, ascending.
+    lines: Vec<(u32, Line)>,
+    grid: Grid,
+    in_tile: Grouped<u32>,
+}
+
+impl Among<'_> {
+    /// What one line and those before it cover of each other.
+    fn covered_with(&self, number: usize, near: &mut Near) -> Vec<(u32, (f64, f64))> {
+        let Self { map, extents, within, lines, .. } = self;
+        let (id, line) = &lines[number];
+        let edge = &map.edges[*id as usize];
+        let mut covered = Vec::new();
+        self.find_near(number, near);
+        for near in &near.lines {
+            let (other_id, other_line) = &lines[*near as usize];
+            let other = &map.edges[*other_id as usize];
+            let joined = edge.start == other.start
+                || edge.start == other.end
+                || edge.end == other.start
+                || edge.end == other.end;
+            let within = if joined { self.within_joined([edge, other]) } else { *within };
+            if !line.runs_along(other_line, within) {
+                continue;
+            }
+            let (loser, range) = if precedence(map, extents, edge, other).is_lt() {
+                (*other_id, other_line.covered_by(line, within))
+            } else {
+                (*id, line.covered_by(other_line, within))
+            };
+            covered.extend(range.map(|range| (loser, range)));
+        }
+        covered
+    }
+
+    /// How near two lines that share a node must be: what rounding makes of two lines that were one, user units.
+    fn within_joined(&self, edges: [&ViewEdge; 2]) -> f64 {
+        let shift = |edge: &ViewEdge| {
+            let depth = self.map.vertices[edge.start.index()].depth;
+            2.0 * self.extents.of(edge.part).rounding / self.frame.px_at(depth) * self.frame.px()
+        };
+        // Not a number at the eye itself.
+        let rounding = edges.map(shift).into_iter().fold(0.0, f64::max);
+        (self.within * JOINED_SHARE).max(rounding.min(self.within))
+    }
+
+    /// Finds the lines before one that may run along it within reach, ascending: what does lies in a tile of the line or of one of
+    /// its neighbours at that distance, since tiles are convex.
+    fn find_near(&self, number: usize, Near { tiles, lines }: &mut Near) {
+        let (_, line) = &self.lines[number];
+        let across = Vec2::new(-line.along.y, line.along.x) * self.within;
+        tiles.clear();
+        for shift in [Vec2::ZERO, across, -across] {
+            self.grid.walk(vector(line.start + shift), vector(line.end() + shift), |tile, _, _| {
+                // Most lines are short, and their tile comes three times.
+                if tiles.last() != Some(&tile) {
+                    tiles.push(tile);
+                }
+            });
+        }
+        let before = |tile: &usize| {
+            let own = self.in_tile.of(*tile);
+            own[..own.partition_point(|other| (*other as usize) < number)].iter().copied()
+        };
+        lines.clear();
+        // Few run along it, and are put in order.
+        let runs_along = |other: &u32| line.runs_along(&self.lines[*other as usize].1, self.within);
+        lines.extend(tiles.iter().flat_map(before).filter(runs_along));
+        if tiles.len() > 1 {
+            lines.sort_unstable();
+            lines.dedup();
+        }
+    }
+}
+
+/// What may be near a line. That of the next line takes the memory over.
+#[derive(Default)]
+struct Near {
+    tiles: Vec<usize>,
+    lines: Vec<u32>,
+}
+
+/// Which of two edges that coincide stays: the lesser. Of parts that touch the smaller one has the line.
+pub(crate) fn precedence(map: &ViewMap, extents: &Extents, one: &ViewEdge, other: &ViewEdge) -> Ordering {
+    let ends = |edge: &ViewEdge| [edge.start, edge.end].map(|v| map.vertices[v.index()]);
+    let depth = |edge: &ViewEdge| ends(edge).iter().map(|end| end.depth).sum::<f64>();
+    let place = |edge: &ViewEdge| {
+        let mut places = ends(edge).map(|end| [end.position.x, end.position.y]);
+        places.sort_by(|p, q| p.partial_cmp(q).unwrap_or(Ordering::Equal));
+        places
+    };
+    let by_depth = || depth(one).total_cmp(&depth(other));
+    let by_place = || place(one).partial_cmp(&place(other)).unwrap_or(Ordering::Equal);
+    let by_part = || extents.of(one.part).precedence(extents.of(other.part));
+    let last = || other.segment.cmp(&one.segment);
+    one.kind.cmp(&other.kind).then_with(by_depth).then_with(by_place).then_with(by_part).then_with(last)
+}
+
+pub(crate) fn vector(p: Point) -> DVec3 {
+    DVec3::new(p.x, p.y, 0.0)
+}
+
+/// An edge in the image.
+pub(crate) struct Line {
+    pub start: Point,
+    pub along: Vec2,
+    pub length: f64,
+}
+
+impl Line {
+    pub fn of(map: &ViewMap, edge: &ViewEdge) -> Self {
+        let start = map.vertices[edge.start.index()].position;
+        let d = map.vertices[edge.end.index()].position - start;
+        let length = d.hypot();
+        Self { start, along: if length > 0.0 { d / length } else { Vec2::ZERO }, length }
+    }
+
+    pub fn end(&self) -> Point {
+        self.start + self.along * self.length
+    }
+
+    pub fn ends(&self) -> [DVec3; 2] {
+        [vector(self.start), vector(self.end())]
+    }
+
+    /// The piece of this line over a range of its parameter (0 to 1).
+    pub fn piece(&self, (from, to): (f64, f64)) -> Self {
+        let start = self.start + self.along * (self.length * from);
+        Self { start, along: self.along, length: self.length * (to - from) }
+    }
+
+    /// The range of this line's parameter (0 to 1) whose distance from the other line is at most `reach`: all of that
+    /// is convex, so it is one range.
+    pub fn within_ink_of(&self, other: &Self, reach: f64) -> Option<(f64, f64)> {
+        let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
+        // Round the ends of the other line.
+        for end in [other.start, other.end()] {
+            let (at, off) = (self.along.dot(end - self.start), self.along.cross(end - self.start));
+            let half = (reach * reach - off * off).sqrt();
+            if half.is_finite() {
+                (from, to) = (from.min(at - half), to.max(at + half));
+            }
+        }
+        // In the strip along it: within its length, and no farther to the side.
+        let across = Vec2::new(-other.along.y, other.along.x);
+        let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
+        for (way, low, high) in [(other.along, 0.0, other.length), (across, -reach, reach)] {
+            let (at, rate) = (way.dot(self.start - other.start), way.dot(self.along));
+            if rate == 0.0 {
+                if !(low..=high).contains(&at) {
+                    leaves = f64::NEG_INFINITY;
+                }
+            } else {
+                let (p, q) = ((low - at) / rate, (high - at) / rate);
+                (enters, leaves) = (enters.max(p.min(q)), leaves.min(p.max(q)));
+            }
+        }
+        // An edge that is a point in the image has only round ends.
+        if enters < leaves && other.length > 0.0 {
+            (from, to) = (from.min(enters), to.max(leaves));
+        }
+        let (from, to) = (from.max(0.0), to.min(self.length));
+        (to > from).then(|| (from / self.length, to / self.length))
+    }
+
+    /// A quick test before the exact one.
+    fn runs_along(&self, other: &Self, within: f64) -> bool {
+        let shorter = self.length.min(other.length);
+        self.along.cross(other.along).abs() * shorter <= 4.0 * within
+            && self.along.cross(other.start - self.start).abs() <= other.length.max(self.length)
+    }
+
+    /// The range of this line's parameter (0 to 1) along which the other lies within `within`.
+    fn covered_by(&self, other: &Self, within: f64) -> Option<(f64, f64)> {
+        let project = |p: Point| self.along.dot(p - self.start);
+        let offset = |p: Point| self.along.cross(p - self.start);
+        let (mut a, mut b) =
+            ((project(other.start), offset(other.start)), (project(other.end()), offset(other.end())));
+        if a.0 > b.0 {
+            std::mem::swap(&mut a, &mut b);
+        }
+        let (from, to) = (a.0.max(0.0), b.0.min(self.length));
+        if to - from <= within {
+            return None;
+        }
+        let slope = (b.1 - a.1) / (b.0 - a.0);
+        let off = |s: f64| (a.1 + slope * (s - a.0)).abs();
+        (off(from) <= within && off(to) <= within).then(|| (from / self.length, to / self.length))
+    }
+}
+
+/// Emits what is left of an edge without the ranges.
+pub(crate) fn cut(
+    vertices: &mut Vec<ViewVertex>,
+    edges: &mut Vec<ViewEdge>,
+    edge: &ViewEdge,
+    ranges: &mut [(f64, f64)],
+    within: f64,
+    perspective: bool,
+) {
+    let (a, b) = (vertices[edge.start.index()], vertices[edge.end.index()]);
+    let shortest = within / (b.position - a.position).hypot().max(within);
+    let mut node = |t: f64| {
+        let id = ViewVertexId(vertices.len() as u32);
+        vertices.push(ViewVertex {
+            position: a.position.lerp(b.position, t),
+            depth: if perspective {
+                1.0 / ((1.0 - t) / a.depth + t / b.depth)
+            } else {
+                a.depth + (b.depth - a.depth) * t
+            },
+            strength: a.strength + (b.strength - a.strength) * t as f32,
+            kind: ViewVertexKind::TJunction,
+        });
+        id
+    };
+    ranges.sort_by(|p, q| p.0.total_cmp(&q.0));
+    let mut at = 0.0;
+    let mut start = edge.start;
+    for &(from, to) in ranges.iter() {
+        if from - at > shortest {
+            edges.push(ViewEdge { start, end: node(from), ..*edge });
+        }
+        if to > at {
+            at = to;
+            start = if 1.0 - at > shortest { node(at) } else { edge.end };
+        }
+    }
+    if 1.0 - at > shortest {
+        edges.push(ViewEdge { start, end: edge.end, ..*edge });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lines::LineKind;
+    use crate::mesh::{MaterialId, PartId};
+    use crate::scene::{Camera, NamedView, Projection, UpAxis};
+    use crate::surface::Origin;
+
+    type Drawn = ((f64, f64), (f64, f64), LineKind);
+
+    fn frame() -> Frame {
+        let camera = Camera::named(NamedView::Front, UpAxis::Y).with_frame(1000.0, 1000.0);
+        Frame::new(&camera.with_projection(Projection::Orthographic { height: 1.0 }), DVec3::ZERO)
+    }
+
+    fn map(lines: &[Drawn]) -> ViewMap {
+        let mut map = ViewMap::default();
+        for (i, (a, b, kind)) in lines.iter().enumerate() {
+            for p in [a, b] {
+                let position = Point::new(p.0, p.1);
+                map.vertices.push(ViewVertex {
+                    position,
+                    depth: 1.0,
+                    strength: 1.0,
+                    kind: ViewVertexKind::Vertex,
+                });
+            }
+            map.edges.push(ViewEdge {
+                start: ViewVertexId(2 * i as u32),
+                end: ViewVertexId(2 * i as u32 + 1),
+                kind: *kind,
+                invisibility: 0,
+                silhouette: false,
+                both_seen: false,
+                smooth: false,
+                origin: Origin::default(),
+                strength: 180.0,
+                part: PartId(0),
+                material: MaterialId(0),
+                segment: i as u32,
+            });
+        }
+        map
+    }
+
+    fn lengths(map: &ViewMap) -> Vec<(LineKind, f64)> {
+        map.edges.iter().map(|e| (e.kind, Line::of(map, e).length.round())).collect()
+    }
+
+    #[test]
+    fn the_weaker_of_two_coinciding_lines_gives_way() {
+        let mut m = map(&[
+            ((0.0, 0.0), (100.0, 0.0), LineKind::Crease),
+            ((70.0, 0.0), (30.0, 0.0), LineKind::Contour),
+            ((0.0, 1.0), (100.0, 1.0), LineKind::Crease),
+        ]);
+        remove(&mut m, 0.005, &frame(), &Extents::default());
+        let (k, c) = (LineKind::Crease, LineKind::Contour);
+        assert_eq!(lengths(&m), [(k, 30.0), (k, 30.0), (c, 40.0), (k, 100.0)]);
+    }
+
+    #[test]
+    fn of_equal_kinds_the_first_stays_and_crossings_do_not_matter() {
+        let mut m = map(&[
+            ((0.0, 0.0), (50.0, 50.0), LineKind::Crease),
+            ((0.0, 50.0), (50.0, 0.0), LineKind::Crease),
+            ((10.0, 10.0), (60.0, 60.0), LineKind::Crease),
+        ]);
+        remove(&mut m, 0.005, &frame(), &Extents::default());
+        assert_eq!(lengths(&m).iter().map(|l| l.1).collect::<Vec<_>>(), [71.0, 71.0, 14.0]);
+    }
+
+    #[test]
+    fn of_many_lines_those_that_coincide_give_way() {
+        // Rows of short lines, of which the last few stand there twice.
+        let row = |k: usize| {
+            let (x, y) = ((k % 100) as f64 * 10.0, (k / 100) as f64 * 10.0);
+            ((x, y), (x + 7.0, y + 3.0), LineKind::Crease)
+        };
+        let count = 2 * WALKED + 300;
+        let lines: Vec<Drawn> = (0..count).chain(count - 50..count).map(row).collect();
+        let mut m = map(&lines);
+        remove(&mut m, 0.005, &frame(), &Extents::default());
+        assert_eq!(m.edges.len(), count);
+        let left: std::collections::BTreeSet<usize> = m
+            .edges
+            .iter()
+            .map(|e| if e.segment < count as u32 { e.segment as usize } else { e.segment as usize - 50 })
+            .collect();
+        assert_eq!(left.len(), count);
+    }
+}

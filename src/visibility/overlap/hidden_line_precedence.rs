@@ -1,0 +1,260 @@
+//! Hidden lines that would not be seen on their own are left out: where they lie in the ink of visible lines, or of hidden
+//! lines that go before them.
+//!
+//! 1. Half the width of its ink is known for every edge of the map.
+//! 2. For each hidden edge, the ranges that run along a visible edge within that edge's ink are found. A line that
+//!    lies in the ink of visible lines from end to end is left out as a whole, in any direction.
+//! 3. Hidden edges are taken in order: the stronger kind first, then the lesser invisibility. Each loses what runs along
+//!    the remaining pieces of those before it, so that hidden lines that coincide are drawn once.
+//!
+//! Source: ISO 128-2, where lines coincide: visible outlines and edges come before hidden ones.
+
+use std::cmp::Ordering;
+
+use crate::parallel::prelude::*;
+use glam::DVec3;
+use kurbo::Vec2;
+
+use super::coincident_lines::{Line, cut, precedence, vector};
+use super::smooth_chains::smooth_lines;
+use crate::geometry::lists::csr_lists::{Grouped, grouped};
+use crate::geometry::numbers::tolerance::{BEHIND_INK_PX, BEHIND_INK_SINE};
+use crate::mesh::Extents;
+use crate::visibility::graph::{ViewEdge, ViewMap};
+use crate::visibility::tiles::tile_grid::Grid;
+
+/// Tiles are at least this many distances wide, so that what is near a line is in the tiles of the line moved by one distance.
+const CELL_OF_DISTANCE: f64 = 2.0;
+
+/// A range of an edge's parameter, 0 to 1.
+type Range = (f64, f64);
+
+/// The area that the ink of lines covers on the page.
+pub struct Ink<'a> {
+    /// Half the width of the ink of an edge, user units; 0 where it is not known. Never less than
+    /// [`BEHIND_INK_PX`] is taken.
+    pub half_width: &'a (dyn Fn(&ViewEdge) -> f64 + Sync),
+    /// Which of two parts in one place comes first.
+    pub extents: &'a Extents,
+    /// Whether depth runs along a line as in perspective.
+    pub perspective: bool,
+    /// A px in user units.
+    pub px: f64,
+}
+
+/// The map without the pieces of hidden edges that lie in the ink of others; `None` if there are none. All edges of the map
+/// are drawn.
+#[must_use]
+pub fn apart(map: &ViewMap, ink: &Ink) -> Option<ViewMap> {
+    let behind = find(map, ink);
+    if behind.iter().all(Vec::is_empty) {
+        return None;
+    }
+    let within = BEHIND_INK_PX * ink.px;
+    let mut vertices = map.vertices.clone();
+    let mut edges = Vec::with_capacity(map.edges.len());
+    for (edge, mut ranges) in map.edges.iter().zip(behind) {
+        if ranges.is_empty() {
+            edges.push(*edge);
+        } else {
+            cut(&mut vertices, &mut edges, edge, &mut ranges, within, ink.perspective);
+        }
+    }
+    Some(ViewMap { vertices, edges, ..map.clone() })
+}
+
+/// For each edge the ranges that lie in the ink of others.
+fn find(map: &ViewMap, ink: &Ink) -> Vec<Vec<Range>> {
+    let lines: Vec<Line> = map.edges.iter().map(|edge| Line::of(map, edge)).collect();
+    let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (low, high) = lines
+        .iter()
+        .map(Line::ends)
+        .fold(nothing, |(low, high), [p, q]| (low.min(p).min(q), high.max(p).max(q)));
+    let size = (high - low).max_element();
+    if !size.is_finite() || map.edges.iter().all(|edge| edge.invisibility == 0) {
+        return vec![Vec::new(); lines.len()];
+    }
+    let half_width = |edge: &ViewEdge| (ink.half_width)(edge).max(BEHIND_INK_PX * ink.px);
+    let reaches: Vec<f64> = map.edges.par_iter().with_min_len(256).map(half_width).collect();
+    let widest = reaches.iter().copied().fold(0.0, f64::max);
+    let most = (size / (CELL_OF_DISTANCE * widest)).max(1.0) as u32;
+    let across = ((lines.len() as f64).sqrt() as u32 * 2).clamp(16, 1024).min(most);
+    let grid = Grid::new(low.truncate(), high.truncate(), across);
+    let in_tile = grouped(grid.len(), |put| {
+        for (line, number) in lines.iter().zip(0..) {
+            let [p, q] = line.ends();
+            grid.walk(p, q, |tile, _, _| put(tile, number));
+        }
+    });
+    let among = Among { map, reaches, widest, lines, grid, in_tile, ink };
+    let found: Vec<Found> =
+        (0..map.edges.len()).into_par_iter().with_min_len(256).map(|edge| among.around(edge)).collect();
+    among.resolve(found)
+}
+
+/// The edges around a hidden edge.
+#[derive(Default)]
+struct Found {
+    /// The ranges along visible edges, within their ink.
+    behind: Vec<Range>,
+    /// Whether all of it lies in the ink of visible edges.
+    within: bool,
+    /// The hidden edges that go before it and run along it.
+    before: Vec<u32>,
+}
+
+/// All edges of a map, and which of them pass the tiles of a grid.
+struct Among<'a> {
+    map: &'a ViewMap,
+    ink: &'a Ink<'a>,
+    /// Half the width of the ink of each edge.
+    reaches: Vec<f64>,
+    widest: f64,
+    /// One an edge.
+    lines: Vec<Line>,
+    grid: Grid,
+    in_tile: Grouped<u32>,
+}
+
+impl Among<'_> {
+    /// The edges around an edge; none around a visible one.
+    fn around(&self, number: usize) -> Found {
+        let (edge, line) = (&self.map.edges[number], &self.lines[number]);
+        if edge.invisibility == 0 || line.length == 0.0 {
+            return Found { within: edge.invisibility > 0, ..Found::default() };
+        }
+        let mut found = Found::default();
+        let mut covered = Vec::new();
+        for other in self.near(line).into_iter().filter(|other| *other as usize != number) {
+            let (its, reach) = (&self.lines[other as usize], self.reaches[other as usize]);
+            let is_visible = self.map.edges[other as usize].invisibility == 0;
+            if is_visible {
+                covered.extend(line.within_ink_of(its, reach));
+            }
+            if !is_parallel(line, its) {
+                continue;
+            }
+            let Some(range) = along(line, its, reach) else { continue };
+            if is_visible {
+                found.behind.push(range);
+            } else if self.order(other, number as u32).is_lt() {
+                found.before.push(other);
+            }
+        }
+        found.within = matches!(joined(covered, 0.0).as_slice(), [(from, to)] if *from <= 0.0 && *to >= 1.0);
+        found
+    }
+
+    /// Which of two hidden edges that coincide stays: the lesser.
+    fn order(&self, one: u32, other: u32) -> Ordering {
+        let Self { map, ink, .. } = self;
+        let [a, b] = [one, other].map(|number| &map.edges[number as usize]);
+        let by_kind = a.kind.cmp(&b.kind).then(a.invisibility.cmp(&b.invisibility));
+        by_kind.then_with(|| precedence(map, ink.extents, a, b)).then(one.cmp(&other))
+    }
+
+    /// For each edge what it loses, once those before it have lost theirs.
+    fn resolve(&self, mut found: Vec<Found>) -> Vec<Vec<Range>> {
+        let mut lost: Vec<Vec<Range>> = vec![Vec::new(); found.len()];
+        for line in smooth_lines(self.map) {
+            if line.iter().all(|edge| found[*edge as usize].within) {
+                line.iter().for_each(|edge| found[*edge as usize].behind = vec![(0.0, 1.0)]);
+            }
+        }
+        let mut order: Vec<u32> = (0..found.len() as u32)
+            .filter(|edge| {
+                !(found[*edge as usize].behind.is_empty() && found[*edge as usize].before.is_empty())
+            })
+            .collect();
+        order.par_sort_by(|a, b| self.order(*a, *b));
+        for number in order {
+            let Found { behind, before, .. } = std::mem::take(&mut found[number as usize]);
+            let line = &self.lines[number as usize];
+            let mut ranges = behind;
+            for other in before {
+                let (its, reach) = (&self.lines[other as usize], self.reaches[other as usize]);
+                let left = rest(&lost[other as usize]);
+                ranges.extend(left.into_iter().filter_map(|piece| along(line, &its.piece(piece), reach)));
+            }
+            // A gap shorter than the ink is wide is closed by the ends of the ink around it. Where lines only meet, one covers
+            // no more of the other than that.
+            let width = self.reaches[number as usize] / line.length;
+            let mut ranges = joined(ranges, width);
+            ranges.retain(|(from, to)| to - from > width.min(0.5));
+            lost[number as usize] = ranges;
+        }
+        lost
+    }
+
+    /// The edges that may be within reach of a line, ascending; of those that are not parallel only if the line is so
+    /// short that it may cross their ink lengthwise. Tiles are convex, and wider than the reach.
+    fn near(&self, line: &Line) -> Vec<u32> {
+        let across = Vec2::new(-line.along.y, line.along.x) * self.widest;
+        let is_short = line.length * BEHIND_INK_SINE <= 2.0 * self.widest;
+        let reach = if is_short { line.along * self.widest } else { Vec2::ZERO };
+        let mut near: Vec<u32> = Vec::new();
+        for shift in [Vec2::ZERO, across, -across] {
+            let ends = [line.start + shift - reach, line.end() + shift + reach].map(vector);
+            self.grid.walk(ends[0], ends[1], |tile, _, _| {
+                let beside = |other: &&u32| is_short || is_parallel(line, &self.lines[**other as usize]);
+                near.extend(self.in_tile.of(tile).iter().filter(beside));
+            });
+        }
+        near.sort_unstable();
+        near.dedup();
+        near
+    }
+}
+
+/// The remainder of the parameter from 0 to 1 without ranges that are in order and apart.
+fn rest(lost: &[Range]) -> Vec<Range> {
+    let mut left = Vec::with_capacity(lost.len() + 1);
+    let mut at = 0.0;
+    for (from, to) in lost.iter().copied().chain([(1.0, 1.0)]) {
+        if from > at {
+            left.push((at, from));
+        }
+        at = at.max(to);
+    }
+    left
+}
+
+fn is_parallel(line: &Line, other: &Line) -> bool {
+    other.length > 0.0 && line.along.cross(other.along).abs() <= BEHIND_INK_SINE
+}
+
+/// Ranges in order, those that overlap or have a gap no longer than `gap` between them as one.
+fn joined(mut ranges: Vec<Range>, gap: f64) -> Vec<Range> {
+    ranges.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut joined: Vec<Range> = Vec::with_capacity(ranges.len());
+    for (from, to) in ranges {
+        match joined.last_mut() {
+            Some(last) if from <= last.1 + gap => last.1 = last.1.max(to),
+            _ => joined.push((from, to)),
+        }
+    }
+    joined
+}
+
+/// The range of a line's parameter (0 to 1) along which another, which is parallel to it, runs within `within` beside it.
+fn along(line: &Line, other: &Line, within: f64) -> Option<Range> {
+    let place = |p| (line.along.dot(p - line.start), line.along.cross(p - line.start));
+    let (mut a, mut b) = (place(other.start), place(other.end()));
+    if a.0 > b.0 {
+        std::mem::swap(&mut a, &mut b);
+    }
+    let (mut from, mut to) = (a.0.max(0.0), b.0.min(line.length));
+    let slope = (b.1 - a.1) / (b.0 - a.0);
+    if slope == 0.0 {
+        if a.1.abs() > within {
+            return None;
+        }
+    } else {
+        let reaches = |offset: f64| a.0 + (offset - a.1) / slope;
+        let (p, q) = (reaches(-within), reaches(within));
+        from = from.max(p.min(q));
+        to = to.min(p.max(q));
+    }
+    (to > from).then(|| (from / line.length, to / line.length))
+}

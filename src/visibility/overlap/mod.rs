@@ -1,0 +1,12 @@
+//! Lines that coincide in the image, drawn once.
+//!
+//! 1. Of two visible lines that coincide, the stronger kind stays; of equal kinds, the nearer one.
+//! 2. Hidden lines within the ink of visible lines, or of hidden lines that precede them, are left out.
+//!
+//! Source: ISO 128-2: visible outlines and edges take precedence over hidden ones.
+//! Files, in reading order: [`coincident_lines`] step 1; [`hidden_line_precedence`] step 2; [`smooth_chains`]
+//! hidden edges chained up to corners and branches.
+
+pub mod coincident_lines;
+pub mod hidden_line_precedence;
+mod smooth_chains;

@@ -1,0 +1,45 @@
+//! [`smooth_lines`]: hidden edges of a view map, joined to lines that end at corners and branches.
+
+use super::coincident_lines::Line;
+use crate::mesh::Groups;
+use crate::visibility::graph::{ViewEdge, ViewMap};
+
+/// A line that turns by more than this (cosine of 20 degrees) has a corner there.
+const CORNER_COSINE: f64 = 0.939_692_620_785_908_4;
+
+/// The hidden edges of a map by lines: an edge goes on to the next one where just two hidden edges of a kind meet without a corner.
+pub(crate) fn smooth_lines(map: &ViewMap) -> Vec<Vec<u32>> {
+    let hidden = |edge: &ViewEdge| edge.invisibility > 0;
+    // For each node the first two hidden edges at it, and their number.
+    let mut at: Vec<([u32; 2], u32)> = vec![([0; 2], 0); map.vertices.len()];
+    for (number, edge) in (0..).zip(&map.edges).filter(|(_, edge)| hidden(edge)) {
+        for end in [edge.start, edge.end] {
+            let (edges, count) = &mut at[end.index()];
+            if let Some(slot) = edges.get_mut(*count as usize) {
+                *slot = number;
+            }
+            *count += 1;
+        }
+    }
+    let mut pairs = Vec::new();
+    for (node, ([a, b], count)) in at.into_iter().enumerate() {
+        let [one, other] = [a, b].map(|number| &map.edges[number as usize]);
+        if count != 2 || a == b || one.kind != other.kind {
+            continue;
+        }
+        let away = |edge: &ViewEdge| {
+            let along = Line::of(map, edge).along;
+            if edge.start.index() == node { along } else { -along }
+        };
+        if -away(one).dot(away(other)) >= CORNER_COSINE {
+            pairs.push((a, b));
+        }
+    }
+    let groups = Groups::new(map.edges.len(), |join| pairs.into_iter().for_each(|(a, b)| join(a, b)));
+    let mut lines: Vec<Vec<u32>> = vec![Vec::new(); map.edges.len()];
+    for (number, _) in (0..).zip(&map.edges).filter(|(_, edge)| hidden(edge)) {
+        lines[groups.of(number) as usize].push(number);
+    }
+    lines.retain(|line| !line.is_empty());
+    lines
+}

@@ -1,0 +1,260 @@
+//! [`front_faces`]: which face the eye sees at points of the image.
+//!
+//! All lines of sight leave one point, so the points are put in a grid over the image and every
+//! face looks up those that it may cover; no tree over space is built.
+
+use std::ops::Range;
+
+use crate::parallel::prelude::*;
+use glam::{DVec2, DVec3};
+
+use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::mesh::{FaceId, Mesh};
+use crate::view::View;
+
+/// The face in front at a point of the image.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Front {
+    /// The face.
+    pub face: u32,
+    /// How near it is there, as image space has it.
+    pub nearness: f64,
+}
+
+/// Faces looked at by one task.
+const TASK: usize = 1 << 12;
+
+/// Points in a cell of the grid, on average.
+const POINTS_A_CELL: usize = 2;
+
+/// A point is on the right side of a line through two others unless it is nearer to it than this part of their coordinates: a
+/// thousand times what rounding does.
+const ROUNDING_OF_SIDES: f64 = 1e-12;
+
+/// Most cells across the image.
+const MOST_CELLS: usize = 512;
+
+/// The face nearest to the eye at each of some points in user units; `None` where there is none.
+///
+/// Faces without area or seen edge-on cover nothing. A point on the edge between two faces gets
+/// one of them, of equally near ones that of the lesser id, on any number of threads. Where surfaces of unlike colours overlap in
+/// one plane, it is the one that is on top there: see [`Overlay`](crate::mesh::Overlay).
+#[must_use]
+pub fn front_faces(mesh: &Mesh, view: &View, points: &[DVec2]) -> Vec<Option<Front>> {
+    let Some(grid) = PointGrid::new(points) else { return Vec::new() };
+    let whole = mesh.triangles.len();
+    let count = whole + view.clipped.len();
+    let tasks: Vec<Vec<(u32, Front)>> = (0..count.div_ceil(TASK))
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|task| {
+            let mut hits = Vec::new();
+            for id in task * TASK..((task + 1) * TASK).min(count) {
+                match id.checked_sub(whole) {
+                    None => {
+                        let t = mesh.triangles[id];
+                        if !mesh.is_degenerate(FaceId(id as u32)) {
+                            let corners = t.map(|v| view.points[v as usize]);
+                            grid.cover(&corners, t, id as u32, &mut hits);
+                        }
+                    }
+                    Some(k) => {
+                        let clipped = &view.clipped[k];
+                        grid.cover(&clipped.points, [0, 1, 2], clipped.face.0, &mut hits);
+                    }
+                }
+            }
+            hits
+        })
+        .collect();
+    let mut fronts: Vec<Option<Front>> = vec![None; points.len()];
+    for (point, hit) in tasks.iter().flatten() {
+        let front = &mut fronts[*point as usize];
+        let nearer =
+            |f: &Front| hit.nearness > f.nearness || (hit.nearness == f.nearness && hit.face < f.face);
+        if front.as_ref().is_none_or(nearer) {
+            *front = Some(*hit);
+        }
+    }
+    // Which of surfaces in one plane is nearer says rounding alone.
+    for (point, hit) in tasks.iter().flatten().filter(|_| !mesh.overlays.is_empty()) {
+        if let Some(front) = &mut fronts[*point as usize]
+            && mesh.is_over(hit.face, front.face)
+        {
+            *front = *hit;
+        }
+    }
+    fronts
+}
+
+/// Points of the image in cells.
+struct PointGrid {
+    low: DVec2,
+    high: DVec2,
+    cells_per_unit: DVec2,
+    across: usize,
+    /// The points of each cell with their numbers, row by row, so that what a face touches of a row is one run in memory.
+    cells: Grouped<(DVec2, u32)>,
+}
+
+impl PointGrid {
+    fn new(points: &[DVec2]) -> Option<Self> {
+        let first = *points.first()?;
+        let (low, high) = points.iter().fold((first, first), |(low, high), p| (low.min(*p), high.max(*p)));
+        let across = ((points.len() / POINTS_A_CELL) as f64).sqrt() as usize;
+        let across = across.clamp(1, MOST_CELLS);
+        let size = high - low;
+        let per_unit = |size: f64| if size > 0.0 { across as f64 / size } else { 0.0 };
+        let cells_per_unit = DVec2::new(per_unit(size.x), per_unit(size.y));
+        let grid = Self { low, high, cells_per_unit, across, cells: Grouped::default() };
+        let in_cell = |(i, p): (usize, &DVec2)| {
+            let [x, y] = grid.cell(*p);
+            (y * across + x, (*p, i as u32))
+        };
+        let cells = grouped_pairs(across * across, points.iter().enumerate().map(in_cell));
+        Some(Self { cells, ..grid })
+    }
+
+    fn cell(&self, p: DVec2) -> [usize; 2] {
+        let at = (p - self.low) * self.cells_per_unit;
+        [at.x, at.y].map(|x| (x.max(0.0) as usize).min(self.across - 1))
+    }
+
+    /// Cells that the box from `low` to `high` touches: columns and rows.
+    fn touched(&self, low: DVec2, high: DVec2) -> Option<[Range<usize>; 2]> {
+        if low.cmpgt(self.high).any() || high.cmplt(self.low).any() {
+            return None;
+        }
+        let ([x0, y0], [x1, y1]) = (self.cell(low), self.cell(high));
+        Some([x0..x1 + 1, y0..y1 + 1])
+    }
+
+    /// Adds the points that a triangle covers.
+    fn cover(&self, corners: &[DVec3; 3], ids: [u32; 3], face: u32, hits: &mut Vec<(u32, Front)>) {
+        if corners.iter().any(|c| c.z.is_nan()) {
+            return;
+        }
+        let [a, b, c] = [corners[0].truncate(), corners[1].truncate(), corners[2].truncate()];
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        let Some([columns, rows]) = self.touched(low, high) else { return };
+        let area = (b - a).perp_dot(c - a);
+        if area == 0.0 {
+            return;
+        }
+        // Each side is run through from its lesser vertex, so that both its faces find the same sign.
+        let side = |i: usize, j: usize, p: DVec2| {
+            let turn = |from: DVec3, to: DVec3| {
+                let from = from.truncate();
+                (to.truncate() - from).perp_dot(p - from)
+            };
+            let turn =
+                if ids[i] < ids[j] { turn(corners[i], corners[j]) } else { -turn(corners[j], corners[i]) };
+            if area > 0.0 { turn } else { -turn }
+        };
+        // Most points near a small face are not in its box even, which is sooner told than on which side of its sides they are.
+        // What rounding may make of these is less than the margin.
+        let margin = low.abs().max(high.abs()) * ROUNDING_OF_SIDES;
+        let (low, high) = (low - margin, high + margin);
+        for row in rows {
+            let first = row * self.across;
+            for (p, point) in self.cells.of_all(first + columns.start..first + columns.end) {
+                if p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y {
+                    continue;
+                }
+                let weights = [side(1, 2, *p), side(2, 0, *p), side(0, 1, *p)];
+                if weights.iter().all(|w| *w >= 0.0) {
+                    let sum: f64 = weights.iter().sum();
+                    let nearness: f64 = (0..3).map(|k| corners[k].z * (weights[k] / sum)).sum();
+                    hits.push((*point, Front { face, nearness }));
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::dice::Dice;
+    use crate::mesh::Soup;
+    use crate::scene::{Camera, UpAxis};
+
+    #[test]
+    fn the_nearest_face_is_found_at_every_point() {
+        // Three sheets above each other, each smaller than the one below.
+        let mut positions = Vec::new();
+        let mut triangles = Vec::new();
+        for (height, half) in [(0.0, 4.0), (1.0, 2.0), (2.0, 1.0)] {
+            let first = positions.len() as u32;
+            for (x, y) in [(-half, -half), (half, -half), (half, half), (-half, half)] {
+                positions.push(DVec3::new(x, y, height));
+            }
+            triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
+        }
+        let mesh = Mesh::build(Soup { positions: positions.clone(), triangles, ..Soup::default() });
+        let camera = Camera::azimuth_elevation(0.0, 90.0, UpAxis::Z).fit_points(&positions, 0.1);
+        let view = View::new(&mesh, &camera);
+        let mut asked = Vec::new();
+        let mut wanted = Vec::new();
+        for i in 0..60 {
+            for k in 0..60 {
+                let (x, y) = (-4.9 + 9.8 * f64::from(i) / 59.0, -4.9 + 9.8 * f64::from(k) / 59.0);
+                let reach = x.abs().max(y.abs());
+                let sheet = [1.0, 2.0, 4.0].iter().position(|half| reach < *half).map(|k| 2 - k);
+                let height = sheet.map_or(0.0, |sheet| sheet as f64);
+                let image = view.frame.image_from_local(DVec3::new(x, y, height) - mesh.origin);
+                asked.push(image.truncate());
+                wanted.push(sheet);
+            }
+        }
+        let found = front_faces(&mesh, &view, &asked);
+        let perspective_hides = |sheet: Option<usize>, front: Option<usize>| front > sheet;
+        for (front, sheet) in found.iter().zip(&wanted) {
+            let front = front.map(|front| front.face as usize / 2);
+            assert!(front == *sheet || perspective_hides(*sheet, front), "{front:?} {sheet:?}");
+        }
+        assert!(
+            found.iter().zip(&wanted).filter(|(f, w)| f.map(|f| f.face as usize / 2) == **w).count() > 3000
+        );
+    }
+
+    #[test]
+    fn what_is_in_front_is_so_among_all_faces() {
+        let mut dice = Dice::new(3);
+        for size in [0.02, 0.3, 2.0] {
+            let mut positions = Vec::new();
+            for _ in 0..300 {
+                let middle = dice.point(1.0);
+                positions.extend([0, 1, 2].map(|_| middle + dice.point(size)));
+            }
+            let triangles: Vec<[u32; 3]> = (0..300).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
+            let mesh = Mesh::build(Soup { positions: positions.clone(), triangles, ..Soup::default() });
+            let camera = Camera::azimuth_elevation(30.0, 20.0, UpAxis::Z).fit_points(&positions, 0.1);
+            let view = View::new(&mesh, &camera);
+            // Anywhere, and at the very corners of faces.
+            let (width, height) = (camera.width, camera.height);
+            let anywhere = || DVec2::new(dice.between(0.0, width), dice.between(0.0, height));
+            let mut asked: Vec<DVec2> = std::iter::repeat_with(anywhere).take(2000).collect();
+            asked.extend(view.points.iter().map(|p| p.truncate()));
+            let found = front_faces(&mesh, &view, &asked);
+            let mut covered = 0;
+            for (k, (p, found)) in asked.iter().zip(&found).enumerate() {
+                let covering = mesh.triangles.iter().filter_map(|t| {
+                    let [a, b, c] = t.map(|v| view.points[v as usize]);
+                    let side = |a: DVec3, b: DVec3| (b - a).truncate().perp_dot(*p - a.truncate());
+                    let weights = [side(b, c), side(c, a), side(a, b)];
+                    let sum: f64 = weights.iter().sum();
+                    let least = weights.iter().map(|w| w / sum).fold(f64::INFINITY, f64::min);
+                    (least >= 1e-9).then(|| (a * weights[0] + b * weights[1] + c * weights[2]).z / sum)
+                });
+                let inside = covering.fold(f64::NEG_INFINITY, f64::max);
+                let corner = k.checked_sub(2000).map_or(f64::NEG_INFINITY, |v| view.points[v].z);
+                let nearest = inside.max(corner);
+                let told = found.map_or(f64::NEG_INFINITY, |front| front.nearness);
+                assert!(told == nearest || (told - nearest).abs() < 1e-9, "{p} {told} {nearest}");
+                covered += usize::from(nearest.is_finite());
+            }
+            assert!(covered > 900, "{covered}");
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! [`Cuts`]: what visibility leaves of lines, piece by piece.
+
+use super::segment_visibility;
+use crate::lines::Role;
+use crate::visibility::graph::ViewVertexKind;
+use crate::visibility::occlusion::interval_sweep::Layer;
+use crate::visibility::occlusion::triangle_occlusion::Interval;
+use crate::visibility::projection::image_segments::ImageSegment;
+
+/// What visibility says of one segment.
+#[derive(Clone, Copy)]
+pub(crate) struct Seen<'a> {
+    pub hidden: &'a [Layer],
+    pub backed: &'a [Interval],
+}
+
+/// A piece of a segment between two parameters.
+pub(crate) struct SegmentPart {
+    pub start: f64,
+    pub end: f64,
+    pub end_kind: ViewVertexKind,
+    pub invisibility: u16,
+    pub silhouette: bool,
+}
+
+/// Segments of which anything is kept, in their order, with their pieces one after the other.
+#[derive(Default)]
+pub(crate) struct Cuts {
+    pub segments: Vec<Cut>,
+    pub pieces: Vec<SegmentPart>,
+}
+
+/// A segment, by its number, and how many pieces it has.
+pub(crate) struct Cut {
+    pub segment: usize,
+    pub count: usize,
+    pub keeps_hidden: bool,
+}
+
+impl Cuts {
+    /// Cuts a segment and keeps it, unless nothing of it is seen and what is hidden is not kept.
+    pub fn add(&mut self, id: usize, segment: &ImageSegment, seen: Seen, shortest: f64, keeps_hidden: bool) {
+        // Of most lines behind walls nothing is left.
+        if !keeps_hidden && seen.hidden == segment_visibility::BURIED {
+            return;
+        }
+        let first = self.pieces.len();
+        // The witnesses of a smooth contour say what lies next to it.
+        let bounds = segment.bounds || segment.role == Role::Curve;
+        cut_segment(segment, seen, bounds, shortest, &mut self.pieces);
+        if keeps_hidden || self.pieces[first..].iter().any(|p| p.invisibility == 0) {
+            self.segments.push(Cut { segment: id, count: self.pieces.len() - first, keeps_hidden });
+        } else {
+            self.pieces.truncate(first);
+        }
+    }
+}
+
+/// Cuts a segment where its invisibility changes, and the visible parts of one that `bounds` a surface also where background
+/// begins or ends next to them.
+fn cut_segment(segment: &ImageSegment, seen: Seen, bounds: bool, shortest: f64, out: &mut Vec<SegmentPart>) {
+    let shortest = shortest / segment.length().max(shortest);
+    let mut at = 0.0;
+    for layer in seen.hidden {
+        let interval = &layer.interval;
+        let start = if interval.start - at <= shortest { at } else { interval.start };
+        if start > at {
+            visible(out, seen, bounds, at, start, interval.start_kind, shortest);
+        }
+        let end = if 1.0 - interval.end <= shortest { 1.0 } else { interval.end };
+        out.push(SegmentPart {
+            start,
+            end,
+            end_kind: interval.end_kind,
+            invisibility: layer.count,
+            silhouette: false,
+        });
+        at = end;
+    }
+    if at < 1.0 {
+        visible(out, seen, bounds, at, 1.0, ViewVertexKind::Vertex, shortest);
+    }
+}
+
+fn visible(
+    out: &mut Vec<SegmentPart>,
+    seen: Seen,
+    bounds: bool,
+    start: f64,
+    end: f64,
+    end_kind: ViewVertexKind,
+    shortest: f64,
+) {
+    let mut push = |start: f64, end: f64, end_kind, silhouette| {
+        out.push(SegmentPart { start, end, end_kind, invisibility: 0, silhouette });
+    };
+    let mut at = start;
+    if bounds {
+        // A line that many thin things cross has many stretches, and as many others beside it.
+        let first = seen.backed.partition_point(|backed| backed.end <= start);
+        for backed in seen.backed[first..].iter().take_while(|backed| backed.start < end) {
+            let (from, to) = (backed.start.max(at), backed.end.min(end));
+            if to - from <= shortest {
+                continue;
+            }
+            let from = if from - at <= shortest { at } else { from };
+            let to = if end - to <= shortest { end } else { to };
+            if from > at {
+                push(at, from, ViewVertexKind::Backdrop, true);
+            }
+            let kind = if to < end { ViewVertexKind::Backdrop } else { end_kind };
+            push(from, to, kind, false);
+            at = to;
+        }
+    }
+    if at < end {
+        push(at, end, end_kind, bounds);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::*;
+
+    const KIND: ViewVertexKind = ViewVertexKind::TJunction;
+
+    fn interval(start: f64, end: f64) -> Interval {
+        Interval { start, end, start_kind: KIND, end_kind: KIND }
+    }
+
+    fn layer(start: f64, end: f64, count: u16) -> Layer {
+        Layer { interval: interval(start, end), count }
+    }
+
+    /// Start, end, surfaces in front, and whether it is silhouette, of each piece of each segment that is kept.
+    fn kept(bounds: bool, keeps_hidden: bool, hidden: &[&[Layer]]) -> Vec<Vec<(f64, f64, u16, bool)>> {
+        let segment = ImageSegment {
+            a: DVec3::ZERO,
+            b: DVec3::new(100.0, 0.0, 0.0),
+            ends: [0, 1],
+            cut: [false; 2],
+            hosts: [0, 1],
+            source: 0,
+            bounds,
+            role: Role::Line,
+        };
+        let mut cuts = Cuts::default();
+        for (id, hidden) in hidden.iter().enumerate() {
+            cuts.add(id, &segment, Seen { hidden, backed: &[interval(0.7, 0.8)] }, 0.1, keeps_hidden);
+        }
+        let mut rest = cuts.pieces.as_slice();
+        let pieces = |cut: &Cut| {
+            let own;
+            (own, rest) = rest.split_at(cut.count);
+            assert_eq!(cut.keeps_hidden, keeps_hidden);
+            own.iter().map(|piece| (piece.start, piece.end, piece.invisibility, piece.silhouette)).collect()
+        };
+        let all = cuts.segments.iter().map(pieces).collect();
+        assert!(rest.is_empty());
+        all
+    }
+
+    #[test]
+    fn lines_are_cut_where_something_hides_them_and_those_of_an_outline_where_background_ends() {
+        let hidden: [&[Layer]; 1] = [&[layer(0.2, 0.6, 2)]];
+        let inner = [(0.0, 0.2, 0, false), (0.2, 0.6, 2, false), (0.6, 1.0, 0, false)];
+        assert_eq!(kept(false, false, &hidden), [inner]);
+        let outline = [
+            (0.0, 0.2, 0, true),
+            (0.2, 0.6, 2, false),
+            (0.6, 0.7, 0, true),
+            (0.7, 0.8, 0, false),
+            (0.8, 1.0, 0, true),
+        ];
+        assert_eq!(kept(true, true, &hidden), [outline]);
+    }
+
+    #[test]
+    fn of_what_is_hidden_all_over_nothing_is_kept_unless_it_is_asked_for() {
+        let hidden: [&[Layer]; 4] = [
+            &segment_visibility::BURIED,
+            &[],
+            &[layer(0.0, 0.5, 1), layer(0.5, 1.0, 2)],
+            &[layer(0.0, 0.9995, 3)],
+        ];
+        let whole = (0.0, 1.0, 0, false);
+        assert_eq!(kept(false, false, &hidden), [[whole]]);
+        let found = kept(false, true, &hidden);
+        assert_eq!(found[0], [(0.0, 1.0, 1, false)]);
+        assert_eq!(found[1], [whole]);
+        assert_eq!(found[2], [(0.0, 0.5, 1, false), (0.5, 1.0, 2, false)]);
+        assert_eq!(found[3], [(0.0, 1.0, 3, false)]);
+    }
+}

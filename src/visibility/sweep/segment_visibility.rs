@@ -1,0 +1,238 @@
+//! Visibility: which parts of which segments are hidden, and by how many surfaces.
+//!
+//! Invisibility counts every surface layer between a line and the eye, whether it turns its
+//! outside to the eye or not: a line behind a closed box is behind two layers.
+//!
+//! All lines of sight of a view leave one point, so a grid over the *image* answers what a tree
+//! over space would: the page is cut into tiles, every segment is walked through them, and inside
+//! a tile each segment is compared with each triangle there. What a triangle hides is an interval
+//! of the segment's parameter (see [`crate::visibility::occlusion::triangle_occlusion`]); the visible parts are what no interval
+//! covers. Cusps, T-junctions and piercings fall out of that with computed end points.
+//!
+//! Source: the idea of subtracting intervals follows Blender's Line Art and
+//! three-edge-projection; deciding in the image is after Arthur Appel, "The notion of
+//! quantitative invisibility and the machine rendering of solids", 1967.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use crate::parallel::prelude::*;
+
+use super::tile_comparison::{Context, Memory, TileResult};
+use super::tile_segments::Items;
+use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::lines::Role;
+use crate::mesh::Mesh;
+use crate::parallel::scratch_pool::Spare;
+use crate::view::View;
+use crate::visibility::culling::long_pairs::LongPairs;
+use crate::visibility::culling::occlusion_buffer::Covers;
+use crate::visibility::culling::view_occlusion::ViewCovers;
+use crate::visibility::graph::ViewVertexKind;
+use crate::visibility::occlusion::interval_sweep::{Layer, sweep};
+use crate::visibility::occlusion::occlusion_input::{Compared, Item};
+use crate::visibility::occlusion::tiled_triangles::Triangles;
+use crate::visibility::occlusion::triangle_occlusion::Interval;
+use crate::visibility::projection::image_segments::ImageSegment;
+use crate::visibility::tiles::aligned_grid::{grid_over, tiles_across};
+use crate::visibility::tiles::tile_set::TileSet;
+use crate::visibility::view_tolerances::Limits;
+
+/// A segment is hidden from end to end when no more than this share of it is left.
+const WHOLE_SLACK: f64 = 1e-9;
+
+/// Hidden from end to end.
+pub(crate) const BURIED: [Layer; 1] = [whole(0.0, 1.0)];
+
+const fn whole(start: f64, end: f64) -> Layer {
+    let kind = ViewVertexKind::TJunction;
+    Layer { interval: Interval { start, end, start_kind: kind, end_kind: kind }, count: 1 }
+}
+
+/// What is known of all segments.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Visibility {
+    /// Whether each segment is hidden from end to end by one layer or more; only where layers are
+    /// not counted.
+    buried: Vec<bool>,
+    hidden: Grouped<Layer>,
+    backed: Grouped<Interval>,
+    /// How many times a segment was compared with a triangle.
+    pub tests: u64,
+}
+
+impl Visibility {
+    /// The hidden pieces of a segment with their counts, ascending.
+    #[must_use]
+    pub fn hidden(&self, segment: usize) -> &[Layer] {
+        if self.buried[segment] { &BURIED } else { self.hidden.of(segment) }
+    }
+
+    /// The ranges of a segment that have a surface beside them on the outer side, ascending; only
+    /// for segments that bound a surface.
+    #[must_use]
+    pub fn backed(&self, segment: usize) -> &[Interval] {
+        self.backed.of(segment)
+    }
+}
+
+/// Decides the visibility of all segments but smooth contours, of which nothing is told: their witnesses are asked.
+///
+/// With `counting` false, counts are not told apart and stay 1, which is faster.
+#[must_use]
+pub fn decide(
+    mesh: &Mesh,
+    view: &View,
+    segments: &[ImageSegment],
+    limits: &Limits,
+    counting: bool,
+) -> Visibility {
+    decide_with(mesh, view, segments, limits, counting, None)
+}
+
+/// The same with the help of covers of the view, where they fit.
+#[must_use]
+pub(crate) fn decide_with(
+    mesh: &Mesh,
+    view: &View,
+    segments: &[ImageSegment],
+    limits: &Limits,
+    counting: bool,
+    known: Option<&ViewCovers>,
+) -> Visibility {
+    let asked = || segments.iter().zip(0u32..).filter(|(segment, _)| segment.role != Role::Curve);
+    if asked().next().is_none() {
+        return gather(segments, limits, &[], &[]);
+    }
+    let grid = grid_over(asked().map(|(segment, _)| segment), tiles_across(mesh.triangles.len()));
+    let triangles = Triangles { mesh, view, grid: &grid, limits };
+    let items = || {
+        let known = known.filter(|known| known.grid == grid);
+        let covers = match known {
+            _ if counting => Cow::Owned(Covers::none(&grid)),
+            Some(known) => Cow::Borrowed(&known.covers),
+            None => Cow::Owned(Covers::find(&triangles)),
+        };
+        (Items::new(segments, &grid, &covers), covers)
+    };
+    let ((items, covers), boxes) = crate::parallel::join(items, || triangles.tile_boxes());
+    let Items { open: items, buried } = items;
+    let wanted = TileSet::new(&grid, (0..grid.len()).filter(|tile| !items.of(*tile).is_empty()));
+    let occluders = triangles.fill(boxes, &wanted, &covers.of_tile);
+
+    // Where triangles lie over several tiles, how far each reaches is found once.
+    let several = occluders.value_count() > 2 * triangles.count();
+    let reaches = if several { triangles.reaches() } else { Vec::new() };
+    let reach = |id: &u32| reaches.get(*id as usize).copied().unwrap_or_else(|| triangles.reach(*id));
+
+    let compared = Compared { triangles: &triangles, segments, limits, counting };
+    let long = LongPairs::find(&compared, &items, &occluders);
+    let context = Context { compared, long: long.as_ref() };
+    const TILES: usize = 64;
+    let decided = |memory: &mut Memory, tiles: Range<usize>| {
+        let mut result = TileResult::default();
+        for tile in tiles {
+            let mut decide = |items: &[Item], ids: &mut dyn Iterator<Item = &u32>| {
+                if !items.is_empty() {
+                    memory.triangles.replace(ids.map(reach), &grid, tile, limits);
+                    context.decide_tile(items, memory, &grid, tile, &mut result);
+                }
+            };
+            let (items, ids) = (items.of(tile), occluders.of(tile));
+            match &long {
+                None => decide(items, &mut ids.iter()),
+                Some(long) => {
+                    let (of_long, others): (Vec<Item>, Vec<Item>) =
+                        items.iter().partition(|item| long.has(item.segment));
+                    decide(&of_long, &mut ids.iter().filter(|id| !long.has_triangle(**id)));
+                    decide(&others, &mut ids.iter());
+                }
+            }
+        }
+        result.tidy();
+        result
+    };
+    // Some tiles are crowded and most are not.
+    let memories = Spare::default();
+    let results: Vec<TileResult> = (0..grid.len().div_ceil(TILES))
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|k| memories.lend(|memory| decided(memory, k * TILES..((k + 1) * TILES).min(grid.len()))))
+        .collect();
+    let long_tests = long.as_ref().map_or(0, |long| long.tests);
+    // What is found takes as much room again while it is put in order.
+    drop((long, occluders, items, memories));
+    let mut told = gather(segments, limits, &buried, &results);
+    told.tests += long_tests;
+    told
+}
+
+/// Brings the findings of all tiles back to their segments and joins them there.
+fn gather(
+    segments: &[ImageSegment],
+    limits: &Limits,
+    buried_items: &[Item],
+    results: &[TileResult],
+) -> Visibility {
+    let shortest = |segment: usize| limits.piece / segments[segment].length().max(limits.piece);
+    let wholes = || buried_items.iter().chain(results.iter().flat_map(|r| &r.whole));
+    // The items of a segment part its parameter range, so that a segment all of whose items are
+    // hidden is known by their sum.
+    let mut length = vec![0.0f64; segments.len()];
+    for item in wholes() {
+        length[item.segment as usize] += item.end - item.start;
+    }
+    let buried: Vec<bool> = length.iter().map(|l| *l >= 1.0 - WHOLE_SLACK).collect();
+    let open = |segment: u32| !buried[segment as usize];
+    let hidden = || {
+        let of_item = |item: &Item| (item.segment, whole(item.start, item.end));
+        let pieces = results.iter().flat_map(|r| &r.hidden).copied();
+        let found = wholes().map(of_item).chain(pieces).filter(|(segment, _)| open(*segment));
+        let hidden = grouped_pairs(segments.len(), found.map(|(segment, layer)| (segment as usize, layer)));
+        hidden.tidied(|segment, layers| join_layers(layers, shortest(segment)))
+    };
+    let backed = || {
+        let pairs = results.iter().flat_map(|r| &r.backed);
+        let backed =
+            grouped_pairs(segments.len(), pairs.map(|(segment, interval)| (*segment as usize, *interval)));
+        backed.tidied(|segment, intervals| {
+            let mut joined = Vec::new();
+            // Beside a corner the outer side may graze a face that only shares the vertex.
+            let grazing = 4.0 * limits.beside / segments[segment].length().max(4.0 * limits.beside);
+            sweep(intervals, &[], grazing, false, &mut joined);
+            intervals.clear();
+            intervals.extend(joined.iter().map(|l| l.interval));
+        })
+    };
+    let (hidden, backed) = crate::parallel::join(hidden, backed);
+    Visibility { tests: results.iter().map(|r| r.tests).sum(), hidden, backed, buried }
+}
+
+/// Joins pieces of equal count that touch, and drops what is shorter than rounding.
+fn join_layers(layers: &mut Vec<Layer>, shortest: f64) {
+    layers.sort_by(|a, b| a.interval.start.total_cmp(&b.interval.start));
+    join_touching(layers, shortest);
+    layers.retain(|l| l.interval.end - l.interval.start > shortest);
+    // Both faces beside an edge cover it, so that behind every edge lies a sliver of one layer
+    // more: what it parted is one again.
+    join_touching(layers, 2.0 * shortest);
+}
+
+/// Joins neighbours of equal count with a gap of at most `gap` between them.
+fn join_touching(layers: &mut Vec<Layer>, gap: f64) {
+    let mut last = 0;
+    for i in 1..layers.len() {
+        let layer = layers[i];
+        let joined = &mut layers[last];
+        if joined.count == layer.count && layer.interval.start - joined.interval.end <= gap {
+            if layer.interval.end > joined.interval.end {
+                joined.interval.end = layer.interval.end;
+                joined.interval.end_kind = layer.interval.end_kind;
+            }
+        } else {
+            last += 1;
+            layers[last] = layer;
+        }
+    }
+    layers.truncate(last + 1);
+}

@@ -1,0 +1,402 @@
+//! One tile: its segments against its triangles.
+
+use glam::DVec3;
+
+use crate::geometry::lists::csr_lists::grouped;
+use crate::visibility::culling::long_pairs::LongPairs;
+use crate::visibility::culling::longest_interval::{NO_RUN, longer};
+use crate::visibility::culling::nearness_bound::{OPEN, step};
+use crate::visibility::culling::occlusion_buffer;
+use crate::visibility::culling::tile_occluders::{LookedUp, TileTriangles};
+use crate::visibility::occlusion::interval_sweep::{Layer, sweep};
+use crate::visibility::occlusion::occlusion_input::{Compared, Item};
+use crate::visibility::occlusion::outer_sides::{OuterSide, OuterSides, backdrop, common};
+use crate::visibility::occlusion::tiled_triangles::Reach;
+use crate::visibility::occlusion::triangle_occlusion::{Interval, hidden_interval};
+use crate::visibility::projection::image_segments::ImageSegment;
+use crate::visibility::tiles::tile_grid::Grid;
+use crate::visibility::tiles::triangle_columns::Sides;
+
+/// Lists up to this long are looked through as they are.
+const FEW: usize = 32;
+/// A tile with more pairs than this for each of its segments and triangles is cut into finer ones.
+const CROWD: usize = 64;
+/// Finer tiles along each side of a crowded one.
+const FINER: u32 = 8;
+/// Finer tiles with so many times as many pairs are in vain.
+const IN_VAIN: usize = 2;
+
+/// What a run of tiles found out about segments.
+#[derive(Debug, Default)]
+pub(crate) struct TileResult {
+    /// Items that are hidden from end to end.
+    pub(crate) whole: Vec<Item>,
+    /// Hidden pieces of others.
+    pub(crate) hidden: Vec<(u32, Layer)>,
+    /// Where a segment that may bound a surface has no background next to it.
+    pub(crate) backed: Vec<(u32, Interval)>,
+    /// How many times a segment was compared with a triangle.
+    pub(crate) tests: u64,
+}
+
+impl TileResult {
+    /// Gives back the room that nothing was found for.
+    pub(crate) fn tidy(&mut self) {
+        self.whole.shrink_to_fit();
+        self.hidden.shrink_to_fit();
+        self.backed.shrink_to_fit();
+    }
+}
+
+/// What all tiles share.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Context<'a> {
+    pub(crate) compared: Compared<'a>,
+    /// What is known of long lines before: their items are compared with the other triangles.
+    pub(crate) long: Option<&'a LongPairs>,
+}
+
+/// What a worker takes from tile to tile.
+#[derive(Debug, Default)]
+pub(crate) struct Memory {
+    /// The triangles of the tile.
+    pub(crate) triangles: TileTriangles,
+    /// 0, 1, 2 and so on.
+    numbers: Vec<u32>,
+    /// What is found out about one item.
+    found: Found,
+}
+
+/// What is found out about an item, before it is put together.
+#[derive(Debug, Default)]
+struct Found {
+    hidden: Vec<Interval>,
+    /// What is known to be hidden before.
+    known: Vec<Layer>,
+    layers: Vec<Layer>,
+}
+
+/// Which triangles of a tile to look at.
+#[derive(Clone, Copy)]
+struct Entries<'a> {
+    chosen: &'a [u32],
+    /// Whether nearer ones come first.
+    ordered: bool,
+}
+
+impl Context<'_> {
+    /// Compares the items of a tile of a grid with its triangles.
+    pub(crate) fn decide_tile(
+        &self,
+        items: &[Item],
+        memory: &mut Memory,
+        grid: &Grid,
+        tile: usize,
+        result: &mut TileResult,
+    ) {
+        let count = memory.triangles.reaches.len();
+        let mut numbers = std::mem::take(&mut memory.numbers);
+        numbers.extend(numbers.len() as u32..count as u32);
+        let entries = Entries { chosen: &numbers[..count], ordered: false };
+        self.decide(items, memory, entries, (grid, tile), result);
+        memory.numbers = numbers;
+    }
+
+    fn decide(
+        &self,
+        items: &[Item],
+        memory: &mut Memory,
+        entries: Entries,
+        (grid, tile): (&Grid, usize),
+        result: &mut TileResult,
+    ) {
+        let Compared { segments, limits, counting, .. } = self.compared;
+        let count = entries.chosen.len();
+        if count > FEW
+            && items.len() * count > CROWD * (items.len() + count)
+            && grid.cell > limits.beside * 64.0
+            && self.decide_finer(items, memory, entries, &grid.of_tile(tile, FINER), result)
+        {
+            return;
+        }
+        let sorted: Vec<u32>;
+        let mut entries = entries;
+        // Sorting pays where many lines are asked of many triangles: hidden ones then meet what
+        // hides them first.
+        if !counting && count > FEW && items.len() > FEW / 4 {
+            sorted = nearest_first(&memory.triangles.reaches, entries.chosen);
+            entries = Entries { chosen: &sorted, ordered: true };
+        }
+        let Found { mut hidden, mut known, mut layers } = std::mem::take(&mut memory.found);
+        for item in items.iter().filter(|item| item.end > item.start) {
+            let segment = &segments[item.segment as usize];
+            let is_whole = |l: &Layer| l.interval.start <= item.start && l.interval.end >= item.end;
+            known.clear();
+            known.extend(self.long.iter().flat_map(|long| long.hidden(item)));
+            if !counting && known.iter().any(is_whole) {
+                result.whole.push(*item);
+                continue;
+            }
+            hidden.clear();
+            if self.gather_hidden(
+                segment,
+                item,
+                &mut memory.triangles,
+                entries,
+                &mut hidden,
+                &mut result.tests,
+            ) {
+                result.whole.push(*item);
+                continue;
+            }
+            layers.clear();
+            let shortest = limits.piece / segment.length().max(limits.piece);
+            sweep(&mut hidden, &known, shortest * 1e-3, counting, &mut layers);
+            result.hidden.extend(layers.iter().map(|l| (item.segment, *l)));
+            if segment.bounds && !layers.iter().any(is_whole) {
+                self.gather_backed(segment, item, &mut memory.triangles, entries, result);
+            }
+        }
+        memory.found = Found { hidden, known, layers };
+    }
+
+    /// Cuts a crowded tile into finer ones: where a dense model is small on the page, a grid over the page does not part its
+    /// lines. False, and nothing is decided, where lines and triangles lie along each other, and would only meet more often.
+    fn decide_finer(
+        &self,
+        items: &[Item],
+        memory: &mut Memory,
+        entries: Entries,
+        grid: &Grid,
+        result: &mut TileResult,
+    ) -> bool {
+        let Compared { triangles, segments, limits, counting } = self.compared;
+        let before = result.whole.len();
+        let mut cover = vec![OPEN; grid.len()];
+        if !counting {
+            for entry in entries.chosen {
+                let whole = &memory.triangles.look_up(*entry, triangles).whole;
+                let frame = &triangles.view.frame;
+                let step = step(&whole.corners, limits, &whole.slack, frame);
+                occlusion_buffer::add(&whole.corners, grid, step, limits, &mut cover);
+            }
+        }
+        let mut fine: Vec<(u32, Item)> = Vec::with_capacity(items.len() * 2);
+        for item in items.iter().filter(|item| item.end > item.start) {
+            let segment = &segments[item.segment as usize];
+            let (a, b) = (segment.at(item.start), segment.at(item.end));
+            let span = item.end - item.start;
+            let (first_fine, first_whole) = (fine.len(), result.whole.len());
+            grid.walk(a, b, |tile, t0, t1| {
+                let at = |t: f64| if t >= 1.0 { item.end } else { item.start + span * t };
+                let part = Item { start: at(t0), end: at(t1), ..*item };
+                if (a.z + (b.z - a.z) * t0).max(a.z + (b.z - a.z) * t1) < f64::from(cover[tile]) {
+                    result.whole.push(part);
+                } else {
+                    fine.push((tile as u32, part));
+                }
+            });
+            if fine.len() == first_fine {
+                result.whole.truncate(first_whole);
+                result.whole.push(*item);
+            }
+        }
+        let fine_items = grouped(grid.len(), |put| {
+            for (tile, item) in &fine {
+                put(*tile as usize, *item);
+            }
+        });
+        let fine_pairs = self.finer_pairs(&mut memory.triangles, entries, grid, |tile, nearest| {
+            nearest >= f64::from(cover[tile]) && !fine_items.of(tile).is_empty()
+        });
+        let fine_entries = grouped(grid.len(), |put| {
+            for (tile, entry) in &fine_pairs {
+                put(*tile as usize, *entry);
+            }
+        });
+        let pairs = |tile: usize| fine_items.of(tile).len() * fine_entries.of(tile).len();
+        if (0..grid.len()).map(pairs).sum::<usize>() > IN_VAIN * items.len() * entries.chosen.len() {
+            result.whole.truncate(before);
+            return false;
+        }
+        for tile in 0..grid.len() {
+            let (items, chosen) = (fine_items.of(tile), fine_entries.of(tile));
+            if !items.is_empty() {
+                self.decide(items, memory, Entries { chosen, ordered: false }, (grid, tile), result);
+            }
+        }
+        true
+    }
+
+    /// The finer tiles that each triangle may lie over, where they are wanted for triangles as near as it.
+    fn finer_pairs(
+        &self,
+        all: &mut TileTriangles,
+        entries: Entries,
+        grid: &Grid,
+        is_wanted: impl Fn(usize, f64) -> bool,
+    ) -> Vec<(u32, u32)> {
+        let Compared { triangles, limits, .. } = self.compared;
+        let slack = 2.0 * limits.beside;
+        let reach = grid.cell / 2.0 * (1.0 + 1e-5) + slack;
+        let mut pairs = Vec::with_capacity(entries.chosen.len() * 2);
+        for entry in entries.chosen {
+            let Reach { bounds, nearest, .. } = all.reaches[*entry as usize];
+            let [left, right, top, bottom] = bounds.map(f64::from);
+            let (low, high) = (DVec3::new(left, top, 0.0), DVec3::new(right, bottom, 0.0));
+            let tiles = grid.tile_box(low - slack, high + slack);
+            // The box of a needle holds many tiles that it does not meet.
+            let sides = (tiles.area() > 4).then(|| Sides::new(&all.look_up(*entry, triangles).whole.corners));
+            for row in tiles.top..=tiles.bottom {
+                let whole = u32::from(tiles.left)..u32::from(tiles.right) + 1;
+                let columns = sides.as_ref().map_or(whole, |sides| sides.columns(grid, tiles, row, reach));
+                let of_row = columns.map(|column| grid.tile(column, u32::from(row)));
+                let wanted = of_row.filter(|tile| is_wanted(*tile, f64::from(nearest)));
+                pairs.extend(wanted.map(|tile| (tile as u32, *entry)));
+            }
+        }
+        pairs
+    }
+
+    /// Collects what the triangles of a tile hide of an item. True if one of them, or a run of
+    /// them, hides all of it and counts are not asked for.
+    #[inline(never)]
+    fn gather_hidden(
+        &self,
+        segment: &ImageSegment,
+        item: &Item,
+        all: &mut TileTriangles,
+        entries: Entries,
+        hidden: &mut Vec<Interval>,
+        tests: &mut u64,
+    ) -> bool {
+        let Compared { triangles, limits, counting, .. } = self.compared;
+        let (p, q) = (segment.at(item.start), segment.at(item.end));
+        let (low, high) = (p.min(q), p.max(q));
+        let bounds = [
+            (low.x as f32).next_down(),
+            (high.x as f32).next_up(),
+            (low.y as f32).next_down(),
+            (high.y as f32).next_up(),
+        ];
+        let farthest = (low.z as f32).next_down();
+        let ends = all.window.both([p, q].map(DVec3::truncate));
+        let mut run = NO_RUN;
+        for entry in entries.chosen {
+            let reach = &all.reaches[*entry as usize];
+            if reach.nearest < farthest {
+                if entries.ordered {
+                    break;
+                }
+                continue;
+            }
+            let b = &reach.bounds;
+            if b[0] > bounds[1] || b[1] < bounds[0] || b[2] > bounds[3] || b[3] < bounds[2] {
+                continue;
+            }
+            if triangles.mesh.touches(segment.hosts, triangles.face(reach.id)) {
+                continue;
+            }
+            *tests += 1;
+            let LookedUp { sides, whole } = all.look_up(*entry, triangles);
+            if ends.is_some_and(|[p, q]| sides.are_beyond_a_side(p, q)) {
+                continue;
+            }
+            let range = (item.start, item.end);
+            let found = hidden_interval(segment, range, whole, &triangles.view.frame, limits);
+            let Some(found) = found else {
+                continue;
+            };
+            hidden.push(found);
+            if !counting {
+                run = longer(run, (found.start, found.end));
+                if run.0 <= item.start && run.1 >= item.end {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// Collects where a segment has no background next to it: where surfaces lie beside all sides that its own faces leave open.
+    #[inline(never)]
+    fn gather_backed(
+        &self,
+        segment: &ImageSegment,
+        item: &Item,
+        all: &mut TileTriangles,
+        entries: Entries,
+        result: &mut TileResult,
+    ) {
+        let sides = OuterSides::of(segment, self.compared.triangles);
+        let mut open = sides.open();
+        match (open.next(), open.next()) {
+            (None, _) => result.backed.push((item.segment, backdrop(item.start, item.end))),
+            (Some(side), None) => self.gather_beside(side, item, all, entries, &mut result.backed),
+            (Some(first), Some(second)) => {
+                let [first, second] = [first, second].map(|side| {
+                    let mut found = Vec::new();
+                    self.gather_beside(side, item, all, entries, &mut found);
+                    found.into_iter().map(|(_, interval)| interval).collect()
+                });
+                result
+                    .backed
+                    .extend(common(first, second).map(|(start, end)| (item.segment, backdrop(start, end))));
+            }
+        }
+    }
+
+    /// Collects where a surface lies on one side of a segment.
+    fn gather_beside(
+        &self,
+        (number, side): (usize, &OuterSide),
+        item: &Item,
+        all: &mut TileTriangles,
+        entries: Entries,
+        backed: &mut Vec<(u32, Interval)>,
+    ) {
+        let Compared { triangles, segments, limits, .. } = self.compared;
+        let segment = &segments[item.segment as usize];
+        let beside = side.beside(segment.at(item.start), segment.at(item.end));
+        let (low, high) = (beside[0].min(beside[1]), beside[0].max(beside[1]));
+        let ends = all.window.both(beside);
+        let mut run = NO_RUN;
+        for interval in self.long.iter().flat_map(|long| long.backed(item, number)) {
+            backed.push((item.segment, interval));
+            run = longer(run, (interval.start, interval.end));
+        }
+        for entry in entries.chosen {
+            // No other triangle tells more.
+            if run.0 <= item.start && run.1 >= item.end {
+                return;
+            }
+            let b = all.reaches[*entry as usize].bounds.map(f64::from);
+            if b[0] > high.x || b[1] < low.x || b[2] > high.y || b[3] < low.y {
+                continue;
+            }
+            let LookedUp { sides, whole } = all.look_up(*entry, triangles);
+            if ends.is_some_and(|[p, q]| sides.are_beyond_a_side(p, q)) {
+                continue;
+            }
+            let Some((start, end)) = side.range(whole, limits) else { continue };
+            let (start, end) = (start.max(item.start), end.min(item.end));
+            if start < end {
+                backed.push((item.segment, backdrop(start, end)));
+                run = longer(run, (start, end));
+            }
+        }
+    }
+}
+
+/// Some of the triangles with the nearer ones first, of equally near ones in their order.
+fn nearest_first(reaches: &[Reach], chosen: &[u32]) -> Vec<u32> {
+    // Numbers that order as the negative of a nearness does, above the place in the tile.
+    let key = |entry: &u32| {
+        let bits = reaches[*entry as usize].nearest.to_bits();
+        let falling = if bits >> 31 == 0 { !bits & (u32::MAX >> 1) } else { bits };
+        u64::from(falling) << 32 | u64::from(*entry)
+    };
+    let mut keys: Vec<u64> = chosen.iter().map(key).collect();
+    keys.sort_unstable();
+    keys.into_iter().map(|key| key as u32).collect()
+}

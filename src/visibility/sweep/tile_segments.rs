@@ -1,0 +1,161 @@
+//! [`Items`]: what lies of each line in each tile, but for what lies behind covers.
+
+use crate::parallel::prelude::*;
+
+use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
+use crate::lines::Role;
+use crate::visibility::culling::occlusion_buffer::Covers;
+use crate::visibility::occlusion::occlusion_input::Item;
+use crate::visibility::projection::image_segments::ImageSegment;
+use crate::visibility::tiles::tile_grid::Grid;
+
+/// Segments that are walked as one piece of work.
+const CHUNK: usize = 1 << 10;
+
+/// The items of all segments of which visibility is asked.
+#[derive(Debug)]
+pub(crate) struct Items {
+    /// By tile, those that have to be compared with triangles.
+    pub open: Grouped<Item>,
+    /// Those that lie behind covers: one of a segment all of which does.
+    pub buried: Vec<Item>,
+}
+
+/// The same of some segments, each with its tile.
+#[derive(Default)]
+struct Walked {
+    open: Vec<(u32, Item)>,
+    buried: Vec<Item>,
+}
+
+impl Items {
+    /// Walks all segments through the tiles but smooth contours, whose witnesses are asked.
+    pub fn new(segments: &[ImageSegment], grid: &Grid, covers: &Covers) -> Self {
+        let walked: Vec<Walked> = (0..segments.len().div_ceil(CHUNK))
+            .into_par_iter()
+            .with_max_len(1)
+            .map(|k| walked(segments, k * CHUNK..((k + 1) * CHUNK).min(segments.len()), grid, covers))
+            .collect();
+        let pairs = walked.iter().flat_map(|walked| &walked.open).map(|(tile, item)| (*tile as usize, *item));
+        let open = grouped_pairs(grid.len(), pairs);
+        let buried = walked.iter().flat_map(|walked| &walked.buried).copied().collect();
+        Self { open, buried }
+    }
+}
+
+fn walked(segments: &[ImageSegment], some: std::ops::Range<usize>, grid: &Grid, covers: &Covers) -> Walked {
+    let Walked { mut open, mut buried } = Walked::default();
+    for (segment, s) in some.map(|k| (k as u32, &segments[k])).filter(|(_, s)| s.role != Role::Curve) {
+        let before = (open.len(), buried.len());
+        grid.walk(s.a, s.b, |tile, start, end| {
+            let item = Item { segment, start, end };
+            if covers.bury(s, tile, start, end) {
+                buried.push(item);
+            } else {
+                open.push((tile as u32, item));
+            }
+        });
+        if open.len() == before.0 && buried.len() > before.1 {
+            buried.truncate(before.1);
+            buried.push(Item { segment, start: 0.0, end: 1.0 });
+        }
+    }
+    Walked { open, buried }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, DVec3};
+
+    use super::*;
+    use crate::geometry::numbers::noise::hash;
+    use crate::mesh::{Mesh, Soup};
+    use crate::scene::{Camera, UpAxis};
+    use crate::view::View;
+    use crate::visibility::occlusion::tiled_triangles::Triangles;
+    use crate::visibility::view_tolerances::Limits;
+
+    const SIDE: f64 = 200.0;
+
+    fn part(n: u64, axis: u64) -> f64 {
+        hash(axis, &[n]) as f64 / u64::MAX as f64
+    }
+
+    /// Eight plates behind each other, seen from the front.
+    fn plates() -> (Mesh, View) {
+        let mut soup = Soup::default();
+        for plate in 0..8 {
+            let corner = |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1), -0.1 * f64::from(plate));
+            soup.positions.extend((0..4).map(corner));
+            soup.triangles.extend([[0, 1, 3], [0, 3, 2]].map(|t: [u32; 3]| t.map(|v| v + 4 * plate)));
+        }
+        let mesh = Mesh::build(soup);
+        let points: Vec<DVec3> = mesh.positions.iter().map(|p| *p + mesh.origin).collect();
+        let view = View::new(
+            &mesh,
+            &Camera::azimuth_elevation(0.0, 0.0, UpAxis::Y).with_frame(SIDE, SIDE).fit_points(&points, 0.05),
+        );
+        (mesh, view)
+    }
+
+    /// Segments all over the page, from the nearness of the nearest corner to that of the farthest.
+    fn segments(view: &View, count: u64) -> Vec<ImageSegment> {
+        let depths = || view.points.iter().map(|p| p.z);
+        let (far, near) =
+            (depths().fold(f64::INFINITY, f64::min), depths().fold(f64::NEG_INFINITY, f64::max));
+        let point =
+            |n: u64| DVec3::new(part(n, 0) * SIDE, part(n, 1) * SIDE, far + (near - far) * part(n, 2));
+        let segment = |n: u64| {
+            let a = point(2 * n);
+            ImageSegment {
+                a,
+                b: a + (point(2 * n + 1) - a) * part(n, 3).powi(3),
+                ends: [0; 2],
+                cut: [false; 2],
+                hosts: [u32::MAX; 2],
+                source: n as u32,
+                bounds: false,
+                role: if n.is_multiple_of(10) { Role::Curve } else { Role::Line },
+            }
+        };
+        (0..count).map(segment).collect()
+    }
+
+    #[test]
+    fn items_part_each_line_and_what_is_buried_lies_behind_the_nearest_plate() {
+        let (mesh, view) = plates();
+        let limits = Limits::new(&view.frame);
+        let nearest = view.points.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
+        let segments = segments(&view, 3 * CHUNK as u64);
+        let grid = Grid::new(DVec2::ZERO, DVec2::splat(SIDE), 32);
+        let found = Covers::find(&Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits });
+        assert!(!found.is_empty());
+        for covers in [Covers::none(&grid), found] {
+            let Items { open, buried } = Items::new(&segments, &grid, &covers);
+            let mut parts = vec![0.0; segments.len()];
+            for tile in 0..grid.len() {
+                let mut last = 0;
+                for item in open.of(tile) {
+                    let s = &segments[item.segment as usize];
+                    let middle = s.at((item.start + item.end) / 2.0);
+                    assert_eq!(grid.tile(grid.column(middle.x), grid.row(middle.y)), tile);
+                    assert!(item.segment >= last && s.role == Role::Line);
+                    last = item.segment;
+                    parts[item.segment as usize] += item.end - item.start;
+                }
+            }
+            for item in &buried {
+                let s = &segments[item.segment as usize];
+                assert!(s.at(item.start).z.max(s.at(item.end).z) < nearest);
+                parts[item.segment as usize] += item.end - item.start;
+            }
+            for (s, part) in segments.iter().zip(parts) {
+                let wanted = f64::from(u8::from(s.role == Role::Line));
+                assert!((part - wanted).abs() < 1e-9, "{part}");
+            }
+            // With covers more than half of these lines are buried whole, and without them none.
+            let whole = buried.iter().filter(|item| (item.start, item.end) == (0.0, 1.0)).count();
+            assert_eq!(whole > segments.len() / 2, !covers.is_empty(), "{whole} of {}", buried.len());
+        }
+    }
+}

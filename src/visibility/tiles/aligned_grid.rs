@@ -1,0 +1,45 @@
+//! The grid of tiles over what is asked about on a page.
+
+use glam::{DVec2, DVec3};
+
+use super::tile_grid::Grid;
+use crate::geometry::numbers::powers_of_two::power_of_two_above;
+use crate::visibility::projection::image_segments::ImageSegment;
+
+/// A grid over the box around some segments. Its tiles seldom move when lines come and go: they are a power of
+/// two wide, and lie on multiples of that.
+pub(crate) fn grid_over<'a>(segments: impl Iterator<Item = &'a ImageSegment>, across: u32) -> Grid {
+    let around = segments.fold(None, |around: Option<(DVec3, DVec3)>, s| {
+        let (low, high) = around.unwrap_or((s.a, s.a));
+        Some((low.min(s.a).min(s.b), high.max(s.a).max(s.b)))
+    });
+    let (low, high) = around.unwrap_or_default();
+    grid_over_box(low.truncate(), high.truncate(), across)
+}
+
+/// The same over a box.
+pub(crate) fn grid_over_box(low: DVec2, high: DVec2, across: u32) -> Grid {
+    let size = (high - low).max_element();
+    if !(size > 0.0 && size.is_finite()) {
+        return Grid::new(low, high, across);
+    }
+    // Between 0.7 and 1.4 times as many as asked for.
+    let cell = power_of_two_above(size / f64::from(across) * std::f64::consts::FRAC_1_SQRT_2);
+    Grid::of_cells((low / cell).floor() * cell, high, cell)
+}
+
+/// Denser meshes want smaller tiles; crowded tiles are cut further.
+pub(crate) fn tiles_across(triangles: usize) -> u32 {
+    match triangles {
+        0..=2_000 => 32,
+        2_001..=30_000 => 64,
+        30_001..=200_000 => 128,
+        _ => 256,
+    }
+}
+
+/// Squares of covers along each side of a tile. Finer ones hide more lines and cost more: that pays where a mesh is so dense that its
+/// lines are short.
+pub(crate) fn squares_per_tile(triangles: usize) -> u32 {
+    if triangles > 200_000 { 6 } else { 2 }
+}
