@@ -6,13 +6,13 @@
 //! cargo bench --bench dual_tree [-- MODEL…]
 //! ```
 
-#[path = "../tests/library/support/models.rs"]
+#[path = "../tests/library/support/readers/shared_folder.rs"]
 #[expect(dead_code, reason = "tests ask it more")]
 mod models;
-#[path = "../tests/library/support/round_solids.rs"]
+#[path = "../tests/library/support/scenes/round_solids.rs"]
 #[expect(dead_code, reason = "tests draw more of them")]
 mod round_solids;
-#[path = "../tests/library/support/solids.rs"]
+#[path = "../tests/library/support/scenes/solids.rs"]
 #[expect(dead_code, reason = "tests draw more of them")]
 mod solids;
 

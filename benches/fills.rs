@@ -8,10 +8,10 @@
 //! borders, visibility, regions, chains, ink. The *floor* under it is one depth raster of its faces,
 //! 1024 pixels along each side. Ratios can be compared between machines, times cannot.
 
-#[path = "../tests/library/support/models.rs"]
+#[path = "../tests/library/support/readers/shared_folder.rs"]
 #[expect(dead_code, reason = "tests ask it more")]
 mod models;
-#[path = "../tests/library/support/solids.rs"]
+#[path = "../tests/library/support/scenes/solids.rs"]
 #[expect(dead_code, reason = "tests draw more of them")]
 mod solids;
 

@@ -8,7 +8,7 @@
 //! ink; and the laying and clipping of its strokes, alone, in parts of the time of visibility. Ratios can be
 //! compared between machines, times cannot.
 
-#[path = "../tests/library/support/models.rs"]
+#[path = "../tests/library/support/readers/shared_folder.rs"]
 #[expect(dead_code, reason = "tests ask it more")]
 mod models;
 

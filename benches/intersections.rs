@@ -1,9 +1,9 @@
 //! How long the search for intersections takes, on generated solids and on scans.
 
-#[path = "../tests/library/support/models.rs"]
+#[path = "../tests/library/support/readers/shared_folder.rs"]
 #[expect(dead_code, reason = "tests ask it more")]
 mod models;
-#[path = "../tests/library/support/solids.rs"]
+#[path = "../tests/library/support/scenes/solids.rs"]
 #[expect(dead_code, reason = "tests draw more of them")]
 mod solids;
 

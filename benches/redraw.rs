@@ -7,10 +7,10 @@
 //! Medians over 60 views around the model, on all threads, after a few that are not counted. Words choose the rows whose names
 //! contain one of them. Shared models that are not there are passed over.
 
-#[path = "../tests/library/support/models.rs"]
+#[path = "../tests/library/support/readers/shared_folder.rs"]
 #[expect(dead_code, reason = "tests ask it more")]
 mod models;
-#[path = "../tests/library/support/solids.rs"]
+#[path = "../tests/library/support/scenes/solids.rs"]
 #[expect(dead_code, reason = "tests draw more of them")]
 mod solids;
 

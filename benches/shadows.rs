@@ -4,7 +4,7 @@
 //! cargo bench --bench shadows [-- MODEL…]
 //! ```
 
-#[path = "../tests/library/support/models.rs"]
+#[path = "../tests/library/support/readers/shared_folder.rs"]
 #[expect(dead_code, reason = "tests ask it more")]
 mod models;
 

@@ -30,8 +30,8 @@
 
 mod detail_level;
 mod face_budget;
-pub(crate) mod film_extent;
-pub(crate) mod stroke_fade;
+mod film_extent;
+mod stroke_fade;
 mod timeline;
 mod turntable;
 

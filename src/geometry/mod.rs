@@ -8,7 +8,7 @@
 //! sets of bits; [`names`] name patterns and stable ids of named things.
 
 #[cfg(test)]
-#[path = "../../tests/library/support/dice.rs"]
+#[path = "../../tests/library/support/scenes/random_dice.rs"]
 pub mod dice;
 pub mod lists;
 pub mod names;

@@ -29,7 +29,7 @@ mod sheet_loader;
 mod tables;
 pub(crate) mod toml_reader;
 #[cfg(feature = "page")]
-pub(crate) mod unitless_lengths;
+mod unitless_lengths;
 
 pub use keys::{KeyType, StyleKey};
 #[cfg(feature = "page")]

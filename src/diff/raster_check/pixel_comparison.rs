@@ -5,7 +5,7 @@ use resvg::tiny_skia::PremultipliedColorU8 as Pixel;
 use super::window_extremes::squares;
 
 /// Channels that differ by no more than this are alike: opacities and blends are rounded more than once on their way.
-/// Of pairs that are one picture written in two ways none differs by more, see `tests/library/diff_pictures.rs`.
+/// Of pairs that are one picture written in two ways none differs by more, see `tests/library/diff/picture_changes.rs`.
 pub(crate) const ALIKE: u8 = 2;
 /// Pixels to the tolerance, where a spot is looked at closely.
 const PIXELS_OF_TOLERANCE: f64 = 4.0;

@@ -1,4 +1,4 @@
-//! The [`ViewMap`](crate::visibility::ViewMap) assembled from the pieces of its lines.
+//! The [`ViewMap`](super::ViewMap) assembled from the pieces of its lines.
 //!
 //! 1. All segments are projected and their visibility is computed.
 //! 2. Every kept piece becomes a view edge. Pieces share a vertex by identity, never because two positions

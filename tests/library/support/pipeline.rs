@@ -8,7 +8,7 @@ use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
 use ligne::view::View;
 use ligne::visibility::{self, ViewEdge, ViewMap};
 
-use super::solids::Solid;
+use crate::support::scenes::solids::Solid;
 
 /// What the stages up to the view map made.
 pub struct Stages {

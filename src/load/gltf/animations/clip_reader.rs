@@ -106,7 +106,10 @@ fn target(buffers: &Buffers, target: &ChannelTarget) -> Result<Option<Target>, E
         "scale" => Property::Scale,
         "weights" => Property::Weights,
         other => {
-            return Err(Error::new(format!("its path `{}` is unknown", crate::load::gltf::uri::shown(other))));
+            return Err(Error::new(format!(
+                "its path `{}` is unknown",
+                crate::load::gltf::uri::shown(other)
+            )));
         }
     };
     // A channel without a node is for extensions to fill.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use kurbo::Point;
 
 use super::picture::{Key, Picture};
-use crate::support::segments::{length, uncovered};
+use crate::support::measures::segment_sets::{length, uncovered};
 
 /// What lines are told apart by.
 #[derive(Debug, Clone, Copy, PartialEq)]

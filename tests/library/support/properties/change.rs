@@ -6,7 +6,7 @@ use ligne::scene::Scene;
 use super::numbering::{renumbered, with_faces_turned, with_parts_shuffled};
 use super::shape::{moved, with_faces_split, with_hidden_things};
 use super::subject::Subject;
-use crate::support::dice::Dice;
+use crate::support::scenes::random_dice::Dice;
 
 /// What is done to a scene and its camera.
 #[derive(Debug, Clone, Copy, PartialEq)]

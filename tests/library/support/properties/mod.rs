@@ -21,7 +21,7 @@ use self::change::{Change, Property};
 use self::option_set::OptionSet;
 use self::picture::Picture;
 use self::subject::Subject;
-use super::dice::Dice;
+use crate::support::scenes::random_dice::Dice;
 
 /// Ways to draw, what they are asked to draw, and what must not change it by more than the bounds allow.
 pub struct Row {

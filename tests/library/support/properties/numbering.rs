@@ -2,7 +2,7 @@
 
 use ligne::scene::{Geometry, Scene};
 
-use crate::support::dice::Dice;
+use crate::support::scenes::random_dice::Dice;
 
 /// The items in another order: at each place stands what had this number.
 fn taken<T: Copy>(items: &[T], order: &[u32]) -> Vec<T> {

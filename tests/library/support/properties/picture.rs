@@ -7,8 +7,8 @@ use kurbo::{ParamCurveArclen, Point, Shape};
 use ligne::drawing::{Drawing, LayerKind, Mark, Paint};
 use ligne::export::SvgOptions;
 
-use crate::support::judge::{axis, ink_marks};
 use crate::support::pipeline::Stages;
+use crate::support::references::drawing_judge::{axis, ink_marks};
 
 /// The class of a line, and the name of its part; both empty where they do not count.
 pub type Key = (String, String);

@@ -4,7 +4,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
 
 use super::subject::Subject;
-use crate::support::dice::Dice;
+use crate::support::scenes::random_dice::Dice;
 
 /// Scene and camera turned, scaled and moved together.
 pub fn moved(subject: &Subject, turn: DMat3, scale: f64, by: DVec3) -> Subject {

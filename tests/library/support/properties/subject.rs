@@ -6,13 +6,13 @@ use std::path::{Path, PathBuf};
 use glam::{DAffine3, DVec3};
 use ligne::scene::{Camera, Geometry, Part, Scene};
 
-use crate::support::dice::Dice;
-use crate::support::hard_scenes::{HARD_SCENES, any_camera, hard_parts, hard_scene};
-use crate::support::models;
 use crate::support::pipeline::{geometry, orthographic, perspective, scene};
-use crate::support::round_solids::{icosphere, saddle};
-use crate::support::scenes::{random_camera, random_scene};
-use crate::support::solids::{Solid, cuboid, sphere, torus, tube};
+use crate::support::readers::shared_folder;
+use crate::support::scenes::hard_scenes::{HARD_SCENES, any_camera, hard_parts, hard_scene};
+use crate::support::scenes::random_dice::Dice;
+use crate::support::scenes::random_scenes::{random_camera, random_scene};
+use crate::support::scenes::round_solids::{icosphere, saddle};
+use crate::support::scenes::solids::{Solid, cuboid, sphere, torus, tube};
 
 /// A scene and who looks at it.
 #[derive(Debug, Clone)]
@@ -241,6 +241,6 @@ pub fn examples(names: &[&str], side: f64) -> Vec<Subject> {
 
 /// Shared models in a square frame, those of them that are there.
 pub fn shared(names: &[&str], side: f64) -> Vec<Subject> {
-    let found = names.iter().filter_map(|name| Some((name, models::find(name)?)));
+    let found = names.iter().filter_map(|name| Some((name, shared_folder::find(name)?)));
     found.map(|(name, path)| Subject::framed(*name, Scene::open(path).unwrap(), side)).collect()
 }

@@ -6,7 +6,7 @@ use super::change::{Change, Turned};
 use super::option_set::*;
 use super::sheets::sheets;
 use super::subject::{self, Subject};
-use crate::support::scenes::SCENES;
+use crate::support::scenes::random_scenes::SCENES;
 
 pub const KINDS: [&str; 5] = ["boxes", "tori", "soup", "interpenetrating", "mixture"];
 const FLAT_KINDS: [&str; 3] = ["boxes", "tetrahedra", "soup"];

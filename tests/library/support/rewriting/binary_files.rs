@@ -5,8 +5,8 @@ use serde_json::{Value, json};
 
 use super::body::Body;
 use super::model::Model;
-use crate::support::dice::Dice;
-use crate::support::glb::glb;
+use crate::support::readers::glb_writer::glb;
+use crate::support::scenes::random_dice::Dice;
 
 fn put(bytes: &mut Vec<u8>, point: DVec3) {
     point.as_vec3().to_array().iter().for_each(|x| bytes.extend(x.to_le_bytes()));

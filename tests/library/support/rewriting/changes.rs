@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::body::{Body, Face};
 use super::model::Model;
 use super::shapes::cuboid;
-use crate::support::dice::Dice;
+use crate::support::scenes::random_dice::Dice;
 
 /// A random choice of at least one of `count` things, and of fewer than all if there are several.
 fn some_of(count: usize, dice: &mut Dice) -> Vec<bool> {

@@ -9,7 +9,7 @@ use super::shapes::{
     any_cuboid, any_house, any_plate, any_prism, any_round, any_sheet, any_stairs, cuboid, right_turn,
 };
 use super::text_files::{Digits, obj};
-use crate::support::dice::Dice;
+use crate::support::scenes::random_dice::Dice;
 
 /// What a scene is made of.
 pub const SHAPES: [&str; 9] =

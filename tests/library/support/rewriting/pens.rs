@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use kurbo::Point;
 use ligne::drawing::{Drawing, Mark, Paint};
 
-use crate::support::ink::{Ink, samples};
-use crate::support::judge::{axis, ink_marks};
+use crate::support::measures::line_picture::{Ink, samples};
+use crate::support::references::drawing_judge::{axis, ink_marks};
 
 /// Places along lines are compared this far apart, px.
 const STEP_PX: f64 = 0.25;

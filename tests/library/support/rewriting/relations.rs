@@ -8,7 +8,7 @@ use super::binary_files::{glb_baked, glb_nested, ply_single, stl};
 use super::changes;
 use super::model::{Model, Sight};
 use super::text_files::{Digits, obj, obj_in_groups, ply};
-use crate::support::dice::Dice;
+use crate::support::scenes::random_dice::Dice;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Relation {

@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 use ligne::geometry::numbers::portable_math::{cos, sin};
 
 use super::body::{Body, Face};
-use crate::support::dice::Dice;
+use crate::support::scenes::random_dice::Dice;
 
 fn face(corners: impl IntoIterator<Item = u32>) -> Face {
     Face { corners: corners.into_iter().collect(), colour: 0 }

@@ -13,7 +13,7 @@ use ligne::style::Style;
 use super::model::Model;
 use super::pens::{Difference, Pens};
 use super::relations::{Relation, Rewritten, exact};
-use crate::support::dice::Dice;
+use crate::support::scenes::random_dice::Dice;
 
 /// Lines of flat bodies may lie this far apart, px.
 const FLAT_PX: f64 = 0.06;

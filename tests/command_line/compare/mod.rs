@@ -1,0 +1,5 @@
+//! `ligne diff` and `ligne test`: verdicts, causes, cases and approval.
+
+mod diff_causes;
+mod diff_command;
+mod test_cases;

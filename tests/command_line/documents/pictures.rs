@@ -1,0 +1,104 @@
+//! The SVG pictures of the documents are what ligne draws, and changes of a real model are told by the names of its parts.
+//!
+//! Where a picture is meant to change, look at it, then approve it: `ligne test docs/pictures/cases --bless`.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use super::links_and_examples::documents;
+use crate::folder::{Folder, Run};
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn pictures_are_what_is_drawn() {
+    let report = Path::new(env!("CARGO_TARGET_TMPDIR")).join("pictures.html");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_ligne"));
+    command.args(["test", "docs/pictures/cases", "--quiet", "--report"]).arg(&report).current_dir(root());
+    let run = Run::new(command.output().expect("the program runs"));
+    assert_eq!(run.status, Some(0), "see {}:\n{}{}", report.display(), run.out, run.err);
+}
+
+#[test]
+fn every_svg_picture_of_the_pages_is_a_case() {
+    let mut cases = String::new();
+    for entry in fs::read_dir(root().join("docs/pictures/cases")).expect("cases").flatten() {
+        cases += &fs::read_to_string(entry.path()).expect("a case");
+    }
+    let mut pictures = 0;
+    for page in documents() {
+        let text = fs::read_to_string(root().join(&page)).expect("a page");
+        let links = text.split("](").skip(1).filter_map(|rest| rest.split_once(')'));
+        let names = links.filter_map(|(link, _)| link.split_once("pictures/").map(|(_, name)| name));
+        // Differences and stages are no drawings of a model.
+        let is_drawing =
+            |name: &&str| name.ends_with(".svg") && !name.starts_with("diff-") && !name.starts_with("stage-");
+        for name in names.filter(is_drawing) {
+            assert!(cases.contains(&format!("drawing = \"../{name}\"")), "{page}: {name}");
+            pictures += 1;
+        }
+    }
+    assert!(pictures > 6, "{pictures} pictures found");
+}
+
+/// The pump seen by a camera that does not depend on which parts there are.
+const CASE: &str = "model = '../pump.glb'\nprecision = 2\n";
+const ANGLES: &str = "azimuth = 35\nelevation = 22\nsize = 500\n";
+const CAMERA: &str = r#"{"type":"perspective","eye":[1.1,0.55,1.25],"target":[0.2,-0.03,0],"up":[0,1,0],"fov_y_deg":26,
+    "width_px":500,"height_px":500}"#;
+
+/// A folder with an approved drawing of the pump, which is then to be drawn by `case`.
+fn pump(name: &str, approved: &str, case: &str) -> Folder {
+    let folder = Folder::new(name);
+    fs::copy(root().join("examples/models/pump.glb"), folder.path("pump.glb")).expect("the pump");
+    folder.write("camera.json", CAMERA);
+    folder.write("cases/pump.toml", approved);
+    folder.ligne("test cases --bless").done();
+    folder.write("cases/pump.toml", case);
+    folder
+}
+
+/// What a test says of its one case that differs, a line a finding, all of them.
+fn findings(folder: &Folder) -> Vec<String> {
+    let run = folder.ligne("test cases --junit results.xml");
+    assert_eq!(run.status, Some(1), "{run:?}");
+    let text = folder.text("results.xml");
+    let document = usvg::roxmltree::Document::parse(&text).expect("XML");
+    let failure = document.descendants().find(|node| node.has_tag_name("failure")).expect("a failure");
+    failure.text().unwrap_or_default().lines().map(ToOwned::to_owned).collect()
+}
+
+#[test]
+fn a_bolt_that_is_gone_is_named() {
+    let approved = format!("{CASE}camera = '../camera.json'\n");
+    let folder = pump("pump-bolt", &approved, &format!("{approved}hide = 'frame-bolt-3'\n"));
+    let told = findings(&folder);
+    assert!(told.len() == 1 && told[0].starts_with("removed    part `frame-bolt-3`: all its "), "{told:#?}");
+}
+
+#[test]
+fn a_camera_turned_by_a_fifth_of_a_degree_is_seen() {
+    let approved = format!("{CASE}{ANGLES}");
+    let folder = pump("pump-camera", &approved, &approved.replace("35", "35.2"));
+    let told = findings(&folder);
+    let is_one = told.len() == 1 && told[0].contains("seen from another side: ");
+    assert!(is_one, "{told:#?}");
+    let parts = told[0].split(" marks of ").nth(1).and_then(|rest| rest.split(' ').next());
+    let parts: usize = parts.and_then(|parts| parts.parse().ok()).expect("a number of parts");
+    assert!(parts > 30, "all that is in sight: {}", told[0]);
+}
+
+#[test]
+fn one_colour_is_told_by_the_parts_that_have_it() {
+    let approved = format!("{CASE}camera = '../camera.json'\nstyle = 'toon'\n");
+    let case = format!("{approved}[[set.fills.material]]\nname = 'orange rubber'\ncolour = '#3355ee'\n");
+    let folder = pump("pump-colour", &approved, &case);
+    let told = findings(&folder);
+    let one = |line: &String| {
+        line.starts_with("restyled   ") && line.contains("`coupling-star`") && line.contains("colour #")
+    };
+    assert!(!told.is_empty() && told.iter().all(one), "{told:#?}");
+}

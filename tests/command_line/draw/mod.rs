@@ -1,0 +1,13 @@
+//! `ligne draw`: what is framed, written and reported, for one model, many, and several views.
+
+mod batch;
+mod contact_sheets;
+mod degenerate_parts;
+mod draw_model;
+mod framing;
+mod hints;
+mod section_and_explode;
+mod shorthand;
+mod step_file;
+mod step_models;
+mod web_pages;

@@ -1,0 +1,239 @@
+//! Motion lines lie where vertices were, and are drawn where rays say that nothing hides them.
+
+use std::f64::consts::TAU;
+
+use glam::{DQuat, DVec3};
+use kurbo::Point;
+use ligne::animation::Rigged;
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::scene::Geometry;
+use ligne::{Scene, SvgOptions, render};
+
+use crate::support::pipeline::perspective;
+use crate::support::references::textbook_camera::Eye;
+use crate::support::scenes::moving_boxes::*;
+use crate::support::scenes::solids::cuboid;
+
+#[test]
+fn what_goes_straight_leaves_straight_lines_of_the_right_length() {
+    // Slightly turned, so that no two corners go behind each other.
+    let slant = DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 0.2, 0.1);
+    let solid = unit_box().moved(|p| slant * p);
+    let speed = DVec3::new(1.2, 0.6, 0.0);
+    let model = rigged(vec![solid.clone()], vec![going(0, speed)]);
+    let (camera, time) = (before(), 1.5);
+    let eye = Eye::new(&camera);
+    let style = style(&["motion.over=true", "motion.lines=8", "chain.tidy=0"]);
+    let scene = scene_at(&model, time, &style);
+    let movers = scene.movers.as_ref().unwrap();
+    assert_eq!((movers.len(), movers[0].trails.len()), (1, 8));
+    for trail in &movers[0].trails {
+        let start = trail.points[0] - speed * time;
+        assert!(solid.positions.iter().any(|p| p.distance(start) < 1e-9), "{start}");
+        assert_eq!(trail.points.len(), 81);
+    }
+    let drawing = drawn(&model, time, &camera, &style);
+    let drawn = lines(&drawing);
+    let way = eye.image(-speed * BACK) - eye.image(DVec3::ZERO);
+    for mark in &drawn {
+        let start = along(mark)[0];
+        let beside = |p: Point| (p - start).cross(way).abs() / way.hypot();
+        assert!(along(mark).into_iter().all(|p| beside(p) < 1e-3), "{:?}", mark.path);
+    }
+    // Where each corner was as far back as lines go, one ends; what of it is before the box begins where the corner is.
+    let mut whole = 0;
+    for corner in &solid.positions {
+        let [from, to] = [time, time - BACK].map(|time| eye.image(*corner + speed * time));
+        let own: Vec<_> = drawn.iter().filter(|mark| ends(mark, way)[1].distance(to) < 1e-3).collect();
+        assert_eq!(own.len(), 1, "{to:?}");
+        whole += usize::from(ends(own[0], way)[0].distance(from) < 1e-3);
+    }
+    assert!(whole >= 2, "{whole}");
+    assert!((way.hypot() - 100.0 * speed.length() * BACK).abs() < 1e-9);
+}
+
+#[test]
+fn lines_begin_where_their_body_ends() {
+    let speed = DVec3::X * 2.0;
+    let model = rigged(vec![unit_box()], vec![going(0, speed)]);
+    let camera = perspective(DVec3::new(0.0, 0.0, 12.0), DVec3::ZERO, 50.0);
+    let eye = Eye::new(&camera);
+    let drawing = drawn(&model, 1.0, &camera, &style(&["motion.lines=8"]));
+    let drawn = lines(&drawing);
+    let [back, front] = [-0.5, 0.5].map(|z| eye.image(DVec3::new(1.5, 0.0, z)).x);
+    // Those of corners one behind the other along the way coincide in part, and are drawn once.
+    let starts: Vec<Point> = drawn.iter().map(|mark| ends(mark, LEFT)[0]).collect();
+    assert!(starts.iter().all(|start| start.x < front + 2e-3), "{starts:?} {front}");
+    for height in [0.5, -0.5].map(|y| eye.image(DVec3::new(1.5, y, 0.5)).y) {
+        let first = starts.iter().filter(|start| (start.y - height).abs() < 1e-2).map(|start| start.x);
+        assert!((first.fold(0.0, f64::max) - front).abs() < 2e-3, "{starts:?} {front}");
+    }
+    assert!(starts.iter().filter(|start| (start.x - back).abs() < 2e-3 || start.x > back).count() >= 2);
+}
+
+#[test]
+fn what_turns_leaves_arcs() {
+    for (solid, degrees) in [(cuboid(DVec3::splat(-1.5), DVec3::splat(1.5)), 90.0), (unit_box(), 150.0)] {
+        let model = rigged(vec![solid.clone()], vec![turning(0, degrees)]);
+        let style = style(&["motion.over=true", "motion.lines=8", "motion.speed=0.1"]);
+        let camera = before();
+        let drawing = drawn(&model, 2.03, &camera, &style);
+        let drawn = lines(&drawing);
+        let radius = 100.0 * solid.positions[0].truncate().length();
+        let middle = Point::new(500.0, 500.0);
+        assert!(!drawn.is_empty());
+        for mark in &drawn {
+            let points = along(mark);
+            for point in &points {
+                assert!((point.distance(middle) - radius).abs() < 0.1, "{} {radius}", point.distance(middle));
+            }
+            let curves = mark.path.elements().len();
+            assert!(curves < 12, "a smooth curve of {curves} pieces");
+        }
+        let arcs = drawn.iter().map(|mark| along(mark).windows(2).map(|p| p[0].distance(p[1])).sum::<f64>());
+        let longest = arcs.fold(0.0, f64::max);
+        let whole = radius * (degrees * BACK).to_radians();
+        assert!((longest - whole).abs() < 0.2, "{longest} {whole}");
+    }
+    // Where the way ran elsewhere than now by more than 60 degrees, lines end.
+    let model = rigged(vec![unit_box()], vec![turning(0, 150.0)]);
+    let style = style(&["motion.over=true", "motion.turn=60", "motion.speed=0"]);
+    for mark in lines(&drawn(&model, 2.0, &before(), &style)) {
+        let angle =
+            along(mark).windows(2).map(|p| p[0].distance(p[1])).sum::<f64>() / (50.0 * 2.0_f64.sqrt());
+        assert!(angle < 61_f64.to_radians(), "{}", angle.to_degrees());
+    }
+    // The way of the middle of what turns about it is none.
+    let own = self::style(&["motion.path=body", "motion.speed=0"]);
+    assert!(lines(&drawn(&model, 2.0, &before(), &own)).is_empty());
+}
+
+#[test]
+fn what_is_before_lines_hides_them_exactly() {
+    let board = cuboid(DVec3::new(0.1, -3.0, 2.0), DVec3::new(0.6, 3.0, 2.1));
+    let model = rigged(vec![unit_box(), board], vec![going(0, DVec3::X * 3.0)]);
+    let style = style(&["motion.lines=8", "motion.speed=1", "lines.hidden=dashed"]);
+    // The box is at 3 now and was at 0.5 as far back as lines go, its left side at 0: these pass the board.
+    let drawing = drawn(&model, 1.0, &before(), &style);
+    let drawn = lines(&drawing);
+    for height in [450.0, 550.0] {
+        let own =
+            drawn.iter().map(|mark| ends(mark, LEFT)).filter(|[start, _]| (start.y - height).abs() < 1e-2);
+        let mut pieces: Vec<[f64; 2]> = own.map(|[a, b]| [a.x.min(b.x), a.x.max(b.x)]).collect();
+        pieces.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        pieces.dedup_by(|next, last| {
+            let touches = (next[0] - last[1]).abs() < 1e-2;
+            last[1] = if touches { next[1] } else { last[1] };
+            touches
+        });
+        assert_eq!(
+            pieces.len(),
+            2,
+            "{pieces:?} {:?}",
+            drawn.iter().map(|m| ends(m, LEFT)).collect::<Vec<_>>()
+        );
+        for (x, expected) in pieces.iter().flatten().zip([500.0, 510.0, 560.0, 750.0]) {
+            assert!((x - expected).abs() < 1e-2, "{pieces:?}");
+        }
+    }
+}
+
+/// Whether a ray through a place of the image meets a triangle nearer than a depth.
+fn is_covered(eye: &Eye, at: Point, depth: f64, triangles: &[[DVec3; 3]]) -> bool {
+    let (near, far) = (eye.world(at, 0.0), eye.world(at, 1.0));
+    let (from, way) = if eye.perspective { (eye.eye, far - eye.eye) } else { (near, far - near) };
+    triangles.iter().any(|[a, b, c]| {
+        let (u, v) = (*b - *a, *c - *a);
+        let p = way.cross(v);
+        let det = u.dot(p);
+        if det.abs() < 1e-14 {
+            return false;
+        }
+        let s = from - *a;
+        let (x, q) = (s.dot(p) / det, s.cross(u));
+        let (y, t) = (way.dot(q) / det, v.dot(q) / det);
+        x >= 0.0 && y >= 0.0 && x + y <= 1.0 && t > 0.0 && eye.depth(from + way * t) < depth
+    })
+}
+
+fn world_triangles(scene: &Scene, part: usize) -> Vec<[DVec3; 3]> {
+    let shown = &scene.parts[part];
+    let Geometry { positions, triangles, .. } = &scene.geometries[shown.geometry];
+    let corner = |v: u32| shown.world_from_part.transform_point3(positions[v as usize]);
+    triangles.iter().map(|t| t.map(corner)).collect()
+}
+
+#[test]
+fn lines_are_drawn_where_rays_say_so() {
+    let model = Rigged::open("examples/models/brick.glb").unwrap();
+    let own = style(&["motion.parts=['brick', 'fist-*', 'hat']", "chain.tidy=0", "motion.lines=3"]);
+    let (mut seen, mut hidden) = (0, 0);
+    for (time, eye_at) in [
+        (0.7, DVec3::new(0.5, 1.7, 6.4)),
+        (1.0, DVec3::new(-4.0, 2.5, 4.0)),
+        (1.3, DVec3::new(3.0, 0.7, 3.5)),
+        (1.5, DVec3::new(1.0, 4.0, -5.0)),
+    ] {
+        let camera = perspective(eye_at, DVec3::new(0.05, 1.2, 0.0), 40.0);
+        let eye = Eye::new(&camera);
+        let scene = scene_at(&model, time, &own);
+        let all: Vec<[DVec3; 3]> = (0..scene.parts.len()).flat_map(|p| world_triangles(&scene, p)).collect();
+        let drawing = render(&scene, &camera, &own).unwrap();
+        let drawn: Vec<Point> = lines(&drawing).into_iter().flat_map(along).collect();
+        let near = |at: Point| drawn.iter().any(|p| p.distance(at) < 0.5);
+        let movers = scene.movers.as_ref().unwrap();
+        let trails: Vec<(usize, &ligne::scene::Trail)> =
+            movers.iter().flat_map(|m| m.trails.iter().map(|trail| (m.part, trail))).collect();
+        for (number, (part, trail)) in trails.iter().enumerate() {
+            let body = world_triangles(&scene, *part);
+            for pair in trail.points.array_windows::<2>().step_by(2) {
+                let middle = pair[0].midpoint(pair[1]);
+                let (at, depth) = (eye.image(middle), eye.depth(middle));
+                if !(5.0..995.0).contains(&at.x) || !(5.0..995.0).contains(&at.y) {
+                    continue;
+                }
+                // Close to where it changes, either may be.
+                let covered = |at: Point| {
+                    is_covered(&eye, at, depth - 1e-4, &all) || is_covered(&eye, at, f64::INFINITY, &body)
+                };
+                let truth = covered(at);
+                let around = (0..8).map(|k| f64::from(k) / 8.0 * TAU);
+                let firm =
+                    around.map(|a| at + kurbo::Vec2::new(cos(a), sin(a)) * 2.5).all(|p| covered(p) == truth);
+                let crowded = trails.iter().enumerate().any(|(other, (_, t))| {
+                    other != number && t.points.iter().any(|p| eye.image(*p).distance(at) < 6.0)
+                });
+                if !firm || crowded {
+                    continue;
+                }
+                assert_eq!(near(at), !truth, "{time} s: line {} of part {part} at {at:?}", trail.line);
+                if truth { hidden += 1 } else { seen += 1 }
+            }
+        }
+    }
+    assert!(seen > 100 && hidden > 30, "{seen} {hidden}");
+}
+
+#[test]
+fn lines_begin_at_the_same_vertices_all_the_time() {
+    let speed = DVec3::new(1.0, 0.3, -0.2);
+    let model = rigged(vec![unit_box()], vec![going(0, speed)]);
+    let starts = |time: f64, changes: &[&str]| -> Vec<DVec3> {
+        let scene = scene_at(&model, time, &style(changes));
+        let trails = &scene.movers.as_ref().unwrap()[0].trails;
+        trails.iter().map(|trail| (2.0 * (trail.points[0] - speed * time)).round() + DVec3::ZERO).collect()
+    };
+    let first = starts(0.5, &["motion.lines=4"]);
+    assert_eq!(first.len(), 4);
+    assert!([0.9, 1.7, 3.1].iter().all(|time| starts(*time, &["motion.lines=4"]) == first));
+    assert!((1..6).any(|seed| starts(0.5, &["motion.lines=4", &format!("seed={seed}")]) != first));
+    // More lines leave those there are where they are.
+    assert_eq!(starts(0.5, &[])[..4], first);
+    // How the file numbers its vertices does not matter.
+    let mut solid = unit_box();
+    solid.positions.reverse();
+    solid.triangles.iter_mut().for_each(|t| *t = t.map(|v| 7 - v));
+    let other = rigged(vec![solid], vec![going(0, speed)]);
+    let svg = |model: &Rigged| drawn(model, 1.0, &before(), &style(&[])).to_svg(&SvgOptions::default());
+    assert_eq!(svg(&model), svg(&other));
+}

@@ -1,0 +1,276 @@
+//! Motion lines as styles ask for them: of what, how many, and what they look like.
+
+use glam::{DAffine3, DVec3};
+use kurbo::ParamCurve;
+use ligne::animation::deformable_mesh::Influences;
+use ligne::animation::rig::{Form, Skin};
+use ligne::animation::{Body, Playing, Property, Rigged};
+use ligne::drawing::{Drawing, LayerKind, Paint};
+use ligne::{Style, SvgOptions, motion, render};
+
+use crate::support::pipeline::orthographic;
+use crate::support::scenes::moving_boxes::*;
+use crate::support::scenes::solids::cuboid;
+
+#[test]
+fn what_is_slower_than_the_threshold_leaves_none() {
+    // One goes 2 units, 200 px, a second; one half as fast; one stands.
+    let at = |x: f64| unit_box().moved(|p| p + DVec3::new(0.0, x, 0.0));
+    let model =
+        rigged(vec![at(-2.0), at(0.0), at(2.0)], vec![going(0, DVec3::X * 2.0), going(1, DVec3::X * 1.0)]);
+    let parts = |changes: &[&str]| -> Vec<String> {
+        let drawing = drawn(&model, 1.0, &before(), &style(changes));
+        let mut names: Vec<String> =
+            lines(&drawing).iter().map(|mark| mark.provenance.part.as_ref().unwrap().to_string()).collect();
+        names.dedup();
+        names
+    };
+    assert_eq!(parts(&["motion.speed=1.99"]), ["part 0"]);
+    assert_eq!(parts(&["motion.speed=0.99"]), ["part 0", "part 1"]);
+    assert!(parts(&["motion.speed=2.01"]).is_empty());
+    assert_eq!(parts(&["motion.speed=199px"]), ["part 0"]);
+    assert_eq!(parts(&["motion.speed=99px"]), ["part 0", "part 1"]);
+    assert_eq!(parts(&["motion.speed=53mm"]), Vec::<String>::new());
+    // By names, of parts or nodes; and either way.
+    assert_eq!(parts(&["motion.parts=part 1"]), ["part 1"]);
+    assert_eq!(parts(&["motion.parts=['node 1', '*2']"]), ["part 1"]);
+    assert_eq!(parts(&["motion.parts=part 1", "motion.speed=1.5"]), ["part 0", "part 1"]);
+    // Half the model's size, 5.2 units, a second.
+    assert!(parts(&[]).is_empty());
+    assert!(parts(&["motion.enabled=false", "motion.speed=1"]).is_empty());
+    // The file says it too, of all that hangs on a node.
+    let mut told = model.clone();
+    told.rig.nodes[1].leaves_lines = true;
+    assert!(!lines(&drawn(&told, 1.0, &before(), &style(&[]))).is_empty());
+    // What is left out leaves none, and others keep theirs.
+    let style = style(&["motion.speed=0.5"]);
+    let mut scene = scene_at(&model, 1.0, &style);
+    scene.keep_parts(&[], &["part 0".to_owned()]);
+    let left = render(&scene, &before(), &style).unwrap();
+    assert!(lines(&left).iter().all(|mark| mark.provenance.part.as_deref() == Some("part 1")));
+    assert!(!lines(&left).is_empty());
+}
+
+/// An arm along x of one part, whose far half a second joint swings about the origin.
+fn arm(upper: f64, lower: f64) -> Rigged {
+    let solid = cuboid(DVec3::new(-2.0, -0.2, -0.2), DVec3::new(2.0, 0.2, 0.2));
+    let mut model = rigged(vec![solid.clone()], vec![turning(1, upper), turning(2, lower)]);
+    let far: Vec<u32> = solid.positions.iter().map(|p| u32::from(p.x > 0.0)).collect();
+    let rig = &mut model.rig;
+    rig.nodes = vec![node("arm", None), node("shoulder", None), node("hand", Some(1))];
+    rig.order = vec![0, 1, 2];
+    rig.skins = vec![Skin { joints: vec![1, 2], binds: vec![DAffine3::IDENTITY; 2] }];
+    let sets = vec![Influences {
+        joints: far.iter().map(|joint| [*joint, 1 - *joint, 0, 0]).collect(),
+        weights: vec![[0.75, 0.25, 0.0, 0.0]; 8],
+    }];
+    let body = Body { positions: solid.positions, sets, ..Body::default() };
+    rig.forms = vec![Form { node: 0, skin: Some(0), bodies: vec![body] }];
+    model
+}
+
+#[test]
+fn joints_leave_lines_by_themselves() {
+    let model = arm(0.0, 60.0);
+    let own = style(&["motion.speed=0.9", "motion.over=true"]);
+    let scene = scene_at(&model, 1.0, &own);
+    let movers = scene.movers.as_ref().unwrap();
+    let chosen: Vec<_> = movers.iter().filter(|mover| mover.chosen).collect();
+    assert_eq!(chosen.len(), 1, "the hand alone is fast");
+    assert_eq!(chosen[0].trails.len(), 4, "it has four corners");
+    let drawing = render(&scene, &before(), &own).unwrap();
+    assert!(!lines(&drawing).is_empty());
+    // By the name of the joint, and of one above it.
+    for name in ["hand", "h?nd", "shoulder"] {
+        let own = style(&[&format!("motion.parts={name}"), "motion.over=true"]);
+        let named = drawn(&model, 1.0, &before(), &own);
+        assert!(!lines(&named).is_empty(), "{name}");
+    }
+    // Joints that move together share the lines of one body, the outermost first.
+    let model = arm(50.0, 50.0);
+    let own = style(&["motion.speed=0.1", "motion.over=true", "motion.lines=3", "chain.tidy=0"]);
+    let both = drawn(&model, 1.0, &orthographic(DVec3::new(3.0, 5.0, 50.0), DVec3::ZERO, 10.0), &own);
+    let names: Vec<_> = lines(&both);
+    assert!(!names.is_empty() && names.len() <= 6, "{}", names.len());
+    let scene = scene_at(&model, 1.0, &own);
+    let above: Vec<Option<usize>> = scene.movers.as_ref().unwrap().iter().map(|m| m.above).collect();
+    assert_eq!(above, [None, Some(0)]);
+}
+
+#[test]
+fn single_lines_differ_as_the_style_says() {
+    let speed = DVec3::X * 2.0;
+    let model = rigged(vec![unit_box()], vec![going(0, speed)]);
+    let list = "[{ start = 6, length = 6, width = 3, colour = '#ff0000' }, { visible = false }, { part = 'other*' }]";
+    let own = style(&["motion.lines=2", "motion.over=true", &format!("motion.line={list}")]);
+    let scene = scene_at(&model, 1.0, &own);
+    let trails = &scene.movers.as_ref().unwrap()[0].trails;
+    assert_eq!(trails.len(), 1, "one of two is not drawn");
+    assert_eq!(trails[0].points[0], unit_box().positions[6] + speed);
+    assert_eq!(trails[0].points.len(), 6 * motion::POINTS_A_SEGMENT + 1);
+    let drawing = render(&scene, &before(), &own).unwrap();
+    let [mark] = lines(&drawing)[..] else { panic!("one line") };
+    let Paint::Stroke(stroke) = &mark.paint else { panic!("{:?}", mark.paint) };
+    assert_eq!((stroke.width, stroke.colour), (3.0, ligne::colour::srgb::Colour::rgb(255, 0, 0)));
+    // A vertex that is not there is told.
+    let own = style(&["motion.line=[{ start = 99 }]"]);
+    let scene = scene_at(&model, 1.0, &own);
+    assert!(
+        scene.warnings.lines().iter().any(|line| line.contains("vertex 99")),
+        "{:?}",
+        scene.warnings.lines()
+    );
+}
+
+#[test]
+fn lines_are_black_and_1_px_and_may_taper() {
+    let model = rigged(vec![unit_box()], vec![going(0, DVec3::X * 2.0)]);
+    let plain = drawn(&model, 1.0, &before(), &style(&["motion.over=true"]));
+    for mark in lines(&plain) {
+        let Paint::Stroke(stroke) = &mark.paint else { panic!("{:?}", mark.paint) };
+        assert_eq!((stroke.width, stroke.colour), (1.0, ligne::colour::srgb::Colour::BLACK));
+    }
+    let tapered = drawn(
+        &model,
+        1.0,
+        &before(),
+        &style(&["motion.lines=1", "motion.line=[{ start = 6 }]", "motion.taper=1", "motion.width=4"]),
+    );
+    for mark in lines(&tapered) {
+        let Paint::Outline(outline) = &mark.paint else { panic!("{:?}", mark.paint) };
+        assert!(outline.width > 0.5 && outline.width < 3.0, "{}", outline.width);
+        let [start, end] = ends(mark, LEFT);
+        let wide = |at: f64| {
+            let near = mark.path.segments().flat_map(|s| (0..=50).map(move |k| s.eval(f64::from(k) / 50.0)));
+            near.filter(|p| (p.x - at).abs() < 3.0).map(|p| (p.y - start.y).abs()).fold(0.0, f64::max)
+        };
+        let [near, far] = [wide(start.x - 8.0), wide(end.x + 8.0)];
+        assert!(far < 0.3 && near > far + 0.5, "{near} {far} {start:?} {end:?}");
+    }
+    assert!(!lines(&tapered).is_empty());
+    // A rule for this kind of line changes its pen; one for all kinds does not.
+    let ruled = drawn(&model, 1.0, &before(), &style(&["pen.motion.dash=[4, 2]", "pen.width=9"]));
+    let strokes: Vec<_> = lines(&ruled)
+        .iter()
+        .map(|mark| match &mark.paint {
+            Paint::Stroke(stroke) => (stroke.width, stroke.dash.is_empty()),
+            other => panic!("{other:?}"),
+        })
+        .collect();
+    assert!(strokes.iter().all(|(width, _)| *width == 1.0) && strokes.iter().any(|(_, solid)| !solid));
+}
+
+#[test]
+fn no_other_ink_changes() {
+    let model = Rigged::open("examples/models/brick.glb").unwrap();
+    let camera = model.scene.cameras[0].camera;
+    for name in ["ink", "toon", "comic"] {
+        let load = |sets: &[&str]| {
+            let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
+            Style::load(name, &sets).unwrap()
+        };
+        let with = drawn(&model, 1.0, &camera, &load(&["motion.enabled=true"]));
+        let without = drawn(&model, 1.0, &camera, &load(&[]));
+        let kinds: Vec<LayerKind> = with.layers.iter().map(|layer| layer.kind).collect();
+        assert!(kinds.contains(&LayerKind::Motion) && kinds.is_sorted(), "{kinds:?}");
+        let others: Vec<_> =
+            with.layers.iter().filter(|layer| layer.kind != LayerKind::Motion).cloned().collect();
+        assert_eq!(others, without.layers);
+        // The file says that the brick leaves lines, and nothing else.
+        assert!(lines(&with).iter().all(|mark| mark.provenance.part.as_deref() == Some("brick")));
+    }
+}
+
+#[test]
+fn the_same_bytes_with_any_number_of_threads() {
+    let model = Rigged::open("examples/models/brick.glb").unwrap();
+    let camera = model.scene.cameras[0].camera;
+    let own = style(&["motion.speed=0.5", "motion.taper=1"]);
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| drawn(&model, 1.1, &camera, &own).to_svg(&SvgOptions::default()))
+    };
+    let one = with(1);
+    assert!(one.contains(r#"class="motion""#) && one.contains("data-axis"));
+    assert_eq!(one, with(2));
+    assert_eq!(one, with(7));
+}
+
+#[test]
+fn without_a_moment_there_are_none_and_a_warning() {
+    let own = style(&[]);
+    let model = rigged(vec![unit_box()], vec![going(0, DVec3::X)]);
+    let told = |drawing: &Drawing| drawing.warnings.iter().any(|warning| warning.contains("no motion lines"));
+    let still = render(&model.scene, &before(), &own).unwrap();
+    assert!(told(&still) && lines(&still).is_empty());
+    assert!(!told(&drawn(&model, 0.0, &before(), &own)));
+    assert!(!told(&render(&model.scene, &before(), &Style::default()).unwrap()));
+    let none = Rigged::from(model.scene);
+    assert!(told(&render(&motion::posed(&none, &[], &own.motion, 0).unwrap(), &before(), &own).unwrap()));
+}
+
+#[test]
+fn wrong_values_are_refused() {
+    for (change, what, remedy) in [
+        ("motion.lines=0", "0 is not a count", "a whole number from 1 to 1000"),
+        ("motion.segments=2.5", "2.5 is not a count", "a whole number from 1 to 1000"),
+        ("motion.rate=0", "0 segments per second", "a number from 0.001 to 10000"),
+        ("motion.turn=200", "200 is not an angle", "degrees from 0 to 180"),
+        ("motion.taper=2", "2 is not a fraction", "a number from 0 to 1"),
+        ("motion.speed=-1", "-1 is not a speed", "model units per second, at least 0"),
+        ("motion.speed=fast", "`fast` is not a speed", "such as \"200px\""),
+        ("motion.path=way", "unknown value `way`", "known values: vertex, body"),
+        ("motion.line=[{ lenght = 3 }]", "unknown key `lenght`", "did you mean `length`?"),
+        ("motion.segmnts=3", "unknown key `segmnts`", "did you mean `segments`?"),
+        ("motion.line=[{ length = 0 }]", "0 is not a count", "a whole number"),
+    ] {
+        let error = Style::load("ink", &[change.to_owned()]).unwrap_err().to_string();
+        assert!(error.contains(&format!("--set {change}")) && error.contains(what), "{change}: {error}");
+        assert!(error.contains(remedy), "{change}: {error}");
+    }
+}
+
+#[test]
+fn bodies_scaled_to_zero_leave_none() {
+    let moving = going(0, DVec3::X * 2.0);
+    let scales = |values: &[[f64; 3]]| {
+        let times: Vec<f64> = (0..values.len()).map(|k| k as f64 * 0.4).collect();
+        channel(0, Property::Scale, &times, values.as_flattened())
+    };
+    let own = style(&["motion.speed=0.1"]);
+    let whole = [1.0; 3];
+    let model = rigged(vec![unit_box()], vec![moving.clone(), scales(&[whole, whole, whole])]);
+    assert!(!lines(&drawn(&model, 0.8, &before(), &own)).is_empty());
+    for none in [[0.0; 3], [1.0, 0.0, 0.0]] {
+        let model = rigged(vec![unit_box()], vec![moving.clone(), scales(&[whole, none, none])]);
+        let drawing = drawn(&model, 0.8, &before(), &own);
+        assert!(lines(&drawing).is_empty(), "{none:?}");
+    }
+}
+
+#[test]
+fn a_moment_without_lines_is_explained() {
+    let model = rigged(vec![unit_box()], vec![going(0, DVec3::X)]);
+    let why = |time: f64, changes: &[&str]| {
+        let own = style(changes);
+        let playing = [Playing::all(0, time)];
+        let scene = motion::posed(&model, &playing, &own.motion, own.seed).unwrap();
+        motion::why_none(&model, &playing, &own.motion, &scene)
+    };
+    let said = |time: f64, changes: &[&str], words: &str| {
+        let reason = why(time, changes).unwrap_or_default();
+        assert!(reason.starts_with("no motion lines: ") && reason.contains(words), "{changes:?}: {reason}");
+    };
+    said(0.0, &[], "nothing moves at this moment");
+    said(1.0, &["motion.speed=7.5"], "'part 0', goes 1.000 units a second, not more than 7.500");
+    said(1.0, &["motion.parts=door"], "motion.parts does not name");
+    assert_eq!(why(1.0, &["motion.speed=0.5"]), None);
+    assert_eq!(why(1.0, &["motion.enabled=false"]), None);
+    // Lines that are out of the picture.
+    let own = style(&["motion.speed=0.5"]);
+    let mut aside = before();
+    aside.target.y += 90.0;
+    aside.eye.y += 90.0;
+    let drawing = drawn(&model, 1.0, &aside, &own);
+    assert!(drawing.warnings.iter().any(|warning| warning.contains("outside the frame")));
+}

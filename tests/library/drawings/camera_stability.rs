@@ -1,0 +1,56 @@
+//! A drawing stays where it is when the camera turns by a tenth of a degree: no line comes or goes but
+//! where the surface does.
+
+use crate::support::readers::shared_folder;
+use std::path::Path;
+
+use crate::support::measures::camera_turns::{Stability, compare, surface, turned};
+use ligne::lines::LineOptions;
+use ligne::scene::{Camera, Scene};
+
+/// Percent of the ink that has to stay.
+const LEAST: f64 = 98.0;
+
+fn stability(path: &Path, azimuths: &[f64], degrees: f64) -> Stability {
+    let scene = Scene::open(path).unwrap();
+    let options = LineOptions::default();
+    let surface = surface(&scene, &options);
+    let mut all = Stability::default();
+    for azimuth in azimuths {
+        let camera = Camera::azimuth_elevation(*azimuth, 22.0, scene.up).fit(&scene);
+        all.add(compare(&surface, &options, [&camera, &turned(&camera, &scene, degrees)]));
+    }
+    println!("{}: {:.3} % stays, {} lines pop", path.display(), all.share(), all.pops.len());
+    for pop in &all.pops {
+        println!("    {pop}");
+    }
+    all
+}
+
+fn example(name: &str) -> std::path::PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name)
+}
+
+#[test]
+fn drawings_of_the_examples_stay_where_they_are() {
+    for name in ["knot.ply", "teapot.obj", "gear.obj", "bracket.stl", "pump.glb", "castle.obj"] {
+        let share = stability(&example(name), &[35.0, 215.0], 0.1).share();
+        assert!(share >= LEAST, "{name}: {share} % stays");
+    }
+}
+
+#[test]
+fn drawings_of_shared_models_stay_where_they_are() {
+    for name in ["organic/spot.obj", "organic/suzanne.obj", "mechanical/rocker-arm.obj"] {
+        if let Some(path) = shared_folder::find(name) {
+            let share = stability(&path, &[35.0, 125.0], 0.1).share();
+            assert!(share >= LEAST, "{name}: {share} % stays");
+        }
+    }
+}
+
+#[test]
+fn a_camera_that_stands_still_draws_the_same() {
+    let still = stability(&example("knot.ply"), &[35.0], 0.0);
+    assert!(still.length > 1000.0 && still.share() == 100.0);
+}

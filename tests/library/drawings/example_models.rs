@@ -1,0 +1,396 @@
+//! The models in `examples/models` are sound: closed, outward, without flat triangles, fully named.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::support::readers::example_files::{
+    Glb, Part, Point, bytes, path, read_obj, read_ply, read_stl, welded,
+};
+
+#[allow(dead_code)]
+#[path = "../../../examples/make_stress/scenes.rs"]
+mod scenes;
+
+fn minus(a: Point, b: Point) -> Point {
+    std::array::from_fn(|k| a[k] - b[k])
+}
+
+fn cross(a: Point, b: Point) -> Point {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+fn dot(a: Point, b: Point) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// How often each directed edge occurs.
+fn edges(part: &Part) -> BTreeMap<(usize, usize), usize> {
+    let mut edges = BTreeMap::new();
+    for [a, b, c] in &part.faces {
+        for edge in [(*a, *b), (*b, *c), (*c, *a)] {
+            *edges.entry(edge).or_default() += 1;
+        }
+    }
+    edges
+}
+
+/// The faces of each connected piece.
+fn pieces(part: &Part) -> Vec<Vec<[usize; 3]>> {
+    let mut leader: Vec<usize> = (0..part.points.len()).collect();
+    fn root(leader: &mut [usize], mut id: usize) -> usize {
+        while leader[id] != id {
+            leader[id] = leader[leader[id]];
+            id = leader[id];
+        }
+        id
+    }
+    for face in &part.faces {
+        let [a, b, c] = face.map(|corner| root(&mut leader, corner));
+        leader[b] = a;
+        let c = root(&mut leader, c);
+        leader[c] = a;
+    }
+    let mut pieces: BTreeMap<usize, Vec<[usize; 3]>> = BTreeMap::new();
+    for face in &part.faces {
+        pieces.entry(root(&mut leader, face[0])).or_default().push(*face);
+    }
+    pieces.into_values().collect()
+}
+
+/// Six times the volume between some faces and a point.
+fn volume(part: &Part, faces: &[[usize; 3]], origin: Point) -> f64 {
+    let corner = |id: usize| minus(part.points[id], origin);
+    faces.iter().map(|[a, b, c]| dot(corner(*a), cross(corner(*b), corner(*c)))).sum()
+}
+
+fn assert_no_flat_triangles(part: &Part) {
+    for face in &part.faces {
+        let [a, b, c] = face.map(|corner| part.points[corner]);
+        let [u, v, w] = [minus(b, a), minus(c, b), minus(a, c)];
+        let longest = [u, v, w].map(|side| dot(side, side)).into_iter().fold(0.0, f64::max);
+        let area = cross(u, v);
+        // Height over length: a needle of less than one to a thousand counts as flat.
+        assert!(dot(area, area).sqrt() > 1e-3 * longest, "flat triangle {a:?} {b:?} {c:?} in {}", part.name);
+    }
+}
+
+/// Each edge once in each direction, every piece turned outwards, no flat triangle.
+fn assert_solid(part: &Part) {
+    assert!(!part.faces.is_empty(), "{} is empty", part.name);
+    let edges = edges(part);
+    for ((a, b), count) in &edges {
+        assert_eq!((*count, edges.get(&(*b, *a))), (1, Some(&1)), "edge {a} {b} of {}", part.name);
+    }
+    for faces in pieces(part) {
+        assert!(
+            volume(part, &faces, part.points[faces[0][0]]) > 0.0,
+            "a piece of {} is inside out",
+            part.name
+        );
+    }
+    assert_no_flat_triangles(part);
+}
+
+#[test]
+fn teapot_is_open_only_where_newell_left_it_open() {
+    let parts = read_obj("teapot.obj");
+    let names: Vec<&str> = parts.iter().map(|part| part.name.as_str()).collect();
+    assert_eq!(names, ["body", "lid", "handle", "spout"]);
+    for (part, borders) in parts.iter().zip([1, 1, 2, 2]) {
+        let edges = edges(part);
+        assert!(edges.values().all(|count| *count == 1), "{} is not turned one way", part.name);
+        let open: BTreeMap<usize, usize> =
+            edges.keys().filter(|(a, b)| !edges.contains_key(&(*b, *a))).copied().collect();
+        let mut left: BTreeSet<usize> = open.keys().copied().collect();
+        let mut loops = 0;
+        while let Some(first) = left.pop_first() {
+            loops += 1;
+            let mut at = open[&first];
+            while at != first {
+                assert!(left.remove(&at), "the borders of {} branch", part.name);
+                at = open[&at];
+            }
+        }
+        assert_eq!(loops, borders, "borders of {}", part.name);
+        // From the middle of the borders, as if they were closed by caps.
+        let middle = std::array::from_fn(|k| {
+            open.keys().map(|&id| part.points[id][k]).sum::<f64>() / open.len() as f64
+        });
+        assert!(volume(part, &part.faces, middle) > 0.0, "{} is inside out", part.name);
+        assert_no_flat_triangles(part);
+    }
+    let triangles: usize = parts.iter().map(|part| part.faces.len()).sum();
+    assert!((6000..10_000).contains(&triangles), "{triangles} triangles");
+}
+
+#[test]
+fn gear_is_one_solid() {
+    let parts = read_obj("gear.obj");
+    assert_eq!((parts.len(), parts[0].name.as_str()), (1, "gear"));
+    assert_solid(&parts[0]);
+    assert_eq!(pieces(&parts[0]).len(), 1);
+    // One bore and six holes: an Euler number of 2 - 2 * 7.
+    let (faces, edges) = (parts[0].faces.len() as i64, edges(&parts[0]).len() as i64 / 2);
+    assert_eq!(parts[0].points.len() as i64 - edges + faces, -12);
+}
+
+#[test]
+fn bracket_is_one_solid() {
+    let part = welded(&read_stl("bracket.stl"));
+    assert_solid(&part);
+    assert_eq!(pieces(&part).len(), 1);
+    // Two holes in the base, five in the wall.
+    let (faces, edges) = (part.faces.len() as i64, edges(&part).len() as i64 / 2);
+    assert_eq!(part.points.len() as i64 - edges + faces, -12);
+}
+
+#[test]
+fn knot_is_one_solid() {
+    let part = read_ply("knot.ply");
+    assert_solid(&part);
+    let (faces, edges) = (part.faces.len() as i64, edges(&part).len() as i64 / 2);
+    assert_eq!(part.points.len() as i64 - edges + faces, 0);
+}
+
+#[test]
+fn bear_is_one_coarse_solid() {
+    let part = read_ply("bear.ply");
+    assert_solid(&part);
+    assert_eq!(pieces(&part).len(), 1);
+    let (faces, edges) = (part.faces.len() as i64, edges(&part).len() as i64 / 2);
+    assert_eq!(part.points.len() as i64 - edges + faces, 2);
+    assert!((500..900).contains(&faces), "{faces} faces");
+}
+
+#[test]
+fn castle_is_made_of_named_solids() {
+    let parts = read_obj("castle.obj");
+    parts.iter().for_each(assert_solid);
+    let names: BTreeSet<&str> = parts.iter().map(|part| part.name.as_str()).collect();
+    assert_eq!(names.len(), parts.len(), "names are unique");
+    for name in ["keep", "gatehouse", "steps", "wall-front", "tower-south-east-roof", "keep-flag"] {
+        assert!(names.contains(name), "no part {name}");
+    }
+    let library = String::from_utf8(bytes("castle.mtl")).unwrap();
+    let known: BTreeSet<&str> = library.lines().filter_map(|line| line.strip_prefix("newmtl ")).collect();
+    let text = String::from_utf8(bytes("castle.obj")).unwrap();
+    let used: BTreeSet<&str> = text.lines().filter_map(|line| line.strip_prefix("usemtl ")).collect();
+    assert_eq!(known, used);
+}
+
+/// Checks every mesh of a glTF file.
+fn assert_meshes_solid(glb: &Glb) {
+    for mesh in glb.list("meshes") {
+        let name = mesh["name"].as_str().unwrap().to_owned();
+        let mut part = Part { name, points: Vec::new(), faces: Vec::new() };
+        for primitive in mesh["primitives"].as_array().unwrap() {
+            let attributes = &primitive["attributes"];
+            part.points.extend(glb.points(&attributes["POSITION"]));
+            let corners = glb.indices(&primitive["indices"]);
+            part.faces.extend(corners.chunks_exact(3).map(|face| [face[0], face[1], face[2]]));
+            if !attributes["NORMAL"].is_null() {
+                let mut normals = glb.points(&attributes["NORMAL"]);
+                assert!(normals.all(|n| (n.map(|v| v * v).iter().sum::<f64>() - 1.0).abs() < 1e-4));
+            }
+        }
+        assert_solid(&welded(&part));
+    }
+}
+
+#[test]
+fn pump_is_made_of_named_solids() {
+    let glb = Glb::read("pump.glb");
+    assert_meshes_solid(&glb);
+    let nodes = glb.list("nodes");
+    let names: BTreeSet<&str> = nodes.iter().map(|node| node["name"].as_str().unwrap()).collect();
+    assert_eq!(names.len(), nodes.len(), "names are unique");
+    for name in ["base-plate", "volute", "motor-housing", "coupling-star", "cover-bolt-10", "camera"] {
+        assert!(names.contains(name), "no node {name}");
+    }
+    assert_eq!(glb.list("cameras").len(), 1);
+    let bolt = glb.list("meshes").iter().position(|mesh| mesh["name"] == "bolt").unwrap();
+    let shown = nodes.iter().filter(|node| node["mesh"] == bolt);
+    assert!(shown.count() >= 20, "bolts are instanced");
+}
+
+#[test]
+fn drive_is_made_of_named_solids_and_is_small() {
+    let glb = Glb::read("drive.glb");
+    assert_meshes_solid(&glb);
+    let nodes = glb.list("nodes");
+    let names: BTreeSet<&str> = nodes.iter().map(|node| node["name"].as_str().unwrap()).collect();
+    assert_eq!(names.len(), nodes.len(), "names are unique");
+    for name in ["housing", "disc-2", "ring-pin-12", "input-shaft", "output-flange", "cap-screw-6"] {
+        assert!(names.contains(name), "no node {name}");
+    }
+    assert!(bytes("drive.glb").len() < 300_000, "{} bytes", bytes("drive.glb").len());
+}
+
+#[test]
+fn machines_are_made_of_solids() {
+    for (name, count) in
+        [("shaft.obj", 8), ("drum.obj", 21), ("elbow.obj", 1), ("bevels.obj", 3), ("goose.obj", 7)]
+    {
+        let parts = read_obj(name);
+        assert_eq!(parts.len(), count, "parts of {name}");
+        parts.iter().for_each(|part| assert_solid(&welded(part)));
+    }
+    let elbow = read_obj("elbow.obj").remove(0);
+    // A bore and twelve holes.
+    assert_eq!(elbow.points.len() as i64 - edges(&elbow).len() as i64 / 2 + elbow.faces.len() as i64, -24);
+    let rack = welded(&read_stl("rack.stl"));
+    assert_solid(&rack);
+    assert_eq!(pieces(&rack).len(), 8);
+    let shelf = read_ply("shelf.ply");
+    assert_solid(&shelf);
+    assert_eq!(pieces(&shelf).len(), 5);
+    assert!(pieces(&shelf).iter().any(|piece| piece.len() > 4500), "a scan");
+}
+
+#[test]
+fn helmet_is_one_part_of_four_materials() {
+    let parts = read_obj("helmet.obj");
+    assert_eq!(parts.len(), 1);
+    assert_solid(&parts[0]);
+    let text = String::from_utf8(bytes("helmet.obj")).unwrap();
+    assert_eq!(text.lines().filter(|line| line.starts_with("usemtl ")).count(), 4);
+    let library = String::from_utf8(bytes("helmet.mtl")).unwrap();
+    assert_eq!(library.lines().filter(|line| line.starts_with("newmtl ")).count(), 4);
+}
+
+#[test]
+fn street_is_made_of_many_solids_without_normals() {
+    let glb = Glb::read("street.glb");
+    assert_meshes_solid(&glb);
+    assert!(glb.list("nodes").iter().filter(|node| !node["mesh"].is_null()).count() > 100);
+    let mut primitives = glb.list("meshes").iter().flat_map(|mesh| mesh["primitives"].as_array().unwrap());
+    assert!(primitives.all(|primitive| primitive["attributes"]["NORMAL"].is_null()));
+}
+
+#[test]
+fn crane_is_made_of_solids_that_turn_and_come_back() {
+    let glb = Glb::read("crane.glb");
+    assert_meshes_solid(&glb);
+    let rigged = ligne::animation::Rigged::open(path("crane.glb")).unwrap();
+    let [clip] = &rigged.rig.clips[..] else { panic!("one clip") };
+    assert_eq!((clip.name.as_str(), clip.span(), clip.channels.len()), ("lift", [0.0, 4.0], 4));
+    let at = |time: f64| {
+        let scene = rigged.posed(&[ligne::animation::Playing::all(0, time)]).unwrap();
+        scene.parts.iter().find(|part| part.name == "hook").unwrap().world_from_part
+    };
+    // The hook hangs where four turns in one another bring it: straight down but for the last.
+    let hook = at(1.0).translation;
+    let along = |length: f64, degrees: f64| {
+        use ligne::geometry::numbers::portable_math::{cos, sin};
+        glam::DVec3::new(cos(degrees.to_radians()), sin(degrees.to_radians()), 0.0) * length
+    };
+    let expected = glam::DVec3::new(0.5, 1.9, 0.0) + along(4.0, 60.0) + along(2.6, -20.0);
+    assert!(hook.distance(expected) < 1e-5, "{hook} {expected}");
+    assert!(at(0.0).abs_diff_eq(at(4.0), 1e-6) && !at(0.0).abs_diff_eq(at(2.0), 1.0));
+}
+
+#[test]
+fn brick_is_made_of_solids_and_flies_as_it_was_thrown() {
+    let glb = Glb::read("brick.glb");
+    assert_meshes_solid(&glb);
+    let rigged = ligne::animation::Rigged::open(path("brick.glb")).unwrap();
+    let [clip] = &rigged.rig.clips[..] else { panic!("one clip") };
+    assert_eq!((clip.name.as_str(), clip.span()), ("fly", [0.0, 1.5]));
+    let marked: Vec<&str> =
+        rigged.rig.nodes.iter().filter(|node| node.leaves_lines).map(|node| node.name.as_str()).collect();
+    assert_eq!(marked, ["brick"]);
+    for time in [0.0, 0.4, 0.75, 1.1, 1.5] {
+        let scene = rigged.posed(&[ligne::animation::Playing::all(0, time)]).unwrap();
+        let at = scene.parts.iter().find(|part| part.name == "brick").unwrap().world_from_part.translation;
+        let thrown = glam::DVec3::new(-2.2 + 2.9 * time, 1.2 + (2.0 - 1.3 * time) * time, -0.42);
+        assert!(at.distance(thrown) < 1e-5, "{time}: {at} {thrown}");
+    }
+}
+
+#[test]
+fn horn_is_a_sheet_with_two_mouths_and_solids() {
+    let parts = read_obj("horn.obj");
+    parts[1..].iter().for_each(assert_solid);
+    let edges = edges(&parts[0]);
+    assert!(edges.values().all(|count| *count == 1));
+    // Mouth piece and bell, a ring of as many sides each.
+    assert_eq!(edges.keys().filter(|(a, b)| !edges.contains_key(&(*b, *a))).count(), 2 * 28);
+}
+
+#[test]
+fn biplane_has_doubled_skins() {
+    let parts: Vec<Part> = read_obj("biplane.obj").iter().map(welded).collect();
+    let part = |name: &str| parts.iter().find(|part| part.name == name).unwrap();
+    for name in ["fuselage", "cowling", "cowling-paint", "struts", "wheels"] {
+        assert_solid(part(name));
+    }
+    for (name, back) in [("wing-upper", true), ("wing-lower", true), ("fin", true), ("tail-plane", false)] {
+        let faces: BTreeSet<[usize; 3]> = part(name).faces.iter().map(|face| lowest_first(*face)).collect();
+        let turned = faces.iter().filter(|[a, b, c]| faces.contains(&lowest_first([*c, *b, *a]))).count();
+        let (all, expected) = (part(name).faces.len(), if back { faces.len() } else { 0 });
+        assert_eq!((turned, 2 * faces.len() / if back { 2 } else { 1 }), (expected, all), "{name}");
+        assert_no_flat_triangles(part(name));
+    }
+}
+
+/// The same face beginning at its lowest corner.
+fn lowest_first(mut face: [usize; 3]) -> [usize; 3] {
+    let lowest = (0..3).min_by_key(|k| face[*k]).unwrap();
+    face.rotate_left(lowest);
+    face
+}
+
+#[test]
+fn stress_scenes_have_their_size() {
+    let part = |scene: scenes::Triangles| {
+        let faces = scene.faces.iter().map(|face| face.map(|corner| corner as usize)).collect();
+        Part { name: "scene".to_owned(), points: scene.points, faces }
+    };
+    let city = part(scenes::city(20));
+    assert_eq!(city.faces.len(), 12 * 20 * 20);
+    assert_solid(&city);
+    let sphere = part(scenes::sphere(16));
+    assert_eq!(sphere.faces.len(), 12 * 16 * 16);
+    assert_solid(&sphere);
+    let sponge = part(scenes::menger(2));
+    // Cells of a sponge of level n show 2 * 20^n + 4 * 8^n squares.
+    assert_eq!(sponge.faces.len(), 2 * (2 * 400 + 4 * 64));
+    let edges = edges(&sponge);
+    assert!(edges.iter().all(|((a, b), count)| edges.get(&(*b, *a)) == Some(count)));
+    let terrain = part(scenes::terrain(32));
+    assert_eq!(terrain.faces.len(), 2 * 32 * 32);
+    assert!(terrain.faces.iter().all(|face| {
+        let [a, b, c] = face.map(|corner| terrain.points[corner]);
+        cross(minus(b, a), minus(c, a))[1] > 0.0
+    }));
+}
+
+#[test]
+fn all_models_together_are_small() {
+    let names = [
+        "teapot.obj",
+        "gear.obj",
+        "bracket.stl",
+        "knot.ply",
+        "bear.ply",
+        "castle.obj",
+        "castle.mtl",
+        "pump.glb",
+        "drive.glb",
+        "shaft.obj",
+        "drum.obj",
+        "elbow.obj",
+        "bevels.obj",
+        "horn.obj",
+        "goose.obj",
+        "biplane.obj",
+        "helmet.obj",
+        "helmet.mtl",
+        "street.glb",
+        "crane.glb",
+        "brick.glb",
+        "shelf.ply",
+        "rack.stl",
+    ];
+    let sum: usize = names.iter().map(|name| bytes(name).len()).sum();
+    assert!(sum < 3_900_000, "{sum} bytes");
+}

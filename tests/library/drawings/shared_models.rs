@@ -1,0 +1,187 @@
+//! Every shared model is drawn, and every broken one refused or saved as its README wants.
+
+use crate::support::long_run::is_long;
+use crate::support::readers::shared_folder;
+use std::path::{Path, PathBuf};
+
+use ligne::drawing::Drawing;
+use ligne::export::SvgOptions;
+use ligne::pipeline::render_reported;
+use ligne::scene::{Camera, Scene};
+use ligne::style::Style;
+
+/// Larger models are left to long runs.
+const MOST_TRIANGLES: usize = 60_000;
+
+fn files(folder: &Path) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut folders = vec![folder.to_path_buf()];
+    while let Some(folder) = folders.pop() {
+        for entry in std::fs::read_dir(&folder).into_iter().flatten().flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                folders.push(path);
+            } else {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+fn is_model(path: &Path) -> bool {
+    path.extension().is_some_and(|e| ["obj", "gltf", "glb", "stl", "ply"].iter().any(|known| e == *known))
+}
+
+/// Draws a scene in ink; the drawing and its warnings, those of reading first.
+fn draw(scene: &Scene) -> (Drawing, Vec<String>) {
+    let camera = Camera::three_quarter().fit(scene);
+    let style = Style::preset("ink").unwrap();
+    let page = ligne::drawing::Page {
+        width: camera.width,
+        height: camera.height,
+        unit: ligne::drawing::Unit::Px,
+        background: None,
+    };
+    let (drawing, report) = render_reported(scene, &camera, &style, page, None).unwrap();
+    let mut warnings = scene.warnings.lines();
+    warnings.extend(report.warnings);
+    (drawing, warnings)
+}
+
+fn marks(drawing: &Drawing) -> usize {
+    drawing.layers.iter().map(|layer| layer.marks.len()).sum()
+}
+
+/// Whether all numbers are finite and the SVG can be read back.
+fn is_sound(drawing: &Drawing) -> bool {
+    let finite = drawing.layers.iter().flat_map(|layer| &layer.marks).all(|mark| mark.path.is_finite());
+    finite && usvg::Tree::from_str(&drawing.to_svg(&SvgOptions::default()), &usvg::Options::default()).is_ok()
+}
+
+#[test]
+fn every_model_is_drawn() {
+    let Some(folder) = shared_folder::folder() else { return };
+    let all = is_long();
+    let bad = folder.join("bad");
+    let mut faults = Vec::new();
+    let mut drawn = 0;
+    for path in files(&folder).iter().filter(|p| is_model(p) && !p.starts_with(&bad)) {
+        // Files of many megabytes take long to read at debug speed.
+        if !all && std::fs::metadata(path).is_ok_and(|data| data.len() > 4_000_000) {
+            continue;
+        }
+        let name = path.strip_prefix(&folder).unwrap().display().to_string();
+        let scene = match Scene::open(path) {
+            Ok(scene) => scene,
+            // A cloud of points and corners that cannot be read leave nothing to draw, and say so.
+            Err(error)
+                if error.message.contains("nothing to draw")
+                    && ["points-only", "all-in-brackets"].iter().any(|kind| name.contains(kind)) =>
+            {
+                continue;
+            }
+            // An accessor that is not there is named, with its mesh.
+            Err(error) if name.ends_with("plate-minus1.glb") && error.to_string().contains("accessor -1") => {
+                continue;
+            }
+            Err(error) => {
+                faults.push(format!("{name}: {error}"));
+                continue;
+            }
+        };
+        if !all && scene.triangle_count() > MOST_TRIANGLES {
+            continue;
+        }
+        let (drawing, warnings) = draw(&scene);
+        if marks(&drawing) == 0 && warnings.is_empty() {
+            faults.push(format!("{name}: an empty drawing without a warning"));
+        }
+        if !is_sound(&drawing) {
+            faults.push(format!("{name}: the SVG is not sound"));
+        }
+        drawn += 1;
+        println!("{name}: {} marks, {warnings:?}", marks(&drawing));
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+    assert!(drawn > 40, "only {drawn} models drawn");
+}
+
+/// What the README of the models wants of a broken file.
+enum Wanted {
+    /// An error whose text holds one of these, whatever the case.
+    Error(&'static [&'static str]),
+    /// A picture, with a warning that holds one of these.
+    Warning(&'static [&'static str]),
+    /// A picture.
+    Picture,
+    /// An error, or a picture of finite numbers.
+    Either,
+}
+
+fn wanted(name: &str) -> Wanted {
+    use Wanted::{Either, Error, Picture, Warning};
+    match name {
+        "ok-cube.glb" | "latin1-and-bom.obj" => Picture,
+        "empty-scene.gltf" | "only-comments.obj" | "vertices-only.obj" => Error(&["nothing to draw"]),
+        n if n.starts_with("empty.") => Error(&["nothing to draw"]),
+        "index-out-of-range.obj" | "index-zero.obj" | "index-huge.obj" | "negative-index-too-far.obj" => {
+            Error(&["line "])
+        }
+        "index-out-of-range.ply" | "index-out-of-range.gltf" | "mesh-index-out-of-range.gltf" => {
+            Error(&["byte", "face", "accessor", "node", "mesh", "line"])
+        }
+        "nan-and-inf.obj" | "nan-positions.gltf" | "ascii-nan.stl" | "overflowing-numbers.obj" => Either,
+        "one-long-line.obj" | "no-scenes.gltf" | "zero-quaternion.gltf" | "huge-scale.gltf" => Either,
+        "node-with-two-parents.gltf" => Either,
+        "indices-not-multiple-of-three.gltf" => Warning(&["three", "indices", "triangle"]),
+        "missing-texture.gltf" | "corrupt-texture.gltf" | "texture-path-escapes-folder.gltf" => {
+            Warning(&["texture", "image", "folder", "missing"])
+        }
+        "unknown-required-extension.gltf" => Error(&["extension"]),
+        "git-lfs-pointer.glb" => Error(&["git-lfs"]),
+        "html-instead.glb" => Error(&["web page", "html"]),
+        "unknown-format.xyz" => Error(&[".obj"]),
+        "missing-bin.gltf" => Error(&[".bin"]),
+        _ => Error(&[""]),
+    }
+}
+
+#[test]
+fn broken_files_are_refused_or_saved() {
+    let Some(folder) = shared_folder::folder() else { return };
+    let mut faults = Vec::new();
+    let broken: Vec<PathBuf> = files(&folder.join("bad"))
+        .into_iter()
+        .filter(|p| is_model(p) || p.extension().is_some_and(|e| e == "xyz"))
+        .collect();
+    assert!(broken.len() > 50);
+    for path in broken {
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        let result = Scene::open(&path).map(|scene| draw(&scene));
+        let holds = |text: &str, words: &[&str]| words.iter().any(|w| text.to_lowercase().contains(w));
+        let fault = match (wanted(&name), &result) {
+            (Wanted::Error(words), Err(error)) if !holds(&error.to_string(), words) => {
+                Some(format!("none of {words:?} in '{error}'"))
+            }
+            (_, Err(error)) if !error.to_string().contains(&name) => {
+                Some(format!("no file named in '{error}'"))
+            }
+            (Wanted::Error(_) | Wanted::Either, Err(_)) => None,
+            (_, Err(error)) => Some(format!("refused: {error}")),
+            (Wanted::Error(_), Ok((drawing, warnings))) => {
+                Some(format!("drawn with {} marks and {warnings:?}", marks(drawing)))
+            }
+            (_, Ok((drawing, _))) if !is_sound(drawing) => Some("the SVG is not sound".to_owned()),
+            (Wanted::Either, Ok(_)) => None,
+            (_, Ok((drawing, _))) if marks(drawing) == 0 => Some("an empty drawing".to_owned()),
+            (Wanted::Warning(words), Ok((_, warnings))) if !holds(&warnings.join("; "), words) => {
+                Some(format!("none of {words:?} in {warnings:?}"))
+            }
+            (_, Ok(_)) => None,
+        };
+        faults.extend(fault.map(|fault| format!("{name}: {fault}")));
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}

@@ -1,0 +1,165 @@
+//! Hatching beside fills: shadows of its own, level strokes on flat faces, white lines in blacks, and colours.
+
+use crate::support::pipeline;
+use crate::support::styled::{camera, page, style};
+use std::collections::BTreeMap;
+
+use crate::support::scenes::solids::{Solid, cuboid};
+use glam::DVec3;
+use ligne::colour::srgb::Colour;
+use ligne::drawing::{LayerKind, Paint};
+use ligne::pipeline::Prepared;
+use ligne::scene::{Camera, Geometry, NamedView, Scene};
+use ligne::{Drawing, Style};
+
+/// A pillar on a floor, under a light high on the left.
+fn pillar(sets: &[&str]) -> Drawing {
+    let floor = cuboid(DVec3::new(-4.0, -0.2, -4.0), DVec3::new(4.0, 0.0, 4.0));
+    let pillar = cuboid(DVec3::new(-0.5, 0.0, -0.5), DVec3::new(0.5, 3.0, 0.5));
+    let scene = pipeline::scene([floor, pillar]);
+    let light = "light.sources=[{kind=\"directional\", direction=[-1, 1, 0.4]}]";
+    let style = style("comic", &[&[light], sets].concat());
+    ligne::render(&scene, &camera(&scene), &style).unwrap()
+}
+
+/// The area of the marks of a layer.
+fn area(drawing: &Drawing, kind: LayerKind) -> f64 {
+    let marks = drawing.layers.iter().filter(|layer| layer.kind == kind).flat_map(|layer| &layer.marks);
+    marks.map(|mark| kurbo::Shape::area(&mark.path).abs()).sum()
+}
+
+#[test]
+fn fills_and_hatching_have_cast_shadows_of_their_own() {
+    let switches = |fills: bool, hatching: bool| {
+        let sets = [format!("fills.cast_shadows={fills}"), format!("hatching.cast_shadows={hatching}")];
+        let drawing = pillar(&[&sets[0], &sets[1]]);
+        (area(&drawing, LayerKind::Shadows), area(&drawing, LayerKind::Hatching))
+    };
+    let ((both, hatched), (painted, plain)) = (switches(true, true), switches(true, false));
+    let ((none, hatched_alone), (off, least)) = (switches(false, true), switches(false, false));
+    assert!(both > 2000.0 && (painted - both).abs() < 0.01 * both, "{both} {painted}");
+    assert_eq!((none, off), (0.0, 0.0));
+    assert!(hatched > plain + 2000.0, "{hatched} {plain}");
+    assert!((plain - least).abs() < 0.01 * least, "{plain} {least}");
+    assert!((hatched - hatched_alone).abs() < 0.01 * hatched, "{hatched} {hatched_alone}");
+}
+
+/// A wall whose upper part leans back a little, in one sheet, each part with its own normal.
+fn leaning_wall() -> Scene {
+    let positions = [(0.0, 0.0), (2.0, 0.0), (3.0, -0.45)]
+        .into_iter()
+        .flat_map(|(y, z)| [DVec3::new(-1.5, y, z), DVec3::new(1.5, y, z)])
+        .collect();
+    let geometry = Geometry {
+        positions,
+        triangles: vec![[0, 1, 3], [0, 3, 2], [2, 3, 5], [2, 5, 4]],
+        normals: vec![[0.0, 0.0, 1.0], [0.0, 0.45, 1.0]],
+        corner_normals: vec![[0; 3], [0; 3], [1; 3], [1; 3]],
+        ..Geometry::default()
+    };
+    pipeline::scene_of_geometries(vec![geometry])
+}
+
+#[test]
+fn flat_faces_have_level_strokes() {
+    let scene = leaning_wall();
+    let camera = Camera::named(NamedView::Front, scene.up).fit(&scene);
+    for name in ["engraving", "woodcut"] {
+        // From the side and above, so that no part is left blank.
+        let light = "light.sources=[{kind=\"directional\", direction=[-1, 0.5, 0.3]}]";
+        let style = style(name, &[light]);
+        let (_, layers) =
+            Prepared::new(&scene, &style).hatch_strokes(&camera, page(&camera)).expect("hatching");
+        let (mut whole, mut level) = (0.0, 0.0);
+        for stroke in layers.iter().flat_map(|layer| &layer.strokes) {
+            for pair in stroke.points.windows(2) {
+                let way = pair[1] - pair[0];
+                whole += way.hypot();
+                level += if way.y.abs() <= 0.02 * way.x.abs() { way.hypot() } else { 0.0 };
+            }
+        }
+        assert!(whole > 10_000.0, "{name}: {whole}");
+        assert!(level > 0.99 * whole, "{name}: {level} of {whole} px are level");
+    }
+}
+
+/// Lines of a drawing in a colour, by class.
+fn lines_in(drawing: &Drawing, wanted: Colour) -> BTreeMap<&'static str, usize> {
+    let layers = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Lines);
+    let mut count = BTreeMap::new();
+    for mark in layers.flat_map(|layer| &layer.marks) {
+        let colour = match &mark.paint {
+            Paint::Stroke(stroke) => stroke.colour,
+            Paint::Outline(outline) => outline.colour,
+            Paint::Fill(colour) => *colour,
+            Paint::Image(_) => panic!("a picture"),
+            Paint::Gradient(_) => panic!("hatching has one colour"),
+        };
+        if colour == wanted {
+            *count.entry(mark.provenance.classes[0]).or_default() += 1;
+        }
+    }
+    count
+}
+
+#[test]
+fn white_lines_part_blacks_and_nothing_else() {
+    let unit = cuboid(DVec3::ZERO, DVec3::ONE);
+    let (scene, paper) = (pipeline::scene([unit]), Colour::WHITE);
+    let from = |direction: &str, more: &[&str]| {
+        let light =
+            format!("light.sources=[{{kind=\"directional\", direction={direction}, space=\"camera\"}}]");
+        let sets = [&["pen.colour=\"#101014\"", &light], more].concat();
+        ligne::render(&scene, &camera(&scene), &style("comic", &sets)).unwrap()
+    };
+    // From behind: all three sides are black. Of the edges between them two are joined end to end.
+    let dark = from("[0, 0, -1]", &[]);
+    assert_eq!(lines_in(&dark, paper), BTreeMap::from([("crease", 2)]));
+    assert!(lines_in(&dark, Colour::rgb(0x10, 0x10, 0x14)).contains_key("contour"));
+    // They are as much thinner than ink as the style says, and may be left out.
+    let width = |drawing: &Drawing| {
+        let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
+        let widths = marks.filter_map(|mark| match &mark.paint {
+            Paint::Outline(line) if line.colour == paper => Some(line.width),
+            _ => None,
+        });
+        widths.fold(0.0, f64::max)
+    };
+    let plain = "pen.swell={taper=0, bend=0, lit=0}";
+    let (half, whole) = (["hatching.parting=0.5", plain], ["hatching.parting=1", plain]);
+    assert!((width(&from("[0, 0, -1]", &half)) - 0.9).abs() < 0.02);
+    assert!((width(&from("[0, 0, -1]", &whole)) - 1.8).abs() < 0.02);
+    assert!(lines_in(&from("[0, 0, -1]", &["hatching.parting=0"]), paper).is_empty());
+    // In full light nothing is black, and no line white.
+    assert!(lines_in(&from("[0, 0.2, 1]", &[]), paper).is_empty());
+    // Paint may be as black, and pens may be without a hand.
+    let noir =
+        style("noir", &["light.sources=[{kind=\"directional\", direction=[0, 0, -1], space=\"camera\"}]"]);
+    let noir = ligne::render(&scene, &camera(&scene), &noir).unwrap();
+    assert_eq!(lines_in(&noir, paper), BTreeMap::from([("crease", 2)]));
+    let sets =
+        ["light.sources=[{kind=\"directional\", direction=[0, 0, -1], space=\"camera\"}]", "light.wrap=0"];
+    let woodcut = ligne::render(&scene, &camera(&scene), &style("woodcut", &sets)).unwrap();
+    assert_eq!(lines_in(&woodcut, paper), BTreeMap::from([("crease", 2)]));
+}
+
+#[test]
+fn strokes_in_a_shade_take_the_colour_that_is_painted() {
+    let Solid { positions, triangles } = cuboid(DVec3::ZERO, DVec3::ONE);
+    let colours = vec![[1.0, 0.0, 0.0, 1.0]; positions.len()];
+    let geometry = Geometry { positions, triangles, colours, ..Geometry::default() };
+    let scene = pipeline::scene_of_geometries(vec![geometry]);
+    let style = Style::from_toml(
+        "[pen]\ncolour = { shade = 0.5 }\n[hatching]\nenabled = true\ncoverage = [0.5, 0.4, 0.3, 0.2]\n\
+         [[hatching.layer]]\ncolour = { shade = 0.25 }\n",
+    )
+    .expect("a style");
+    let drawing = ligne::render(&scene, &camera(&scene), &style).unwrap();
+    for (kind, red) in [(LayerKind::Hatching, 64), (LayerKind::Lines, 128)] {
+        let layer = drawing.layers.iter().find(|layer| layer.kind == kind).expect("a layer");
+        for mark in &layer.marks {
+            let Paint::Stroke(stroke) = &mark.paint else { panic!("no plain stroke: {mark:?}") };
+            assert_eq!(stroke.colour, Colour::rgb(red, 0, 0), "{kind:?}");
+        }
+    }
+}

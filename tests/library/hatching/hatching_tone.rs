@@ -1,0 +1,380 @@
+//! Hatching: as much ink as the tone asks for, nested, inside its borders, without repetition, and fixed
+//! to the model where that is asked for.
+
+use crate::support::pipeline;
+use crate::support::styled::{camera, page, style};
+use std::collections::BTreeMap;
+
+use crate::support::scenes::random_dice::Dice;
+use crate::support::scenes::solids::{cuboid, sphere, torus};
+use glam::DVec3;
+use kurbo::{Point, Vec2};
+use ligne::colour::srgb::Colour;
+use ligne::drawing::{LayerKind, Page, Paint, Unit};
+use ligne::export::PngOptions;
+use ligne::export::raster::png_drawing::Resolution;
+use ligne::hatching::{self, HatchContext, HatchOptions, HatchStroke, Tone};
+use ligne::mesh::{FaceId, MaterialId, Mesh, PaintId, PartId};
+use ligne::pipeline::Prepared;
+use ligne::regions::hatch_regions::hatch_map::{BorderPiece, Cell};
+use ligne::regions::{Ground, Look};
+use ligne::scene::Scene;
+use ligne::strokes::Ink;
+use ligne::{Drawing, Style, render};
+
+/// Side of a flat patch, px.
+const SIDE: f64 = 360.0;
+
+/// A flat square patch of one bin.
+fn patch(bin: u16) -> Ground {
+    let look =
+        Look { part: PartId(0), material: MaterialId(0), paint: PaintId(0), tone: 0, bin, cast: false };
+    let cells = vec![Cell { look, facet: 0, area: 0.0 }, Cell { look, facet: 1, area: SIDE * SIDE }];
+    let corners = [(0.0, 0.0), (SIDE, 0.0), (SIDE, SIDE), (0.0, SIDE)].map(|(x, y)| Point::new(x, y));
+    let side = |k: usize| BorderPiece {
+        ends: [corners[k], corners[(k + 1) % 4]],
+        sides: [1, 0],
+        parts_surfaces: true,
+    };
+    Ground::of_pieces(cells, (0..4).map(side).collect())
+}
+
+fn context(tones: &[Tone], seed: u64) -> HatchContext<'_> {
+    let unit = Unit::Px;
+    HatchContext {
+        unit,
+        seed,
+        parts: &[],
+        materials: &[],
+        paints: &[],
+        tones,
+        samples: None,
+        flows: &[],
+        fixed: &[],
+        frame: None,
+        paper: Colour::WHITE,
+    }
+}
+
+/// The strokes of all layers on a patch, by what they are known by.
+fn strokes(
+    options: &HatchOptions,
+    tones: &[Tone],
+    bin: u16,
+    seed: u64,
+) -> BTreeMap<(usize, u64), HatchStroke> {
+    let layers = hatching::strokes(&patch(bin), &context(tones, seed), options).into_iter().enumerate();
+    let named = layers.flat_map(|(n, layer)| layer.strokes.into_iter().map(move |s| ((n, s.id), s)));
+    named.collect()
+}
+
+/// The share of the middle of a patch that is black.
+fn covered(options: &HatchOptions, tones: &[Tone], bin: u16) -> f64 {
+    const SCALE: u32 = 4;
+    let layer = hatching::fill(&patch(bin), &context(tones, 0), options, Vec::new());
+    let page = Page { width: SIDE, height: SIDE, unit: Unit::Px, background: Some(Colour::WHITE) };
+    let drawing = Drawing::new("", page, layer.into_iter().collect());
+    let width = SIDE as u32 * SCALE;
+    let png = drawing.to_png(&PngOptions::of_resolution(Resolution::Width(width))).expect("a picture");
+    let picture = tiny_skia::Pixmap::decode_png(&png).expect("a picture");
+    let margin = 20 * SCALE;
+    let inner = margin..width - margin;
+    let (mut ink, mut count) = (0.0, 0.0);
+    for y in inner.clone() {
+        for x in inner.clone() {
+            let pixel = picture.pixel(x, y).expect("a pixel");
+            ink += 1.0 - f64::from(pixel.red()) / 255.0;
+            count += 1.0;
+        }
+    }
+    ink / count
+}
+
+/// The options of a style, in opaque black.
+fn black(style: &Style) -> HatchOptions {
+    let mut options = style.hatch.clone();
+    for layer in &mut options.layers {
+        layer.colour = Ink::Fixed(Colour::BLACK);
+        layer.opacity = 1.0;
+        layer.grain = 0.0;
+    }
+    options
+}
+
+#[test]
+fn darker_tones_keep_all_strokes_of_lighter_ones() {
+    let mut dice = Dice::new(5);
+    for round in 0..6 {
+        let mut options = black(&style(["pen", "pencil", "patent"][round % 3], &[]));
+        for layer in &mut options.layers {
+            layer.angle = dice.between(0.0, 360.0);
+            layer.uneven = dice.between(0.0, 1.0);
+        }
+        let darkest = 0.5 + 0.4 * dice.between(0.0, 1.0);
+        let coverage: Vec<f64> = (0..64).map(|k| darkest * f64::from(63 - k) / 63.0).collect();
+        let tones = vec![Tone { levels: Vec::new(), coverage }];
+        let seed = round as u64;
+        let mut lighter: BTreeMap<(usize, u64), HatchStroke> = BTreeMap::new();
+        let mut lengths = 0.0;
+        for bin in (0..64).rev() {
+            let own = strokes(&options, &tones, bin, seed);
+            for (id, stroke) in &lighter {
+                assert_eq!(own.get(id), Some(stroke), "bin {bin} lost or changed a stroke");
+            }
+            let total: f64 =
+                own.values().map(|stroke| hatching::clip::line_clip::length(&stroke.points)).sum();
+            assert!(total >= lengths);
+            lengths = total;
+            lighter = own;
+        }
+        assert!(lighter.len() > 50, "{}", lighter.len());
+    }
+}
+
+#[test]
+fn as_much_is_covered_as_the_table_says() {
+    let mut faults = Vec::new();
+    for name in ["pen", "pencil", "pencil-plain", "patent", "sketch", "blueprint"] {
+        let style = style(name, &[]);
+        let options = black(&style);
+        let tone = Tone::new(&style.shade.thresholds, &options.coverage);
+        for bin in 0..tone.coverage.len() as u16 {
+            let (asked, found) = (tone.of_bin(bin), covered(&options, std::slice::from_ref(&tone), bin));
+            if (asked - found).abs() >= 0.03 {
+                faults.push(format!("{name}, bin {bin}: {found:.3} covered, {asked} asked"));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn hatching_does_not_repeat() {
+    // One layer of a pencil, by how far ink on a line agrees with ink farther along it.
+    let mut options = black(&style("pencil", &[]));
+    options.layers.truncate(1);
+    options.layers[0].angle = 0.0;
+    let tones = vec![Tone { levels: Vec::new(), coverage: vec![0.3] }];
+    let strokes = strokes(&options, &tones, 0, 0);
+    // Where strokes cover the patch: rows of px, each with the height above its row at which ink lies.
+    let (columns, rows) = (SIDE as usize, SIDE as usize);
+    let mut ink = vec![0.0_f64; columns * rows];
+    for stroke in strokes.values() {
+        for pair in stroke.points.windows(2) {
+            let steps = ((pair[1] - pair[0]).hypot() * 2.0).ceil().max(1.0) as usize;
+            for k in 0..steps {
+                let p = pair[0].lerp(pair[1], k as f64 / steps as f64);
+                let (x, y) = (p.x as usize, p.y as usize);
+                if x < columns && y < rows {
+                    ink[y * columns + x] = 1.0;
+                }
+            }
+        }
+    }
+    // The lines themselves are no repetition: each row is measured against its own mean.
+    let means: Vec<f64> =
+        ink.chunks_exact(columns).map(|row| row.iter().sum::<f64>() / columns as f64).collect();
+    let correlation = |dx: usize, dy: usize| {
+        let (mut sum, mut square) = (0.0, 0.0);
+        for y in 0..rows - dy {
+            for x in 0..columns - dx {
+                let own = ink[y * columns + x] - means[y];
+                sum += own * (ink[(y + dy) * columns + x + dx] - means[y + dy]);
+                square += own * own;
+            }
+        }
+        sum / square
+    };
+    // Beyond the length of a stroke nothing agrees but the spacing of lines.
+    let mut greatest: f64 = 0.0;
+    for dx in (60..240).step_by(3) {
+        for dy in 0..24 {
+            greatest = greatest.max(correlation(dx, dy));
+        }
+    }
+    assert!(greatest < 0.1, "{greatest}");
+    assert!(correlation(3, 0) > 0.4, "the measure sees strokes: {}", correlation(3, 0));
+}
+
+/// Scenes with contours in front of surfaces, T-junctions, cusps and creases.
+fn scenes() -> Vec<(&'static str, Scene)> {
+    let boxes = cuboid(DVec3::ZERO, DVec3::new(1.0, 1.0, 1.0));
+    vec![
+        ("torus", pipeline::scene([torus(96, 48, 1.0, 0.45)])),
+        ("sphere", pipeline::scene([sphere(48, 1.0)])),
+        ("box", pipeline::scene([boxes])),
+    ]
+}
+
+#[test]
+fn strokes_stay_inside_and_cross_no_contour() {
+    strokes_stay_inside(&["pen"]);
+}
+
+#[test]
+#[ignore = "long: .ci/nightly"]
+fn strokes_of_engravings_and_pencils_stay_inside() {
+    strokes_stay_inside(&["engraving", "pencil"]);
+}
+
+fn strokes_stay_inside(sheets: &[&str]) {
+    for (name, scene) in scenes() {
+        for sheet in sheets {
+            let sets = ["lines.contours=mesh", "hatching.cast_shadows=false"];
+            let style = style(sheet, &sets);
+            let camera = camera(&scene);
+            let prepared = Prepared::new(&scene, &style);
+            let (ground, layers) = prepared.hatch_strokes(&camera, page(&camera)).expect("a hatching");
+            let mesh = Mesh::build(scene.to_soup());
+            let view = ligne::view::View::new(&mesh, &camera);
+            let mut asked = 0;
+            for stroke in layers.iter().flat_map(|layer| &layer.strokes) {
+                let facet = ground.cells[stroke.cell as usize].facet;
+                for p in along(&stroke.points, 2.0) {
+                    let own = ground.cells[ground.cell_at(p) as usize].facet;
+                    assert!(own == facet || distance(&ground, p) < 0.02, "{name}, {sheet}: {p:?} is outside");
+                }
+                // A neighbour on the page is one on the surface: depth changes as the faces slope.
+                let depths: Vec<Option<f64>> = along(&stroke.points, 0.5)
+                    .into_iter()
+                    .filter(|p| distance(&ground, *p) > 0.1)
+                    .map(|p| depth(&mesh, &view, p, asked % 7 == 0))
+                    .collect();
+                asked += 1;
+                for depth in depths.into_iter().flatten() {
+                    assert!(depth.is_finite(), "{name}, {sheet}: paper under a stroke");
+                }
+            }
+            assert!(asked > 100, "{name}, {sheet}: {asked} strokes");
+        }
+    }
+}
+
+/// The depth of the surface at a page point by brute force, for some points; infinite on paper.
+fn depth(mesh: &Mesh, view: &ligne::view::View, p: Point, is_asked: bool) -> Option<f64> {
+    if !is_asked {
+        return None;
+    }
+    let mut nearest = f64::INFINITY;
+    for face in 0..mesh.triangles.len() {
+        let corners = mesh.triangles[face].map(|v| view.points[v as usize]);
+        if mesh.is_degenerate(FaceId(face as u32)) {
+            continue;
+        }
+        let at = |k: usize| Vec2::new(corners[k].x, corners[k].y);
+        let (a, b, c, q) = (at(0), at(1), at(2), p.to_vec2());
+        let area = (b - a).cross(c - a);
+        let weights = [(b - q).cross(c - q), (c - q).cross(a - q), (a - q).cross(b - q)].map(|w| w / area);
+        if weights.iter().all(|w| *w >= 0.0) {
+            let nearness: f64 = (0..3).map(|k| weights[k] * corners[k].z).sum();
+            nearest = nearest.min(view.frame.depth_of(nearness));
+        }
+    }
+    Some(nearest)
+}
+
+/// Points along a polyline, its ends and its corners among them.
+fn along(line: &[Point], step: f64) -> Vec<Point> {
+    let mut points = vec![line[0]];
+    for pair in line.windows(2) {
+        let count = ((pair[1] - pair[0]).hypot() / step).ceil().max(1.0) as usize;
+        points.extend((1..=count).map(|k| pair[0].lerp(pair[1], k as f64 / count as f64)));
+    }
+    points
+}
+
+/// How far a point is from the nearest border.
+fn distance(ground: &Ground, p: Point) -> f64 {
+    let of = |number: u32| {
+        let [a, b] = ground.pieces[number as usize].ends;
+        let way = b - a;
+        let t = ((p - a).dot(way) / way.hypot2()).clamp(0.0, 1.0);
+        (a + way * t - p).hypot()
+    };
+    ground.pieces_near(p, 1.0).into_iter().map(of).fold(f64::INFINITY, f64::min)
+}
+
+/// A style with strokes that are fixed to the model.
+fn fixed() -> Style {
+    let layer = "hatching.layer=[{ direction = 'object', angle = 30, spacing = 5, width = 1.2 }]";
+    style("pen", &[layer, "hatching.cast_shadows=false"])
+}
+
+#[test]
+fn strokes_fixed_to_the_model_stay_when_it_turns() {
+    for (name, scene) in [
+        ("torus", pipeline::scene([torus(120, 60, 1.0, 0.4)])),
+        ("box", pipeline::scene([cuboid(DVec3::ZERO, DVec3::new(1.0, 0.7, 1.3))])),
+    ] {
+        let style = fixed();
+        let prepared = Prepared::new(&scene, &style);
+        let drawn = |turn: f64| {
+            let mut camera = camera(&scene);
+            let (s, c) = (
+                ligne::geometry::numbers::portable_math::sin(turn),
+                ligne::geometry::numbers::portable_math::cos(turn),
+            );
+            let to_eye = camera.eye - camera.target;
+            let turned = DVec3::new(to_eye.x * c + to_eye.z * s, to_eye.y, to_eye.z * c - to_eye.x * s);
+            camera.eye = camera.target + turned;
+            let (_, layers) = prepared.hatch_strokes(&camera, page(&camera)).expect("a hatching");
+            let strokes = layers.into_iter().flat_map(|layer| layer.strokes);
+            strokes.map(|stroke| (stroke.id, stroke)).collect::<BTreeMap<u64, HatchStroke>>()
+        };
+        // Several turns both ways: some strokes of a single one always begin or end at a border.
+        let turned: Vec<_> = (-5..=5).map(|k| drawn((0.1 * f64::from(k)).to_radians())).collect();
+        let pairs = || turned.iter().zip(&turned[1..]);
+        let both = |(before, after): (&BTreeMap<u64, _>, &BTreeMap<u64, _>)| {
+            before.keys().filter(|id| after.contains_key(id)).count()
+        };
+        let stay: usize = pairs().map(both).sum();
+        let all: usize = pairs().map(|(before, after)| before.len().max(after.len())).sum();
+        let share = stay as f64 / all as f64;
+        assert!(all > 400, "{name}: {all} strokes");
+        assert!(share >= 0.95, "{name}: {share:.3} of {all} strokes stay");
+        let (before, after) = (&turned[5], &turned[6]);
+        let kept: Vec<_> = before.iter().filter_map(|(id, stroke)| Some((stroke, after.get(id)?))).collect();
+        // Points of the model move by up to 0.7 px.
+        let mut moves: Vec<f64> = kept
+            .iter()
+            .map(|(a, b)| {
+                let middle = a.points[a.points.len() / 2];
+                along(&b.points, 0.25).into_iter().map(|p| (p - middle).hypot()).fold(f64::INFINITY, f64::min)
+            })
+            .collect();
+        moves.sort_by(f64::total_cmp);
+        let most = moves[moves.len() * 98 / 100];
+        assert!(most < 3.0, "{name}: 98 % of strokes move by up to {most} px");
+    }
+}
+
+#[test]
+fn only_the_hand_follows_the_seed() {
+    let scene = pipeline::scene([torus(64, 32, 1.0, 0.4)]);
+    let camera = camera(&scene);
+    for name in ["pencil", "engraving"] {
+        let style = style(name, &[]);
+        let drawn = |seed: u64| render(&scene, &camera, &Style { seed, ..style.clone() }).unwrap();
+        let (a, b) = (drawn(0), drawn(1));
+        let others = |drawing: &Drawing| {
+            let layers = drawing.layers.iter().filter(|layer| layer.kind != LayerKind::Hatching);
+            layers.cloned().collect::<Vec<_>>()
+        };
+        assert_eq!(others(&a), others(&b));
+        if name == "pencil" {
+            assert_ne!(a, b);
+        }
+    }
+}
+
+#[test]
+fn hatching_is_marks_that_know_their_part() {
+    let scene = pipeline::scene([torus(64, 32, 1.0, 0.4)]);
+    let drawing = render(&scene, &camera(&scene), &style("pencil", &[])).unwrap();
+    let layer = drawing.layers.iter().find(|layer| layer.kind == LayerKind::Hatching).expect("hatching");
+    for mark in &layer.marks {
+        assert_eq!(mark.provenance.classes, ["hatch"]);
+        let Paint::Outline(outline) = &mark.paint else { panic!("pencil strokes taper") };
+        assert!(outline.width > 0.0 && !outline.axis.elements().is_empty());
+    }
+}

@@ -1,0 +1,471 @@
+//! Intersections of triangles: known curves, contacts that are none, and a slow reference.
+
+use crate::support::readers::mesh_file;
+use crate::support::scenes::random_dice::Dice;
+use crate::support::scenes::solids::{Solid, cuboid, sphere, tube};
+use glam::DVec3;
+use ligne::mesh::PartId;
+use ligne::mesh::intersect::intersection_curves::{IntersectionCurves, IntersectionInput, intersections};
+
+fn find(solid: &Solid) -> IntersectionCurves {
+    intersections(&IntersectionInput {
+        positions: &solid.positions,
+        triangles: &solid.triangles,
+        active: &[],
+        bodies: &[],
+    })
+}
+
+fn scene(solids: impl IntoIterator<Item = Solid>) -> Solid {
+    let mut scene = Solid::default();
+    solids.into_iter().for_each(|solid| scene.add(solid));
+    scene
+}
+
+fn length(curves: &IntersectionCurves) -> f64 {
+    curves
+        .segments
+        .iter()
+        .map(|s| curves.points[s.ends[0] as usize].distance(curves.points[s.ends[1] as usize]))
+        .sum()
+}
+
+/// Number of closed loops; fails where a point does not join exactly two segments.
+fn loops(curves: &IntersectionCurves) -> usize {
+    let mut touching = vec![Vec::new(); curves.points.len()];
+    for segment in &curves.segments {
+        let [a, b] = segment.ends.map(|end| end as usize);
+        touching[a].push(b);
+        touching[b].push(a);
+    }
+    for (point, others) in touching.iter().enumerate() {
+        assert_eq!(others.len(), 2, "point {point} at {:?}", curves.points[point]);
+    }
+    let mut seen = vec![false; touching.len()];
+    let mut count = 0;
+    for start in 0..touching.len() {
+        let mut stack = vec![start];
+        count += usize::from(!seen[start]);
+        while let Some(point) = stack.pop() {
+            if !std::mem::replace(&mut seen[point], true) {
+                stack.extend(&touching[point]);
+            }
+        }
+    }
+    count
+}
+
+/// Triangle `b` cut by the plane of `a`, clipped by the sides of `a`: another way than the library's.
+fn clipped(a: [DVec3; 3], b: [DVec3; 3]) -> Option<[DVec3; 2]> {
+    let normal = |t: [DVec3; 3]| (t[1] - t[0]).cross(t[2] - t[0]);
+    let sides = |t: [DVec3; 3], o: [DVec3; 3]| o.map(|p| normal(t).dot(p - t[0]));
+    let straddles = |d: [f64; 3]| d.iter().any(|&x| x < 0.0) && d.iter().any(|&x| x > 0.0);
+    let (of_b, of_a) = (sides(a, b), sides(b, a));
+    if !straddles(of_b) || !straddles(of_a) {
+        return None;
+    }
+    let mut cut = Vec::new();
+    for i in 0..3 {
+        let j = (i + 1) % 3;
+        if of_b[i] == 0.0 {
+            cut.push(b[i]);
+        } else if of_b[i] * of_b[j] < 0.0 {
+            cut.push(b[i].lerp(b[j], of_b[i] / (of_b[i] - of_b[j])));
+        }
+    }
+    let (p, q) = (cut[0], cut[1]);
+    let (mut from, mut to) = (0.0_f64, 1.0_f64);
+    for i in 0..3 {
+        let side = normal(a).cross(a[(i + 1) % 3] - a[i]);
+        let (at_p, at_q) = (side.dot(p - a[i]), side.dot(q - a[i]));
+        let t = at_p / (at_p - at_q);
+        if at_p < at_q {
+            from = from.max(t);
+        } else if at_p > at_q {
+            to = to.min(t);
+        } else if at_p < 0.0 {
+            return None;
+        }
+    }
+    (from < to).then(|| [p.lerp(q, from), p.lerp(q, to)])
+}
+
+/// The slow reference: all pairs.
+fn brute_force(solid: &Solid) -> Vec<([u32; 2], [DVec3; 2])> {
+    let bounds = |points: &mut dyn Iterator<Item = DVec3>| {
+        points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), p| (l.min(p), h.max(p)))
+    };
+    let used = &mut solid.triangles.iter().flatten().map(|&v| solid.positions[v as usize]);
+    let (low, high) = bounds(used);
+    let least = 1e-9 * (high - low).length();
+    let corners: Vec<_> = solid.triangles.iter().map(|t| t.map(|v| solid.positions[v as usize])).collect();
+    let boxes: Vec<_> = corners.iter().map(|c| bounds(&mut c.iter().copied())).collect();
+    let mut found = Vec::new();
+    for i in 0..corners.len() {
+        for j in i + 1..corners.len() {
+            let apart = boxes[i].0.cmpgt(boxes[j].1) | boxes[j].0.cmpgt(boxes[i].1);
+            if apart.any() || solid.triangles[i].iter().any(|v| solid.triangles[j].contains(v)) {
+                continue;
+            }
+            if let Some([p, q]) = clipped(corners[i], corners[j]).filter(|[p, q]| p.distance(*q) > least) {
+                found.push(([i as u32, j as u32], [p, q]));
+            }
+        }
+    }
+    found
+}
+
+fn agrees_with_brute_force(solid: &Solid, nearness: f64) -> Result<usize, String> {
+    let (curves, expected) = (find(solid), brute_force(solid));
+    let found: Vec<[u32; 2]> = curves.segments.iter().map(|s| s.faces).collect();
+    let wanted: Vec<[u32; 2]> = expected.iter().map(|(faces, _)| *faces).collect();
+    if found != wanted {
+        let missing: Vec<_> = wanted.iter().filter(|f| !found.contains(f)).collect();
+        let extra: Vec<_> = found.iter().filter(|f| !wanted.contains(f)).collect();
+        return Err(format!("missing {missing:?}, too many {extra:?}"));
+    }
+    for (segment, (faces, [p, q])) in curves.segments.iter().zip(&expected) {
+        let [a, b] = segment.ends.map(|end| curves.points[end as usize]);
+        let error = (a.distance(*p).max(b.distance(*q))).min(a.distance(*q).max(b.distance(*p)));
+        if error > nearness {
+            return Err(format!("{faces:?}: {a} – {b} instead of {p} – {q}"));
+        }
+    }
+    Ok(found.len())
+}
+
+/// Triangles with corners of their own.
+fn soup(dice: &mut Dice, most: usize, mut corner: impl FnMut(&mut Dice) -> DVec3) -> Solid {
+    let count = 2 + dice.below(most - 2);
+    Solid {
+        positions: (0..3 * count).map(|_| corner(dice)).collect(),
+        triangles: (0..count as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+    }
+}
+
+/// A mesh that shares vertices at random.
+fn tangle(dice: &mut Dice) -> Solid {
+    let count = 4 + dice.below(76);
+    let mut triangles: Vec<[u32; 3]> = (0..count).map(|_| [0; 3].map(|_| dice.below(30) as u32)).collect();
+    triangles.retain(|[a, b, c]| a != b && b != c && c != a);
+    Solid { positions: (0..30).map(|_| dice.point(1.0)).collect(), triangles }
+}
+
+/// Looks at 200 solids.
+fn all(mut solid: impl FnMut(&mut Dice) -> Solid, check: impl Fn(&Solid) -> Result<(), String>) {
+    for seed in 0..200 {
+        let solid = solid(&mut Dice::new(seed));
+        check(&solid).unwrap_or_else(|error| panic!("seed {seed}: {error}\n{solid:?}"));
+    }
+}
+
+fn as_brute_force(solid: &Solid) -> Result<(), String> {
+    agrees_with_brute_force(solid, 1e-7).map(|_| ())
+}
+
+#[test]
+fn soups_agree_with_brute_force() {
+    all(|dice| soup(dice, 60, |dice| dice.point(1.0)), as_brute_force);
+}
+
+#[test]
+fn soups_full_of_contacts_agree_with_brute_force() {
+    let corner = |dice: &mut Dice| DVec3::from([0; 3].map(|_| dice.below(4) as f64));
+    all(|dice| soup(dice, 40, corner), as_brute_force);
+}
+
+#[test]
+fn tangles_agree_with_brute_force() {
+    all(tangle, as_brute_force);
+}
+
+#[test]
+fn order_of_faces_changes_no_curve() {
+    let check = |solid: &Solid| {
+        let mut reversed = solid.clone();
+        reversed.triangles.reverse();
+        let (one, other) = (find(solid), find(&reversed));
+        let same = (one.segments.len(), one.points.len()) == (other.segments.len(), other.points.len());
+        let apart = (length(&one) - length(&other)).abs();
+        if same && apart < 1e-9 { Ok(()) } else { Err(format!("{apart} apart")) }
+    };
+    all(|dice| soup(dice, 40, |dice| dice.point(1.0)), check);
+}
+
+#[test]
+fn boxes_through_each_other_meet_in_two_rectangles() {
+    let beam = cuboid(DVec3::new(-3.0, -0.5, -0.25), DVec3::new(3.0, 0.5, 0.25));
+    let curves = find(&scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0)), beam]));
+    assert_eq!(loops(&curves), 2);
+    assert!((length(&curves) - 2.0 * 3.0).abs() < 1e-12, "{}", length(&curves));
+    for p in &curves.points {
+        assert_eq!(p.x.abs(), 1.0);
+        assert!((p.y.abs() - 0.5).abs() < 1e-15 || (p.z.abs() - 0.25).abs() < 1e-15, "{p}");
+    }
+    for corner in [DVec3::new(1.0, 0.5, 0.25), DVec3::new(-1.0, -0.5, 0.25)] {
+        assert!(curves.points.iter().any(|p| p.distance(corner) < 1e-15));
+    }
+}
+
+#[test]
+fn edges_that_cross_edges_still_close_the_loop() {
+    // All corners of the curve lie where diagonals and edges of both boxes meet.
+    let a = cuboid(DVec3::splat(-1.0), DVec3::splat(1.0));
+    for b in [
+        cuboid(DVec3::new(-0.5, -0.5, 0.0), DVec3::new(0.5, 0.5, 2.0)),
+        cuboid(DVec3::new(0.0, 0.0, 0.0), DVec3::new(2.0, 2.0, 2.0)),
+        cuboid(DVec3::new(-0.5, -0.25, -3.0), DVec3::new(0.5, 0.25, 3.0)),
+    ] {
+        let curves = find(&scene([a.clone(), b]));
+        assert!(loops(&curves) >= 1);
+    }
+}
+
+#[test]
+fn sphere_through_box_gives_closed_loops() {
+    // Each side of the box cuts a cap off the sphere.
+    let ball = sphere(40, 1.2).moved(|p| DVec3::new(p.x, 0.8 * p.y - 0.6 * p.z, 0.6 * p.y + 0.8 * p.z));
+    let curves = find(&scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0)), ball]));
+    assert_eq!(loops(&curves), 6);
+    let circle = std::f64::consts::TAU * (1.2_f64 * 1.2 - 1.0).sqrt();
+    assert!((length(&curves) / (6.0 * circle) - 1.0).abs() < 0.01, "{}", length(&curves));
+}
+
+#[test]
+fn sphere_aligned_with_box_gives_closed_loops() {
+    // Vertices of the sphere lie in planes and edges of the box as well as rounding lets them.
+    for radius in [1.1, 1.2, 1.3] {
+        let curves = find(&scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0)), sphere(24, radius)]));
+        assert_eq!(loops(&curves), 6, "radius {radius}");
+    }
+}
+
+#[test]
+fn tube_through_plane_gives_one_polygon() {
+    let plane = Solid {
+        positions: vec![DVec3::new(-5.0, -4.0, 0.1), DVec3::new(5.0, -4.0, 0.1), DVec3::new(0.0, 7.0, 0.1)],
+        triangles: vec![[0, 1, 2]],
+    };
+    let curves = find(&scene([tube(64, 3, 1.0, 2.0), plane]));
+    assert_eq!(loops(&curves), 1);
+    let polygon = 128.0 * ligne::geometry::numbers::portable_math::sin(std::f64::consts::PI / 64.0);
+    assert!((length(&curves) - polygon).abs() < 1e-12);
+    assert!(curves.points.iter().all(|p| (p.z - 0.1).abs() < 1e-15));
+}
+
+#[test]
+fn row_of_vertices_in_the_plane_joins_at_the_vertices() {
+    // With four rows the middle vertices lie in the plane z = 0 exactly.
+    let plane = cuboid(DVec3::new(-5.0, -5.0, 0.0), DVec3::new(5.0, 5.0, 1.0));
+    let tilted = tube(12, 4, 1.0, 2.0).moved(|p| DVec3::new(p.x, p.y, p.z + 0.25 * p.x));
+    assert_eq!(loops(&find(&scene([plane, tilted]))), 2);
+}
+
+#[test]
+fn contacts_are_no_intersections() {
+    let unit = || cuboid(DVec3::ZERO, DVec3::ONE);
+    let beside = |x: f64, y: f64, z: f64| unit().moved(move |p| p + DVec3::new(x, y, z));
+    // Face on face, shifted face on face, edge on edge, corner on corner, and one on the same plane.
+    for (x, y, z) in [
+        (1.0, 0.0, 0.0),
+        (1.0, 0.25, 0.5),
+        (1.0, 1.0, 0.0),
+        (1.0, 1.0, 1.0),
+        (0.0, 0.0, 1.0),
+        (0.3, 0.4, 1.0),
+    ] {
+        assert_eq!(find(&scene([unit(), beside(x, y, z)])), IntersectionCurves::default(), "{x} {y} {z}");
+    }
+}
+
+#[test]
+fn neighbours_and_coplanar_triangles_are_no_intersections() {
+    assert_eq!(find(&sphere(20, 1.0)), IntersectionCurves::default());
+    let flat = |x: f64| Solid {
+        positions: vec![
+            DVec3::new(x, 0.0, 1.0),
+            DVec3::new(x + 2.0, 0.0, 1.0),
+            DVec3::new(x + 0.5, 2.0, 1.0),
+        ],
+        triangles: vec![[0, 1, 2]],
+    };
+    assert_eq!(find(&scene([flat(0.0), flat(0.5)])), IntersectionCurves::default());
+}
+
+#[test]
+fn a_vertex_in_the_plane_counts_only_where_the_triangle_goes_through() {
+    let wall = [DVec3::new(-2.0, -2.0, 0.0), DVec3::new(2.0, -2.0, 0.0), DVec3::new(0.0, 3.0, 0.0)];
+    let with = |triangle: [DVec3; 3]| {
+        find(&Solid { positions: [wall, triangle].concat(), triangles: vec![[0, 1, 2], [3, 4, 5]] })
+    };
+    let tip = DVec3::new(0.1, 0.0, 0.0);
+    let touching = [tip, DVec3::new(0.0, 0.5, 1.0), DVec3::new(0.0, -0.5, 1.0)];
+    assert_eq!(with(touching), IntersectionCurves::default());
+    let through = [tip, DVec3::new(0.0, 0.5, 1.0), DVec3::new(0.0, 0.5, -1.0)];
+    let curves = with(through);
+    assert_eq!(curves.segments.len(), 1);
+    assert!(curves.points.contains(&tip), "the vertex is an end to the last bit");
+}
+
+#[test]
+fn inactive_faces_take_no_part() {
+    let both = scene([
+        cuboid(DVec3::splat(-1.0), DVec3::splat(1.0)),
+        cuboid(DVec3::splat(0.0), DVec3::new(2.0, 2.1, 2.2)),
+    ]);
+    let all = find(&both);
+    let active: Vec<bool> = (0..both.triangles.len()).map(|face| face % 3 != 0).collect();
+    let some = intersections(&IntersectionInput {
+        positions: &both.positions,
+        triangles: &both.triangles,
+        active: &active,
+        bodies: &[],
+    });
+    let expected: Vec<[u32; 2]> =
+        all.segments.iter().map(|s| s.faces).filter(|f| f.iter().all(|&face| face % 3 != 0)).collect();
+    assert_eq!(some.segments.iter().map(|s| s.faces).collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn scale_and_distance_change_nothing() {
+    let both = scene([sphere(16, 1.0), tube(20, 3, 0.3, 2.0)]);
+    let segments = find(&both).segments;
+    assert!(!segments.is_empty());
+    for (scale, offset) in [(1e-9, 0.0), (1e9, 0.0), (1.0, 4096.0)] {
+        let moved = both.clone().moved(|p| p * scale + DVec3::splat(offset));
+        let faces = |s: &[ligne::mesh::intersect::intersection_curves::IntersectionSegment]| {
+            s.iter().map(|s| s.faces).collect::<Vec<_>>()
+        };
+        assert_eq!(faces(&find(&moved).segments), faces(&segments), "scale {scale}, offset {offset}");
+    }
+}
+
+#[test]
+fn one_thread_equals_many() {
+    let both = scene([sphere(60, 1.0), tube(80, 30, 0.3, 2.0)]);
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| find(&both))
+    };
+    assert_eq!(with(1), with(4));
+}
+
+#[test]
+fn shared_models_agree_with_brute_force() {
+    for name in ["organic/suzanne.obj", "organic/cow.obj", "organic/teapot.obj", "edge/self-intersecting.obj"]
+    {
+        let Some(solid) = mesh_file::read(name) else { continue };
+        let nearness = 1e-6 * solid.positions.iter().fold(0.0_f64, |most, p| most.max(p.length()));
+        let count =
+            agrees_with_brute_force(&solid, nearness).unwrap_or_else(|error| panic!("{name}: {error}"));
+        assert!(count > 0, "{name} has surfaces that pass through each other");
+    }
+}
+
+#[test]
+fn empty_input_gives_nothing() {
+    assert_eq!(find(&Solid::default()), IntersectionCurves::default());
+    let point = Solid { positions: vec![DVec3::ONE; 6], triangles: vec![[0, 1, 2], [3, 4, 5]] };
+    assert_eq!(find(&point), IntersectionCurves::default());
+}
+
+/// A square face in two halves whose common side runs along x, crossed there by a wall that goes on to both sides or ends.
+fn crossed_on_a_diagonal(halves: &[f64], turn: glam::DQuat) -> Solid {
+    let mut solid = Solid {
+        positions: vec![
+            DVec3::new(-1.0, 0.0, 0.0),
+            DVec3::new(2.0, 0.0, 0.0),
+            // The wall stands in the plane y = 0.
+            DVec3::new(0.1, 0.0, -0.7),
+            DVec3::new(0.9, 0.0, -0.5),
+            DVec3::new(0.4, 0.0, 0.8),
+        ],
+        triangles: vec![[2, 3, 4]],
+    };
+    for side in halves {
+        solid.positions.push(DVec3::new(0.3, *side, 0.0));
+        solid.triangles.push([0, 1, solid.positions.len() as u32 - 1]);
+    }
+    solid.positions.iter_mut().for_each(|p| *p = turn * *p);
+    solid
+}
+
+#[test]
+fn surfaces_that_cross_along_a_diagonal_have_a_curve_there() {
+    let mut dice = Dice::new(12);
+    for round in 0..200 {
+        let turn = glam::DQuat::from_axis_angle(dice.direction(), dice.between(0.0, 3.0));
+        let both = find(&crossed_on_a_diagonal(&[1.0, -1.5], turn));
+        let strict = {
+            let mut solid = crossed_on_a_diagonal(&[1.0, -1.5], turn);
+            let aside = turn * DVec3::Y * 1e-6;
+            solid.positions[2..5].iter_mut().for_each(|p| *p += aside);
+            find(&solid)
+        };
+        assert!(
+            (length(&both) - length(&strict)).abs() < 1e-5,
+            "{round}: {} {}",
+            length(&both),
+            length(&strict)
+        );
+        assert!(length(&both) > 0.4, "{round}");
+        // Surfaces that only touch have none.
+        assert!(find(&crossed_on_a_diagonal(&[1.0], turn)).segments.is_empty(), "{round}");
+        assert!(find(&crossed_on_a_diagonal(&[1.0, 1.5], turn)).segments.is_empty(), "{round}");
+    }
+}
+
+/// Two faces that have a side along x and two walls that have a shorter one there, each given by where its third corner lies.
+fn along_each_other(faces: [[f64; 2]; 2], walls: [[f64; 2]; 2], turn: glam::DQuat) -> Solid {
+    let on_line = [-1.0, 2.0, 0.1, 0.9].map(|x| DVec3::new(x, 0.0, 0.0));
+    let mut solid = Solid { positions: on_line.to_vec(), triangles: Vec::new() };
+    for ([from, to], thirds) in [([0, 1], faces), ([2, 3], walls)] {
+        for [y, z] in thirds {
+            solid.positions.push(DVec3::new(0.4, y, z));
+            solid.triangles.push([from, to, solid.positions.len() as u32 - 1]);
+        }
+    }
+    solid.positions.iter_mut().for_each(|p| *p = turn * *p);
+    solid
+}
+
+#[test]
+fn surfaces_that_cross_along_an_edge_of_each_have_a_curve_there() {
+    let mut dice = Dice::new(13);
+    let flat = [[1.0, 0.0], [-1.5, 0.0]];
+    let ridge = [[1.0, -1.0], [-1.0, -1.0]];
+    for round in 0..200 {
+        let turn = glam::DQuat::from_axis_angle(dice.direction(), dice.between(0.0, 3.0));
+        let crossing = [(flat, [[0.1, 0.8], [-0.1, -0.7]]), (ridge, [[0.9, -0.1], [0.1, -0.9]])];
+        for (faces, walls) in crossing {
+            let curves = find(&along_each_other(faces, walls, turn));
+            assert_eq!(curves.segments.len(), 1, "{round}");
+            assert!((length(&curves) - 0.8).abs() < 1e-9, "{round}");
+        }
+        // A roof upside down on the ridge of another one, and two in one plane with it.
+        let touching = [(flat, [[0.3, 0.8], [-0.3, 0.7]]), (ridge, [[0.9, -0.1], [-0.9, -0.1]])];
+        for (faces, walls) in touching.into_iter().chain([(flat, flat), (ridge, ridge)]) {
+            assert!(find(&along_each_other(faces, walls, turn)).segments.is_empty(), "{round}");
+        }
+    }
+}
+
+#[test]
+fn bodies_with_a_common_vertex_pass_through_each_other_from_there() {
+    let mut dice = Dice::new(14);
+    for round in 0..200 {
+        let turn = glam::DQuat::from_axis_angle(dice.direction(), dice.between(0.0, 3.0));
+        // Two faces that cross along x from their common vertex, for one unit.
+        let corners = [[0.0, 0.0, 0.0], [3.0, 1.0, 0.0], [3.0, -1.0, 0.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0]];
+        let positions = corners.map(|corner| turn * DVec3::from(corner));
+        let found = |bodies: &[PartId]| {
+            let triangles = &[[0, 1, 2], [0, 3, 4]];
+            intersections(&IntersectionInput { positions: &positions, triangles, active: &[], bodies })
+        };
+        let curves = found(&[PartId(0), PartId(1)]);
+        assert_eq!(curves.segments.len(), 1, "{round}");
+        assert!((length(&curves) - 1.0).abs() < 1e-9, "{round}");
+        // Of one body they are neighbours.
+        assert!(found(&[]).segments.is_empty() && found(&[PartId(1); 2]).segments.is_empty(), "{round}");
+    }
+}

@@ -1,0 +1,163 @@
+//! Isophotes as lines: where the tone changes and nowhere else, whether tones are painted or not.
+
+use glam::DVec3;
+use kurbo::Point;
+use ligne::drawing::Drawing;
+use ligne::scene::{Camera, Scene};
+use ligne::{Style, render};
+
+use crate::support::measures::line_picture::{distance, flattened, samples};
+use crate::support::pipeline::{orthographic, scene};
+use crate::support::references::textbook_camera::Eye;
+use crate::support::scenes::solids::{Solid, cuboid, sphere};
+
+/// Isophotes alone, at these levels of light, with and without fills.
+fn styles(light: &str, thresholds: &str, more: &str) -> [Style; 2] {
+    [false, true].map(|painted| {
+        let sheet = format!(
+            "extends = 'toon'\n[lines]\nkinds = ['isophote']\n[chain]\nsmooth = 0\ntidy = 0\nsimplify = 0\nfit = false\n\
+             [fills]\nenabled = {painted}\nthresholds = {thresholds}\n{more}\n[light]\nfrom_model = false\nsources = [{light}]"
+        );
+        Style::from_toml(&sheet).expect("a style")
+    })
+}
+
+/// The lines of a part.
+fn lines(drawing: &Drawing, part: &str) -> Vec<[Point; 2]> {
+    let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
+    let own = marks.filter(|mark| mark.provenance.classes.first() == Some(&"isophote"));
+    let own = own.filter(|mark| mark.provenance.part.as_deref() == Some(part));
+    own.flat_map(|mark| flattened(&mark.path, 1e-3)).collect()
+}
+
+fn drawn(model: &Scene, camera: &Camera, style: &Style, part: &str) -> Vec<[Point; 2]> {
+    lines(&render(model, camera, style).expect("a drawing"), part)
+}
+
+fn length(lines: &[[Point; 2]]) -> f64 {
+    lines.iter().map(|[a, b]| (*b - *a).hypot()).sum()
+}
+
+/// Whether lines are those wanted: each lies on the others, up to `off` px.
+fn agree(found: &[[Point; 2]], wanted: &[[Point; 2]], off: f64, name: &str) {
+    let near = |p: Point, lines: &[[Point; 2]]| {
+        lines.iter().map(|line| distance(p, *line)).fold(f64::INFINITY, f64::min)
+    };
+    for (p, _) in samples(found, 1.0) {
+        assert!(
+            near(p, wanted) < off,
+            "{name}: a line at {p:?}, {} px from where there is one",
+            near(p, wanted)
+        );
+    }
+    for (p, _) in samples(wanted, 1.0) {
+        assert!(near(p, found) < off, "{name}: no line at {p:?}");
+    }
+    let (found, wanted) = (length(found), length(wanted));
+    assert!((found - wanted).abs() < 0.01 * wanted + 2.0, "{name}: {found} px in place of {wanted}");
+}
+
+/// Straight pieces between points of space, in the image.
+fn traced(eye: &Eye, points: &[DVec3]) -> Vec<[Point; 2]> {
+    points.windows(2).map(|pair| [eye.image(pair[0]), eye.image(pair[1])]).collect()
+}
+
+/// A level rectangle.
+fn sheet(middle: DVec3, half: [f64; 2]) -> Solid {
+    let corner = |x: f64, y: f64| middle + DVec3::new(x * half[0], y * half[1], 0.0);
+    Solid {
+        positions: vec![corner(-1.0, -1.0), corner(1.0, -1.0), corner(1.0, 1.0), corner(-1.0, 1.0)],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+    }
+}
+
+#[test]
+fn a_ball_has_circles_where_light_says_with_and_without_fills() {
+    let ball = scene([sphere(96, 1.0)]);
+    let camera = orthographic(DVec3::new(0.0, 0.0, 9.0), DVec3::ZERO, 2.4);
+    let eye = Eye::new(&camera);
+    let light = "{ kind = 'directional', direction = [0, 0, 1], space = 'world' }";
+    let circle = |level: f64| {
+        let radius = (1.0 - level * level).sqrt();
+        let at = |k: usize| {
+            let angle = std::f64::consts::TAU * k as f64 / 720.0;
+            DVec3::new(
+                ligne::geometry::numbers::portable_math::cos(angle),
+                ligne::geometry::numbers::portable_math::sin(angle),
+                0.0,
+            ) * radius
+        };
+        traced(&eye, &(0..=720).map(at).collect::<Vec<_>>())
+    };
+    let wanted = [circle(0.5), circle(0.8)].concat();
+    for style in styles(light, "[0.5, 0.8]", "") {
+        agree(&drawn(&ball, &camera, &style, "part 0"), &wanted, 1.0, "ball");
+    }
+}
+
+#[test]
+fn in_the_shadow_of_a_sheet_on_a_ball_no_isophote_is_inked() {
+    // Light from above; a sheet over one half of the ball. What is in its shadow has one tone.
+    let model = scene([sphere(96, 1.0), sheet(DVec3::new(1.5, 0.0, 3.0), [1.5, 2.0])]);
+    let camera = orthographic(DVec3::new(0.0, -9.0, 0.0), DVec3::ZERO, 2.4);
+    let light = "{ kind = 'directional', direction = [0, 0, 1], space = 'world' }";
+    let eye = Eye::new(&camera);
+    // Seen from the front the isophotes are level lines, of which the lit half is left; the border of the shadow runs upright to where the
+    // ball turns from the light.
+    let level = |z: f64| traced(&eye, &[DVec3::new(-(1.0 - z * z).sqrt(), 0.0, z), DVec3::new(0.0, 0.0, z)]);
+    let border = traced(&eye, &[DVec3::new(0.0, 0.0, 0.3), DVec3::new(0.0, 0.0, 1.0)]);
+    let wanted = [level(0.3), level(0.6), border].concat();
+    for style in styles(light, "[0.3, 0.6]", "cast_shadows = true") {
+        agree(&drawn(&model, &camera, &style, "part 0"), &wanted, 1.0, "shadow on a ball");
+    }
+}
+
+#[test]
+fn a_shadow_and_a_pool_of_light_on_a_plane_are_inked_where_the_tone_changes() {
+    // A lamp at (0, 0, 10) lights a circle of radius 6 brighter than the rest; a small sheet half-way casts a shadow over its rim.
+    let model = scene([sheet(DVec3::ZERO, [12.0, 12.0]), sheet(DVec3::new(3.0, 0.0, 5.0), [0.5, 0.5])]);
+    let camera = orthographic(DVec3::new(0.0, 0.0, 30.0), DVec3::ZERO, 26.0);
+    let light = "{ kind = 'point', position = [0, 0, 10], space = 'world' }";
+    let level = 10.0 / 136.0_f64.sqrt();
+    let eye = Eye::new(&camera);
+    // The shadow: x from 5 to 7, y from -1 to 1.
+    let rim = 35.0_f64.sqrt();
+    let start = ligne::geometry::numbers::portable_math::atan2(1.0, rim);
+    let arc = |k: usize| {
+        let angle = start + (std::f64::consts::TAU - 2.0 * start) * k as f64 / 720.0;
+        DVec3::new(
+            ligne::geometry::numbers::portable_math::cos(angle),
+            ligne::geometry::numbers::portable_math::sin(angle),
+            0.0,
+        ) * 6.0
+    };
+    let circle = traced(&eye, &(0..=720).map(arc).collect::<Vec<_>>());
+    let corner = |x: f64, y: f64| DVec3::new(x, y, 0.0);
+    let border = traced(&eye, &[corner(rim, -1.0), corner(5.0, -1.0), corner(5.0, 1.0), corner(rim, 1.0)]);
+    let wanted = [circle, border].concat();
+    for style in styles(light, &format!("[{level}]"), "cast_shadows = true") {
+        agree(&drawn(&model, &camera, &style, "part 0"), &wanted, 1.0, "plane");
+    }
+    // Without cast shadows there is the whole circle.
+    let whole = styles(light, &format!("[{level}]"), "");
+    for style in whole {
+        let found = length(&drawn(&model, &camera, &style, "part 0"));
+        let px = 1000.0 / 26.0;
+        assert!((found / (std::f64::consts::TAU * 6.0 * px) - 1.0).abs() < 0.01, "{found}");
+    }
+}
+
+#[test]
+fn shadows_that_are_as_dark_as_what_is_lit_have_no_line() {
+    // Light falls on the floor so flatly that it is in the darkest tone already; the block's own sides are in others.
+    let model =
+        scene([sheet(DVec3::ZERO, [9.0, 9.0]), cuboid(DVec3::new(-1.0, -1.0, 0.0), DVec3::splat(1.0))]);
+    let camera = orthographic(DVec3::new(12.0, -20.0, 25.0), DVec3::ZERO, 24.0);
+    for (threshold, is_inked) in [("[0.4]", true), ("[0.8]", false)] {
+        let light = "{ kind = 'directional', direction = [-0.8, 0, 0.6], space = 'world' }";
+        for style in styles(light, threshold, "cast_shadows = true") {
+            let found = length(&drawn(&model, &camera, &style, "part 0"));
+            assert_eq!(found > 0.0, is_inked, "{found} px at {threshold}");
+        }
+    }
+}

@@ -1,0 +1,311 @@
+//! Nothing that is written on a sheet touches what it does not belong to: generated sheets against a judge that reads the finished page.
+//!
+//! A sheet has 1 to 80 parts, any size from A4 to A1, either method of projection, and a random choice of sections, details, lengths,
+//! balloons, notes and long texts in its title block. A sheet that does not fit must be refused. `LIGNE_KEEP_SHEETS=FOLDER` keeps the
+//! page files and models.
+
+use std::fs;
+
+use ligne::drawing::Paint;
+use ligne::kurbo::{Affine, BezPath, PathEl, Point, Rect, Shape, flatten};
+use ligne::page::{Composed, PageFile};
+
+use crate::support::scenes::random_dice::Dice;
+use crate::support::scenes::sheet_models::{block, drilled, folder, marks, obj};
+
+/// Sheets that are judged in each run, and in the long one.
+const SHEETS: u64 = 12;
+const ALL_SHEETS: u64 = 100;
+
+/// A line of a mark, or a side of a filled one.
+struct Stroke {
+    item: String,
+    ends: [Point; 2],
+    half: f64,
+}
+
+struct Text {
+    item: String,
+    words: String,
+    path: BezPath,
+    rect: Rect,
+    /// Turns the page so that it is written across it, and the box around it there.
+    upright: Affine,
+    turned: Rect,
+}
+
+impl Text {
+    fn new(item: &str, words: String, path: BezPath, place: Affine) -> Self {
+        let [a, b, ..] = place.as_coeffs();
+        let upright = Affine::rotate(-ligne::geometry::numbers::portable_math::atan2(b, a));
+        let (rect, turned) = (path.bounding_box(), (upright * path.clone()).bounding_box());
+        Self { item: item.to_owned(), words, path, rect, upright, turned }
+    }
+
+    fn lies_on(&self, other: &Self) -> bool {
+        let own = |one: &Self, other: &Self| {
+            let both = one.turned.intersect((one.upright * other.path.clone()).bounding_box());
+            both.width() > 0.05 && both.height() > 0.05
+        };
+        own(self, other) && own(other, self)
+    }
+}
+
+/// What is on a page: texts, other lines, the middles of balloons.
+struct Found {
+    texts: Vec<Text>,
+    strokes: Vec<Stroke>,
+    balloons: Vec<Point>,
+}
+
+fn found(composed: &Composed) -> Found {
+    let mut found = Found { texts: Vec::new(), strokes: Vec::new(), balloons: Vec::new() };
+    for item in &composed.composition.items {
+        for (place, mark) in marks(item) {
+            let path = place * mark.path.clone();
+            if let Some(text) = &mark.provenance.text {
+                let words = text.words.to_string();
+                found.texts.push(Text::new(&item.name, words, path, place * text.place));
+                continue;
+            }
+            let half = if let Paint::Stroke(stroke) = &mark.paint { stroke.width / 2.0 } else { 0.0 };
+            let own = path.bounding_box();
+            let is_round =
+                half > 0.0 && (own.width() - 8.0).abs() < 0.01 && (own.height() - 8.0).abs() < 0.01;
+            if item.name == "balloons" && is_round && path.elements().len() > 3 {
+                found.balloons.push(own.center());
+            }
+            let (mut start, mut last) = (Point::ZERO, Point::ZERO);
+            let mut add = |a: Point, b: Point| {
+                found.strokes.push(Stroke { item: item.name.clone(), ends: [a, b], half });
+            };
+            flatten(path.iter(), 0.02, |element| match element {
+                PathEl::MoveTo(p) => (start, last) = (p, p),
+                PathEl::LineTo(p) => {
+                    add(last, p);
+                    last = p;
+                }
+                PathEl::ClosePath => {
+                    add(last, start);
+                    last = start;
+                }
+                _ => {}
+            });
+        }
+    }
+    found
+}
+
+/// How far a segment is from a point.
+fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
+    let way = b - a;
+    let share = ((p - a).dot(way) / way.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+    (a + way * share - p).hypot()
+}
+
+/// Whether a segment runs into a rectangle.
+fn enters(rect: Rect, [a, b]: [Point; 2]) -> bool {
+    let (mut from, mut to) = (0.0_f64, 1.0_f64);
+    for (p, d, low, high) in [(a.x, b.x - a.x, rect.x0, rect.x1), (a.y, b.y - a.y, rect.y0, rect.y1)] {
+        if d.abs() < 1e-12 {
+            if p < low || p > high {
+                return false;
+            }
+            continue;
+        }
+        let (one, other) = ((low - p) / d, (high - p) / d);
+        from = from.max(one.min(other));
+        to = to.min(one.max(other));
+    }
+    from <= to
+}
+
+/// What is wrong on a page.
+fn faults(composed: &Composed) -> Vec<String> {
+    let Found { texts, strokes, balloons } = found(composed);
+    let page = composed.composition.page;
+    let space = Rect::new(20.0, 10.0, page.width - 10.0, page.height - 10.0);
+    let mut faults = Vec::new();
+    for (k, text) in texts.iter().enumerate() {
+        for other in &texts[..k] {
+            if text.lies_on(other) {
+                faults.push(format!("`{}` lies on `{}`", text.words, other.words));
+            }
+        }
+        for stroke in &strokes {
+            let near = text.rect.inflate(2.0, 2.0);
+            let wide = stroke.half - 0.05;
+            if enters(near, stroke.ends)
+                && enters(text.turned.inflate(wide, wide), stroke.ends.map(|p| text.upright * p))
+            {
+                faults.push(format!(
+                    "a line of {} runs through `{}` of {}",
+                    stroke.item, text.words, text.item
+                ));
+            }
+        }
+        if text.item != "frame" && !space.contains_rect(text.rect) {
+            faults.push(format!("`{}` lies outside the frame", text.words));
+        }
+    }
+    for (k, centre) in balloons.iter().enumerate() {
+        if balloons[..k].iter().any(|other| (*other - *centre).hypot() < 8.0) {
+            faults.push(format!("balloons overlap at {centre:?}"));
+        }
+        for stroke in strokes.iter().filter(|stroke| distance(*centre, stroke.ends) < 3.9 + stroke.half) {
+            // Its own circle is 4 mm away, and its leader begins there.
+            let far = distance(*centre, stroke.ends);
+            if stroke.item != "balloons" || far < 3.85 {
+                faults.push(format!("a line of {} runs through a balloon at {centre:?}", stroke.item));
+            }
+        }
+        for text in texts.iter().filter(|text| text.item != "balloons") {
+            let x = (text.rect.x0 - centre.x).max(centre.x - text.rect.x1).max(0.0);
+            let y = (text.rect.y0 - centre.y).max(centre.y - text.rect.y1).max(0.0);
+            if x * x + y * y < 16.0 {
+                faults.push(format!("a balloon lies on `{}`", text.words));
+            }
+        }
+    }
+    faults.dedup();
+    faults
+}
+
+/// A sheet of a seed: its page file, and its model.
+fn generated(seed: u64) -> (String, String) {
+    let mut dice = Dice::new(9000 + seed);
+    let count = [1, 1, 2, 3, 5, 8, 12, 20, 40, 80][dice.below(10)];
+    let size = ["A4", "A3", "A3", "A2", "A1"][dice.below(5)];
+    let [w, d, h] = [dice.between(20.0, 160.0), dice.between(20.0, 90.0), dice.between(3.0, 20.0)];
+    let columns = 1 + dice.below(4);
+    let column = w / columns as f64;
+    let holes: Vec<([f64; 2], f64)> = (0..columns)
+        .map(|n| {
+            let radius = dice.between(1.5, (0.35 * column.min(d)).max(1.6));
+            let x = column * (n as f64 + 0.5) + dice.between(-0.1, 0.1) * column;
+            ([x, d / 2.0 + dice.between(-0.1, 0.1) * d], radius.min(0.38 * column.min(d)))
+        })
+        .collect();
+    let mut parts = vec![("plate".to_owned(), drilled([w, d, h], &holes))];
+    for k in 1..count {
+        let (x, y) = (dice.between(0.0, w - 6.0), dice.between(0.0, d - 6.0));
+        let high = h + dice.between(4.0, 30.0);
+        let name = format!("part-{}{}", (b'a' + (k / 26) as u8) as char, (b'a' + (k % 26) as u8) as char);
+        parts.push((name, block([x, y, h], [x + dice.between(2.0, 6.0), y + dice.between(2.0, 6.0), high])));
+    }
+    let views = [
+        "['front', 'top']",
+        "['front', 'top', 'left']",
+        "['front', 'top', 'iso']",
+        "['front', 'top', 'left', 'iso']",
+        "['top', 'right', 'iso']",
+        "['front']",
+    ][dice.below(6)];
+    let mut text = format!(
+        "[page]\nkind = 'sheet'\nmodel = {{ file = 'model.obj', up = 'z' }}\nsize = '{size}'\nviews = {views}\n"
+    );
+    text += &format!("projection = '{}'\n", ["first", "third"][dice.below(2)]);
+    text += &format!("hidden = {}\n", dice.below(2) == 0);
+    text += &format!("dimensions = '{}'\n", ["none", "overall", "auto", "auto"][dice.below(4)]);
+    if count > 1 && dice.below(4) > 0 {
+        text += "parts_list = true\n";
+        if dice.below(3) == 0 && views.contains("top") {
+            text += "balloons = 'top'\n";
+        }
+    }
+    let notes: Vec<String> =
+        (0..dice.below(4)).map(|k| format!("'{}. Remove burrs, break sharp edges (R0.2).'", k + 1)).collect();
+    text += &format!("notes = [{}]\n", notes.join(", "));
+    let is_seen = |view: &str| views.contains(view);
+    for _ in 0..dice.below(3) {
+        let plane = ["x=", "y=", "z="][dice.below(3)];
+        text += &format!("[[page.section]]\nplane = '{plane}{:.0}%'\n", dice.between(15.0, 85.0));
+    }
+    for _ in 0..dice.below(3) {
+        let of = if is_seen("top") { "top" } else { "front" };
+        let [x, y] = holes[0].0;
+        let radius = dice.between(3.0, 12.0);
+        text += &format!("[[page.detail]]\nof = '{of}'\nat = [{x}, {y}, {h}]\nradius = {radius:.1}\n");
+    }
+    for _ in 0..dice.below(4) {
+        let of = if is_seen("top") && dice.below(2) == 0 {
+            "top"
+        } else if is_seen("front") {
+            "front"
+        } else {
+            "top"
+        };
+        let mut place = || {
+            format!("[{:.1}, {:.1}, {:.1}]", dice.between(0.0, w), dice.between(0.0, d), dice.between(0.0, h))
+        };
+        let (from, to) = (place(), place());
+        let measure = ["horizontal", "vertical", "aligned", "aligned"][dice.below(4)];
+        text +=
+            &format!("[[page.dimension]]\nof = '{of}'\nfrom = {from}\nto = {to}\nmeasure = '{measure}'\n");
+    }
+    let long = "Intermediate gearbox support with flanged connection to the main frame, left-hand variant";
+    text += &format!("[page.title]\ntitle = '{}'\n", if dice.below(2) == 0 { long } else { "Support" });
+    text += &format!(
+        "department = '{}'\n",
+        if dice.below(3) == 0 {
+            "Mechanical design of special machines, group for gearboxes"
+        } else {
+            "Design"
+        }
+    );
+    text +=
+        &format!("owner = '{}'\nnumber = 'T-{seed}'\n", if dice.below(3) == 0 { long } else { "Workshop" });
+    (text, obj(&parts))
+}
+
+/// Judges sheets; returns how many were drawn.
+fn judge(seeds: std::ops::Range<u64>) -> (usize, Vec<String>) {
+    let mut drawn = 0;
+    let mut wrong = Vec::new();
+    for seed in seeds {
+        let folder = folder(&format!("layout-{seed}"));
+        let (text, model) = generated(seed);
+        if let Ok(kept) = std::env::var("LIGNE_KEEP_SHEETS") {
+            let kept = std::path::Path::new(&kept).join(seed.to_string());
+            fs::create_dir_all(&kept).expect("a folder");
+            fs::write(kept.join("model.obj"), &model).expect("written");
+            fs::write(kept.join("sheet.toml"), &text).expect("written");
+        }
+        fs::write(folder.join("model.obj"), model).expect("written");
+        let composed = PageFile::from_text(&text, folder.join("sheet.toml")).expect("a page").compose();
+        fs::remove_dir_all(&folder).expect("removed");
+        match composed {
+            Ok(composed) => {
+                drawn += 1;
+                wrong.extend(faults(&composed[0]).into_iter().map(|fault| format!("sheet {seed}: {fault}")));
+            }
+            Err(error) => {
+                let message = error.to_string();
+                eprintln!("sheet {seed}: {message}");
+                let is_refused = ["fit", "no free place", "the cut runs beside"]
+                    .iter()
+                    .any(|known| message.contains(known));
+                if !is_refused {
+                    wrong.push(format!("sheet {seed}: {message}"));
+                }
+            }
+        }
+    }
+    (drawn, wrong)
+}
+
+#[test]
+fn nothing_on_a_sheet_touches_what_it_does_not_belong_to() {
+    let (drawn, wrong) = judge(0..SHEETS);
+    assert!(wrong.is_empty(), "{} faults:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(drawn as u64 * 4 >= SHEETS * 3, "{drawn} of {SHEETS} were drawn");
+}
+
+#[test]
+#[ignore = "100 sheets, minutes"]
+fn nothing_on_a_hundred_sheets_touches_what_it_does_not_belong_to() {
+    let (drawn, wrong) = judge(0..ALL_SHEETS);
+    eprintln!("{drawn} of {ALL_SHEETS} sheets were drawn, the others refused; {} faults", wrong.len());
+    assert!(wrong.is_empty(), "{} faults:\n{}", wrong.len(), wrong.join("\n"));
+    assert!(drawn as u64 * 4 >= ALL_SHEETS * 3, "{drawn} of {ALL_SHEETS} were drawn");
+}

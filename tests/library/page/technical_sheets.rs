@@ -1,0 +1,416 @@
+//! Technical sheets: figures of the standards, views that stand in line, leaders, what is refused.
+
+use std::fs;
+
+use ligne::drawing::{Item, Mark, Paint};
+use ligne::kurbo::{PathEl, Point, Rect, Shape};
+use ligne::page::sheet::part_balloons::leader_assignment::{cross, leaders, runs_through, slots};
+use ligne::page::{Composed, PageFile};
+
+use crate::support::scenes::random_dice::Dice;
+use crate::support::scenes::sheet_models::{block, bounds, folder, item, marks, obj, words};
+use crate::support::scenes::solids::{Solid, cuboid};
+
+/// A sheet with these keys of a step of 60 x 40 x 30.
+fn sheet(name: &str, keys: &str) -> Result<Composed, ligne::Error> {
+    let folder = folder(name);
+    let mut step = block([0.0, 0.0, 0.0], [60.0, 30.0, 20.0]);
+    step.add(block([0.0, 0.0, 20.0], [25.0, 30.0, 40.0]));
+    fs::write(folder.join("step.obj"), obj(&[("step".into(), step)])).expect("written");
+    let text = format!("[page]\nkind = 'sheet'\nmodel = {{ file = 'step.obj', up = 'z' }}\n{keys}");
+    let composed = PageFile::from_text(&text, folder.join("sheet.toml"))?.compose()?;
+    fs::remove_dir_all(&folder).expect("removed");
+    Ok(composed.into_iter().next().expect("a page"))
+}
+
+fn width(mark: &Mark) -> f64 {
+    match &mark.paint {
+        Paint::Stroke(stroke) => stroke.width,
+        _ => 0.0,
+    }
+}
+
+fn near(a: Rect, b: Rect) -> bool {
+    [a.x0 - b.x0, a.y0 - b.y0, a.x1 - b.x1, a.y1 - b.y1].into_iter().all(|d| d.abs() < 0.01)
+}
+
+/// Whether a stroke of that width has that box.
+fn has(item: &Item, wide: f64, rect: Rect) -> bool {
+    marks(item).any(|(_, mark)| width(mark) == wide && near(mark.path.bounding_box(), rect))
+}
+
+#[test]
+fn frames_and_title_blocks_are_where_the_standards_say() {
+    for (name, w, h) in [
+        ("A4", 210.0, 297.0),
+        ("A3", 420.0, 297.0),
+        ("A2", 594.0, 420.0),
+        ("A1", 841.0, 594.0),
+        ("A0", 1189.0, 841.0),
+    ] {
+        let composed = sheet(name, &format!("size = '{name}'\nviews = ['front']\n")).expect("a sheet");
+        let page = composed.composition.page;
+        assert_eq!([page.width, page.height], [w, h], "{name}");
+        let frame = item(&composed, "frame");
+        // ISO 5457, 4.2 and 4.4: 20 mm on the left, 10 mm elsewhere, 0.7 mm wide; zones in a band of 5 mm.
+        assert!(has(frame, 0.7, Rect::new(20.0, 10.0, w - 10.0, h - 10.0)), "{name}");
+        assert!(has(frame, 0.35, Rect::new(15.0, 5.0, w - 5.0, h - 5.0)), "{name}");
+        // Centring marks from the border of the zones to 10 mm within the frame, on both axes of the sheet.
+        let (x, y) = (w / 2.0, h / 2.0);
+        for mark in [
+            Rect::new(15.0, y, 30.0, y),
+            Rect::new(w - 20.0, y, w - 5.0, y),
+            Rect::new(x, 5.0, x, 20.0),
+            // Not into the title block, which takes the width of an A4.
+            Rect::new(x, if name == "A4" { h - 10.0 } else { h - 20.0 }, x, h - 5.0),
+        ] {
+            assert!(has(frame, 0.7, mark), "{name}: {mark:?}");
+        }
+        // Trimming marks of 10 x 5 mm at the corners.
+        for (px, py) in [(0.0, 0.0), (w, 0.0), (0.0, h), (w, h)] {
+            for (a, b) in [(10.0, 5.0), (5.0, 10.0)] {
+                let corner =
+                    Point::new(if px > 0.0 { w - a } else { 0.0 }, if py > 0.0 { h - b } else { 0.0 });
+                let own = Rect::from_origin_size(corner, (a, b));
+                assert!(marks(frame).any(|(_, m)| near(m.path.bounding_box(), own)), "{name}: {own:?}");
+            }
+        }
+        // Fields of 50 mm from the middle.
+        for k in 0..2 {
+            let line = x + 50.0 * f64::from(k);
+            assert!(has(frame, 0.35, Rect::new(line, 5.0, line, 10.0)), "{name}");
+        }
+        // ISO 7200: 180 mm wide, in the lower right corner.
+        let title = bounds(item(&composed, "title-block"));
+        assert!(near(title, Rect::new(w - 190.0, title.y0, w - 10.0, h - 10.0)), "{name}: {title:?}");
+        let letters = words(frame);
+        assert!(letters.contains(&"A".to_owned()) && !letters.iter().any(|c| c == "I" || c == "O"));
+    }
+}
+
+#[test]
+fn views_stand_in_line_at_one_scale() {
+    let keys = "views = ['front', 'top', 'left', 'right', 'bottom', 'back', 'iso']\noverall = false\n";
+    for method in ["first", "third"] {
+        let composed =
+            sheet(&format!("line-{method}"), &format!("projection = '{method}'\nsize = 'A2'\n{keys}"));
+        let composed = composed.expect("a sheet");
+        let of = |name: &str| bounds(item(&composed, name));
+        let [front, top, left, right, bottom, back] =
+            ["front", "top", "left", "right", "bottom", "back"].map(of);
+        let same = |a: f64, b: f64| (a - b).abs() < 0.001;
+        for view in [top, bottom] {
+            assert!(same(view.x0, front.x0) && same(view.x1, front.x1), "{method}: {view:?} {front:?}");
+        }
+        for view in [left, right, back] {
+            assert!(same(view.y0, front.y0) && same(view.y1, front.y1), "{method}: {view:?} {front:?}");
+        }
+        let first = method == "first";
+        assert_eq!([left.x0 > front.x1, top.y0 > front.y1], [first; 2], "{method}");
+        assert_eq!([right.x0 > front.x1, bottom.y0 > front.y1], [!first; 2], "{method}");
+        let scale = front.width() / 60.0;
+        assert!([0.5, 1.0, 2.0].iter().any(|known| same(scale, *known)), "{scale}");
+        assert!(same(front.height(), 40.0 * scale) && same(top.height(), 30.0 * scale));
+        // Nothing overlaps.
+        let views = [front, top, left, right, bottom, back, of("iso"), of("title-block")];
+        for (k, a) in views.iter().enumerate() {
+            for b in &views[..k] {
+                let both = a.intersect(*b);
+                assert!(both.width() <= 0.0 || both.height() <= 0.0, "{method}: {a:?} {b:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn scales_are_those_that_are_told_or_fit() {
+    let told = sheet("told", "scale = '1:2'\nviews = ['front']\n").expect("a sheet");
+    assert!((bounds(item(&told, "front")).width() - 30.0).abs() < 0.001);
+    assert!(words(item(&told, "title-block")).contains(&"1:2".to_owned()));
+    let inches = sheet("inches", "scale = '1:10'\nunit = 'in'\nviews = ['front']\n").expect("a sheet");
+    assert!((bounds(item(&inches, "front")).width() - 152.4).abs() < 0.001);
+    let error = sheet("large", "scale = '10:1'\n").expect_err("too large");
+    assert!(error.to_string().contains("do not fit"), "{error}");
+}
+
+#[test]
+fn lengths_are_true() {
+    let keys = "views = ['front', 'top', 'left']\n\
+        [[page.dimension]]\nfrom = [25, 0, 40]\nto = [60, 0, 20]\nmeasure = 'horizontal'\n\
+        [[page.dimension]]\nfrom = [0, 0, 0]\nto = [30, 0, 40]\n\
+        [[page.dimension]]\nof = 'top'\nfrom = [0, 0, 0]\nto = [0, 30, 0]\nmeasure = 'vertical'\ntext = 'all'\n";
+    let composed = sheet("lengths", keys).expect("a sheet");
+    let told = words(item(&composed, "notes"));
+    for value in ["60", "40", "30", "35", "50", "all"] {
+        assert!(told.contains(&value.to_owned()), "{value} of {told:?}");
+    }
+}
+
+#[test]
+fn sections_take_the_place_of_their_view_and_details_are_round() {
+    let keys = "views = ['top', 'left']\n[[page.section]]\nplane = 'y=15'\n\
+        [[page.detail]]\nof = 'top'\nat = [25, 0, 40]\nradius = 5\n";
+    let composed = sheet("section", keys).expect("a sheet");
+    let section = item(&composed, "section-A");
+    let patterns: Vec<&Mark> =
+        marks(section).map(|(_, mark)| mark).filter(|mark| mark.provenance.classes == ["pattern"]).collect();
+    assert!(!patterns.is_empty());
+    let [own, top] = ["section-A", "top"].map(|name| bounds(item(&composed, name)));
+    assert!((own.x0 - top.x0).abs() < 0.001 && own.y1 < top.y0);
+    let told = words(item(&composed, "notes"));
+    assert!(told.contains(&"A-A".to_owned()), "{told:?}");
+    assert_eq!(told.iter().filter(|word| *word == "A").count(), 2, "{told:?}");
+    let detail = item(&composed, "detail-B");
+    assert!(detail.clip.is_none());
+    let scale = top.width() / 60.0;
+    let circle = marks(item(&composed, "notes")).map(|(_, mark)| mark.path.bounding_box());
+    let circle = circle
+        .filter(|own| (own.width() - 10.0 * 5.0 * scale).abs() < 0.02)
+        .max_by(|a, b| a.x0.total_cmp(&b.x0));
+    let circle = circle.expect("a circle");
+    // Its lines end at the circle.
+    let mut reach = 0.0_f64;
+    for (place, mark) in marks(detail) {
+        for element in (place * mark.path.clone()).elements() {
+            let p = element.end_point().unwrap_or(circle.center());
+            reach = reach.max((p - circle.center()).hypot());
+        }
+    }
+    assert!((reach - circle.width() / 2.0).abs() < 0.02, "{reach} {circle:?}");
+    assert!(told.iter().any(|word| word.starts_with("B (")), "{told:?}");
+}
+
+#[test]
+fn axes_of_cylinders_are_crosses_and_lines() {
+    let folder = folder("centre");
+    let mut pin = Solid::default();
+    // A prism of 48 sides about the z axis, radius 10, from 0 to 30.
+    for k in 0..48 {
+        let angle = std::f64::consts::TAU * f64::from(k) / 48.0;
+        let (x, y) = (
+            10.0 * ligne::geometry::numbers::portable_math::cos(angle),
+            10.0 * ligne::geometry::numbers::portable_math::sin(angle),
+        );
+        pin.positions.extend([glam::DVec3::new(x, y, 0.0), glam::DVec3::new(x, y, 30.0)]);
+    }
+    for k in 0..48u32 {
+        let [a, b] = [2 * k, 2 * ((k + 1) % 48)];
+        pin.triangles.extend([[a, b, b + 1], [a, b + 1, a + 1], [0, b, a], [1, a + 1, b + 1]]);
+    }
+    fs::write(folder.join("pin.obj"), obj(&[("pin".into(), pin)])).expect("written");
+    let text = "[page]\nkind = 'sheet'\nmodel = { file = 'pin.obj', up = 'z' }\nviews = ['front', 'top']\noverall = false\n";
+    let page = PageFile::from_text(text, folder.join("a.toml")).expect("a page");
+    let composed = page.compose().expect("drawn").remove(0);
+    fs::remove_dir_all(&folder).expect("removed");
+    let [front, top] = ["front", "top"].map(|name| bounds(item(&composed, name)));
+    let lines: Vec<Rect> =
+        marks(item(&composed, "notes")).map(|(_, mark)| mark.path.bounding_box()).collect();
+    let middle = front.center().x;
+    let axis = Rect::new(middle, front.y0 - 2.5, middle, front.y1 + 2.5);
+    assert!(lines.iter().any(|line| near(*line, axis)), "{lines:?}");
+    let centre = top.center();
+    let arm = Rect::new(centre.x, centre.y, top.x1 + 2.5, centre.y);
+    assert!(lines.iter().any(|line| near(*line, arm)), "{lines:?} {arm:?}");
+    assert_eq!(lines.len(), 5);
+}
+
+#[test]
+fn leaders_of_twenty_assemblies_do_not_cross() {
+    let mut dice = Dice::new(17);
+    for round in 0..20 {
+        let folder = folder(&format!("assembly-{round}"));
+        let mut parts = Vec::new();
+        for k in 0..6 + round {
+            let at = dice.point(40.0);
+            let size = dice.point(6.0).abs() + glam::DVec3::splat(2.0);
+            parts.push((format!("part{k}x"), cuboid(at - size, at + size)));
+        }
+        fs::write(folder.join("a.obj"), obj(&parts)).expect("written");
+        let text =
+            "[page]\nkind = 'sheet'\nmodel = 'a.obj'\nviews = ['iso']\nparts_list = true\nsize = 'A2'\n";
+        let page = PageFile::from_text(text, folder.join("a.toml")).expect("a page");
+        let composed = page.compose().expect("drawn").remove(0);
+        fs::remove_dir_all(&folder).expect("removed");
+        let balloons = item(&composed, "balloons");
+        let mut lines = Vec::new();
+        let mut circles = Vec::new();
+        for (_, mark) in marks(balloons).filter(|(_, mark)| width(mark) > 0.0) {
+            match mark.path.elements() {
+                [PathEl::MoveTo(a), PathEl::LineTo(b)] => lines.push([*a, *b]),
+                _ => circles.push(mark.path.bounding_box()),
+            }
+        }
+        let hidden = composed
+            .warnings
+            .iter()
+            .filter(|warning| warning.contains("is not visible in the view with balloons"))
+            .count();
+        assert_eq!([lines.len() + hidden, circles.len() + hidden], [parts.len(); 2], "round {round}");
+        for (k, line) in lines.iter().enumerate() {
+            for other in &lines[..k] {
+                assert!(!cross(*line, *other), "round {round}: {line:?} {other:?}");
+            }
+            // It ends at its own circle, and runs through no other.
+            let near = |circle: &&Rect| {
+                let way = line[1] - line[0];
+                let share = ((circle.center() - line[0]).dot(way) / way.hypot2()).clamp(0.0, 1.0);
+                (line[0] + way * share - circle.center()).hypot() < 4.0 + 1e-6
+            };
+            assert_eq!(circles.iter().filter(near).count(), 1, "round {round}: {line:?}");
+        }
+        for (k, circle) in circles.iter().enumerate() {
+            let centre = circle.center();
+            assert!((circle.width() - 8.0).abs() < 0.01);
+            assert!(
+                circles[..k].iter().all(|other| (other.center() - centre).hypot2() > 64.0),
+                "round {round}"
+            );
+        }
+    }
+}
+
+#[test]
+fn leaders_of_random_anchors_do_not_cross() {
+    let mut dice = Dice::new(4);
+    let mut hits = 0;
+    for round in 0..200 {
+        let count = 2 + dice.below(40);
+        let border = Rect::new(0.0, 0.0, dice.between(60.0, 200.0), dice.between(60.0, 200.0));
+        let mut point =
+            || Point::new(dice.between(10.0, border.x1 - 10.0), dice.between(10.0, border.y1 - 10.0));
+        let anchors: Vec<Point> = (0..count).map(|_| point()).collect();
+        let room = (2.0 * (border.width() + border.height()) / (count as f64 + 0.5)).min(10.0);
+        let slots = slots(border, room, 0.5);
+        let of = leaders(&anchors, &slots, &|_, _| false);
+        let mut taken = of.clone();
+        taken.sort_unstable();
+        taken.dedup();
+        assert_eq!(taken.len(), count);
+        for a in 0..count {
+            for b in 0..a {
+                assert!(!cross([anchors[a], slots[of[a]]], [anchors[b], slots[of[b]]]), "round {round}");
+            }
+        }
+        // Nor do they run through the circles of others, where there is room.
+        for a in 0..count {
+            let through =
+                (0..count).filter(|b| *b != a && runs_through([anchors[a], slots[of[a]]], slots[of[*b]]));
+            hits += through.count();
+        }
+    }
+    assert!(hits <= 2, "{hits} leaders run through balloons");
+    let p = Point::new;
+    assert!(cross([p(0.0, 0.0), p(2.0, 2.0)], [p(0.0, 2.0), p(2.0, 0.0)]));
+    assert!(cross([p(0.0, 0.0), p(2.0, 0.0)], [p(1.0, 0.0), p(1.0, 5.0)]));
+    assert!(!cross([p(0.0, 0.0), p(1.0, 0.0)], [p(0.0, 1.0), p(1.0, 1.0)]));
+}
+
+#[test]
+fn parts_lists_count_what_is_there() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/pump.glb");
+    let items =
+        ligne::page::sheet::parts_list::parts_list_items::items(&ligne::Scene::open(path).expect("a model"));
+    let count = |name: &str| items.iter().find(|item| item.name == name).map_or(0, |item| item.parts.len());
+    assert_eq!([count("anchor"), count("volute"), count("motor-housing")], [6, 1, 1]);
+    assert_eq!(items.iter().map(|item| item.parts.len()).sum::<usize>(), 68);
+}
+
+#[test]
+fn parts_lists_come_from_files() {
+    let folder = folder("list");
+    let parts = [("plate", 0.0), ("bolt.1", 4.0), ("bolt.2", 8.0), ("nut", 12.0)];
+    let parts = parts.map(|(name, x)| (name.to_owned(), block([x, 0.0, 0.0], [x + 2.0, 3.0, 4.0])));
+    fs::write(folder.join("a.obj"), obj(&parts)).expect("written");
+    let compose = |list: &str, text: &str| {
+        fs::write(folder.join(list), text).expect("written");
+        let text =
+            format!("[page]\nkind = 'sheet'\nmodel = 'a.obj'\nviews = ['iso']\nparts_list = '{list}'\n");
+        PageFile::from_text(&text, folder.join("a.toml")).expect("a page").compose()
+    };
+    let csv = "Pos;Part;Name;Qty;Material;Remark\n10;plate;Base plate;;S235;painted\n20;bolt*;Bolt M6;;8.8;\n30;;Oil;2;;litres\n";
+    let composed = compose("list.csv", csv).expect("a sheet").remove(0);
+    let told = words(item(&composed, "parts-list"));
+    for word in ["10", "20", "30", "Base plate", "Bolt M6", "S235", "painted", "8.8", "litres", "Remark", "2"]
+    {
+        assert!(told.contains(&word.to_owned()), "{word}: {told:?}");
+    }
+    let mut balloons = words(item(&composed, "balloons"));
+    balloons.sort();
+    assert_eq!(balloons, ["10", "20"]);
+    assert!(
+        composed.warnings.contains(&"part 'nut' is in no row of the parts list".to_owned()),
+        "{:?}",
+        composed.warnings
+    );
+    let toml = "[[item]]\npart = 'bolt*'\nname = 'Bolt'\n[[item]]\nname = 'nut'\nnumber = 'N'\n";
+    let composed = compose("list.toml", toml).expect("a sheet").remove(0);
+    assert!(words(item(&composed, "balloons")).contains(&"N".to_owned()));
+    for (list, text, told) in [
+        ("a.csv", "nme\nplate\n", "no column `nme`"),
+        ("b.csv", "name,qty\nplate,many\n", "`many` is not a quantity"),
+        ("c.csv", "name\nplate\ncrank\n", "no part has the name `crank`"),
+        ("d.toml", "[[item]]\nnam = 'a'\n", "nam"),
+    ] {
+        let error = compose(list, text).expect_err(text);
+        assert!(error.to_string().contains(told) && error.file.is_some(), "{error}");
+    }
+    fs::remove_file(folder.join("a.csv")).expect("removed");
+    let text = "[page]\nkind = 'sheet'\nmodel = 'a.obj'\nparts_list = 'a.csv'\n";
+    let error =
+        PageFile::from_text(text, folder.join("a.toml")).expect("a page").compose().expect_err("none");
+    assert!(error.to_string().contains("no parts list `a.csv`"), "{error}");
+    fs::remove_dir_all(&folder).expect("removed");
+}
+
+#[test]
+fn sheets_tell_how_single_parts_come_apart() {
+    let folder = folder("told-parts");
+    let parts = [
+        ("plate".into(), block([0.0, 0.0, 0.0], [40.0, 40.0, 5.0])),
+        ("lid".into(), block([0.0, 0.0, 5.0], [40.0, 40.0, 10.0])),
+    ];
+    fs::write(folder.join("two.obj"), obj(&parts)).expect("written");
+    let proportion = |told: &str| {
+        let text = format!(
+            "[page]\nkind = 'sheet'\nscale = '1:1'\nviews = ['front']\nmodel = {{ file = 'two.obj', up = 'z' }}\n\
+             [page.exploded]\naxis = 'z'\nview = 'front'\n{told}"
+        );
+        let page =
+            PageFile::from_text(&text, folder.join("sheet.toml")).expect("a page").compose().expect("drawn");
+        let bounds = bounds(item(&page[0], "exploded"));
+        bounds.height() / bounds.width()
+    };
+    let (found, told) =
+        (proportion(""), proportion("[[page.exploded.part]]\nname = 'l?d'\nalong = '-z'\ndistance = 60\n"));
+    fs::remove_dir_all(&folder).expect("removed");
+    // The lid ends 60 below the upper side of the plate, which is 40 wide; the box is that of the middles of the lines.
+    assert!((told - 1.5).abs() < 0.07 && found < 0.5, "{found} {told}");
+}
+
+#[test]
+fn what_is_wrong_is_told_with_its_place() {
+    for (keys, told) in [
+        ("views = ['frnt']\n", "did you mean `front`?"),
+        ("vews = ['front']\n", "vews"),
+        ("projection = 'second'\n", "second"),
+        ("scale = 'big'\n", "this is not a scale"),
+        ("unit = 'furlong'\n", "furlong"),
+        ("[[page.section]]\nplane = 'w'\n", "this is not a plane"),
+        ("[[page.section]]\nplane = 'x=1000'\n", "misses the model"),
+        ("[[page.dimension]]\nof = 'back'\nfrom = [0,0,0]\nto = [1,0,0]\n", "no view on this sheet"),
+        ("[[page.detail]]\nat = [0,0,0]\nradius = -1\n", "not a radius"),
+        ("[page.exploded]\naxis = 'w'\n", "no axis"),
+        ("[[page.exploded.part]]\nname = 'wheel'\n", "no part has"),
+        ("[[page.exploded.part]]\nname = '*'\nalong = 'w'\n", "no direction"),
+        ("[[page.exploded.part]]\nname = '*'\ndistance = inf\n", "not a number"),
+        ("[page.title]\nheading = 'a'\n", "heading"),
+        ("font = 'none such'\n", "none such"),
+    ] {
+        let error = sheet("wrong", keys).expect_err(keys);
+        assert!(error.to_string().contains(told), "{keys}: {error}");
+        assert!(error.file.is_some(), "{keys}: {error}");
+    }
+    let error =
+        PageFile::from_text("[page]\nkind = 'sheet'\n", "a.toml").expect("read").compose().expect_err("none");
+    assert!(error.to_string().contains("has no model"), "{error}");
+}

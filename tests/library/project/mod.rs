@@ -1,0 +1,5 @@
+//! Rules of the source and of the built-in styles.
+
+mod architecture;
+mod style_keys;
+mod style_sheets;

@@ -1,0 +1,392 @@
+//! Colours that pass into each other on a surface become regions and lines where mathematics says: those of vertices, of both
+//! vertices and pictures, of pictures of blocks, of pictures that run to the horizon, and of pictures that only lines know.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+use kurbo::{Point, Shape as _};
+use ligne::colour::oklab::{self, Oklab};
+use ligne::colour::srgb::Colour;
+use ligne::drawing::Mark;
+use ligne::lines::LineKind;
+use ligne::pipeline::render;
+use ligne::scene::{Camera, Filter, Geometry, Material, Part, Projection, Scene};
+use ligne::style::Style;
+
+use crate::support::measures::line_picture::Ink;
+use crate::support::measures::plain_fills::{fills, plain};
+use crate::support::references::drawing_judge::{axis, ink_marks};
+use crate::support::references::textbook_camera::Eye;
+
+const NONE: u32 = u32::MAX;
+
+/// Triangles of one material, seen from the front.
+fn scene(geometry: Geometry, material: Material) -> Scene {
+    let part = Part { name: "sheet".to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY };
+    let geometry = Geometry { material: Some(0), ..geometry };
+    Scene {
+        format: "glTF",
+        geometries: vec![geometry],
+        parts: vec![part],
+        materials: vec![material],
+        ..Scene::default()
+    }
+}
+
+fn white() -> Material {
+    Material { name: "sheet".to_owned(), colour: Colour::WHITE, ..Material::default() }
+}
+
+/// A square of side 1 whose corners have these colours, of linear light, in two triangles.
+fn square(corners: [[f32; 3]; 4]) -> Geometry {
+    Geometry {
+        positions: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+            .map(|[x, y]| DVec3::new(x, y, 0.0))
+            .to_vec(),
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        colours: corners.map(|[r, g, b]| [r, g, b, 1.0]).to_vec(),
+        ..Geometry::default()
+    }
+}
+
+/// The colour that such a square has at a place of it.
+fn light([a, b, c, d]: [[f32; 3]; 4], x: f64, y: f64) -> [f32; 3] {
+    let mix = |k: usize| {
+        let [a, b, c, d] = [a, b, c, d].map(|own| f64::from(own[k]));
+        let sum = if y <= x { a + (b - a) * x + (c - b) * y } else { a + (d - a) * y + (c - d) * x };
+        sum as f32
+    };
+    [mix(0), mix(1), mix(2)]
+}
+
+/// A camera that sees the square of side `side` at the origin from the front, 400 px to a side of 1.
+fn front(width: f64, height: f64) -> Camera {
+    let target = DVec3::new(width / 2.0, height / 2.0, 0.0);
+    Camera {
+        eye: target + DVec3::Z * 5.0,
+        target,
+        up: DVec3::Y,
+        projection: Projection::Orthographic { height: height * 1.05 },
+        width: width * 420.0,
+        height: height * 420.0,
+        ..Camera::three_quarter()
+    }
+}
+
+fn top(fills: &[(&Mark, Colour)], p: Point) -> Option<Colour> {
+    fills.iter().rev().find(|(mark, _)| mark.path.winding(p) != 0).map(|(_, colour)| *colour)
+}
+
+fn palette(fills: &[(&Mark, Colour)]) -> Vec<Colour> {
+    let mut colours: Vec<Colour> = fills.iter().map(|(_, colour)| *colour).collect();
+    colours.sort_unstable();
+    colours.dedup();
+    colours
+}
+
+/// That of some colours that looks most like light.
+fn nearest(palette: &[Colour], light: [f32; 3]) -> Colour {
+    let far = |a: Oklab, b: Oklab| oklab::distance2(a, b);
+    let own = oklab::of_linear(light);
+    *palette.iter().min_by(|a, b| far(oklab::of(**a), own).total_cmp(&far(oklab::of(**b), own))).unwrap()
+}
+
+fn round(p: Point, radius: f64) -> impl Iterator<Item = Point> {
+    let turn = |k: u32| std::f64::consts::TAU * f64::from(k) / 12.0;
+    (0..12).map(move |k| p + kurbo::Vec2::from_angle(turn(k)) * radius)
+}
+
+/// Asserts that all places further than `off` from where truth changes are painted as it says; gives how many were asked.
+fn assert_true(
+    fills: &[(&Mark, Colour)],
+    camera: &Camera,
+    off: f64,
+    truth: impl Fn(Point) -> Option<Colour>,
+) -> u32 {
+    let mut asked = 0;
+    for k in 0..160 * 160 {
+        let [x, y] = [k % 160, k / 160].map(|k| (f64::from(k) + 0.5) / 160.0);
+        let p = Point::new(x * camera.width, y * camera.height);
+        let Some(own) = truth(p).filter(|own| round(p, off).all(|q| truth(q) == Some(*own))) else {
+            continue;
+        };
+        assert_eq!(top(fills, p), Some(own), "at {p}");
+        asked += 1;
+    }
+    asked
+}
+
+const CORNERS: [[f32; 3]; 4] = [[0.9, 0.1, 0.05], [0.05, 0.05, 0.6], [0.9, 0.85, 0.6], [0.0, 0.3, 0.1]];
+
+#[test]
+fn colours_of_vertices_fall_into_a_few_with_exact_borders() {
+    let model = scene(square(CORNERS), white());
+    let camera = front(1.0, 1.0);
+    let eye = Eye::new(&camera);
+    for count in [3, 6] {
+        let drawing = render(&model, &camera, &plain(&[&format!("fills.texture_colours={count}")])).unwrap();
+        let fills = fills(&drawing);
+        let palette = palette(&fills);
+        assert_eq!(palette.len(), count, "{palette:?}");
+        // One region a colour, but where a cell has two parts.
+        assert!(fills.len() <= count + 3, "{} regions", fills.len());
+        let truth = |p: Point| {
+            let at = eye.world(p, 5.0);
+            let is_in = at.x.min(at.y) > 0.0 && at.x.max(at.y) < 1.0;
+            is_in.then(|| nearest(&palette, light(CORNERS, at.x, at.y)))
+        };
+        assert!(assert_true(&fills, &camera, 0.6, truth) > 20_000);
+    }
+}
+
+#[test]
+fn faces_painted_in_one_colour_keep_it() {
+    // As many colours as the faces have, be the style content with fewer where they vary.
+    let tints = [[0.30_f32, 0.1, 0.1], [0.5, 0.1, 0.1], [0.1, 0.5, 0.2]];
+    let mut all = Geometry::default();
+    for (k, tint) in tints.into_iter().enumerate() {
+        let own = square([tint; 4]);
+        let first = all.positions.len() as u32;
+        all.positions.extend(own.positions.iter().map(|p| *p + DVec3::X * k as f64));
+        all.triangles.extend(own.triangles.iter().map(|t| t.map(|v| v + first)));
+        all.colours.extend(own.colours);
+    }
+    let drawing =
+        render(&scene(all, white()), &front(3.0, 1.0), &plain(&["fills.texture_colours=2"])).unwrap();
+    let seen = palette(&fills(&drawing));
+    let mut own: Vec<Colour> = tints.iter().map(|[r, g, b]| Colour::from_linear([*r, *g, *b, 1.0])).collect();
+    own.sort_unstable();
+    assert_eq!(seen, own);
+}
+
+#[test]
+fn artist_lines_run_where_colours_of_vertices_change_and_on_parts_of_seams() {
+    // Beside the square one that is white, and shares no colour with it.
+    let mut all = square(CORNERS);
+    let beside = square([[1.0; 3]; 4]);
+    all.positions.extend(beside.positions.iter().map(|p| *p + DVec3::X));
+    all.triangles.extend(beside.triangles.iter().map(|t| t.map(|v| v + 4)));
+    all.colours.extend(beside.colours);
+    let model = scene(all, white());
+    let camera = front(2.0, 1.0);
+    let eye = Eye::new(&camera);
+    let fills_drawn = render(&model, &camera, &plain(&["fills.texture_colours=5"])).unwrap();
+    let palette = palette(&fills(&fills_drawn));
+    let truth = |p: Point| {
+        let at = eye.world(p, 5.0);
+        let is_in = at.x.min(at.y) > 0.0 && at.x < 2.0 && at.y < 1.0;
+        let light = if at.x < 1.0 { light(CORNERS, at.x, at.y) } else { [1.0; 3] };
+        is_in.then(|| nearest(&palette, light))
+    };
+    for style in ["ink", "toon"] {
+        let changes = ["lines.kinds=['artist']", "fills.texture_colours=5"].map(str::to_owned);
+        let drawing = render(&model, &camera, &Style::load(style, &changes).unwrap()).unwrap();
+        let is_artist = |mark: &&Mark| mark.provenance.classes.contains(&LineKind::Artist.name());
+        let drawn: Vec<[Point; 2]> = ink_marks(&drawing).filter(is_artist).flat_map(axis).collect();
+        assert!(drawn.len() > 20, "{} pieces", drawn.len());
+        for p in drawn.iter().map(|[a, b]| a.midpoint(*b)) {
+            let seen: Vec<_> = round(p, 1.5).map(truth).collect();
+            assert!(seen.iter().any(|own| *own != seen[0]), "a line at {p}, where nothing changes");
+        }
+        let ink = Ink::new(drawn, 4.0);
+        for k in 0..200 * 100 {
+            let p = Point::new(f64::from(k % 200) * 4.2, f64::from(k / 200) * 4.2);
+            let q = p + kurbo::Vec2::new(1.0, 0.0);
+            if truth(p).is_some() && truth(q).is_some() && truth(p) != truth(q) {
+                assert!(ink.distance(p) < 2.0, "no line at {p}");
+            }
+        }
+    }
+    // The shared side is parted in some places, and is one white in others.
+    let along = |y: f64| [0.999, 1.001].map(|x| truth(eye.image(DVec3::new(x, y, 0.0))));
+    let parted = (1..100)
+        .filter(|k| {
+            let [a, b] = along(f64::from(*k) / 100.0);
+            a != b
+        })
+        .count();
+    assert!((10..90).contains(&parted), "{parted}");
+}
+
+/// A picture as a PNG file.
+fn png(width: u32, height: u32, of: impl Fn(u32, u32) -> [u8; 3]) -> Arc<[u8]> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgb);
+    let pixels: Vec<u8> = (0..width * height).flat_map(|k| of(k % width, k / width)).collect();
+    encoder.write_header().unwrap().write_image_data(&pixels).unwrap();
+    Arc::from(bytes)
+}
+
+/// A square that shows a picture as often as `times`.
+fn pictured(times: f32) -> Geometry {
+    Geometry {
+        uvs: vec![[0.0, times], [times, times], [times, 0.0], [0.0, 0.0]],
+        corner_uvs: vec![[0, 1, 2], [0, 2, 3]],
+        colours: Vec::new(),
+        ..square([[1.0; 3]; 4])
+    }
+}
+
+#[test]
+fn a_picture_and_colours_of_vertices_multiply() {
+    let (red, blue) = ([210, 60, 50], [60, 90, 200]);
+    let picture =
+        png(64, 64, |x, y| if (x as i32 - 32).pow(2) + (y as i32 - 32).pow(2) < 400 { red } else { blue });
+    let material = Material { picture: Some(picture), ..white() };
+    let dark = 0.15_f32;
+    let colours = [[1.0; 3], [dark; 3], [dark; 3], [1.0; 3]];
+    let geometry = Geometry { colours: square(colours).colours, ..pictured(1.0) };
+    let camera = front(1.0, 1.0);
+    let eye = Eye::new(&camera);
+    let drawing = render(&scene(geometry, material), &camera, &plain(&["fills.texture_colours=2"])).unwrap();
+    let fills = fills(&drawing);
+    assert_eq!(palette(&fills).len(), 4);
+    let mut seen = [0; 2];
+    for k in 0..80 * 80 {
+        let p = Point::new((f64::from(k % 80) + 0.5) * 5.25, (f64::from(k / 80) + 0.5) * 5.25);
+        let at = eye.world(p, 5.0);
+        let Some(colour) = top(&fills, p).filter(|_| at.x.min(at.y) > 0.01 && at.x.max(at.y) < 0.99) else {
+            continue;
+        };
+        let off = (at.truncate() - 0.5).length() - 20.0 / 64.0;
+        if off.abs() > 0.02 {
+            assert_eq!(colour.r > colour.b, off < 0.0, "at {p}");
+            seen[usize::from(off < 0.0)] += 1;
+        }
+        // Both are darker to the right.
+        let same_left = top(&fills, Point::new(60.0, p.y)).map(|left| left.luma());
+        assert!(at.x < 0.9 || off < 0.0 || same_left.is_none_or(|left| colour.luma() < left), "at {p}");
+    }
+    assert!(seen.iter().all(|count| *count > 1000), "{seen:?}");
+}
+
+#[test]
+fn texels_that_are_blocks_keep_their_corners() {
+    let art = [
+        0b0011_1100_u8,
+        0b0100_0010,
+        0b1010_0101,
+        0b1000_0001,
+        0b1010_0101,
+        0b1001_1001,
+        0b0100_0010,
+        0b0011_1100,
+    ];
+    let is_set = |x: u32, y: u32| art[y as usize] >> x & 1 == 1;
+    let picture = png(8, 8, |x, y| if is_set(x, y) { [30, 30, 40] } else { [250, 210, 60] });
+    let material = Material { picture: Some(picture), filter: Filter::Blocks, ..white() };
+    let camera = front(1.0, 1.0);
+    let eye = Eye::new(&camera);
+    let drawing = render(&scene(pictured(1.0), material), &camera, &plain(&[])).unwrap();
+    let fills = fills(&drawing);
+    let truth = |p: Point| {
+        let at = eye.world(p, 5.0);
+        let is_in = at.x.min(at.y) > 0.0 && at.x.max(at.y) < 1.0;
+        let own = |x: f64, y: f64| is_set(((x * 8.0) as u32).min(7), (((1.0 - y) * 8.0) as u32).min(7));
+        is_in.then(|| if own(at.x, at.y) { Colour::rgb(30, 30, 40) } else { Colour::rgb(250, 210, 60) })
+    };
+    assert!(assert_true(&fills, &camera, 0.8, truth) > 20_000);
+}
+
+#[test]
+fn a_floor_to_the_horizon_is_checked_near_and_even_far_away() {
+    let (dark, pale) = (Colour::rgb(40, 60, 120), Colour::rgb(240, 230, 210));
+    let of = |own: Colour| [own.r, own.g, own.b];
+    let picture = png(32, 32, |x, y| of(if (x / 16 + y / 16) % 2 == 1 { dark } else { pale }));
+    let material = Material { picture: Some(picture), ..white() };
+    let mut floor = pictured(20.0);
+    // 40 tiles wide and deep, from the eye on.
+    floor.positions = [[-20.0, 0.0], [20.0, 0.0], [20.0, -40.0], [-20.0, -40.0]]
+        .map(|[x, z]| DVec3::new(x, 0.0, z))
+        .to_vec();
+    let camera = Camera {
+        eye: DVec3::new(0.3, 1.2, 2.0),
+        target: DVec3::new(0.0, 0.0, -5.0),
+        up: DVec3::Y,
+        projection: Projection::Perspective { fov_y_deg: 45.0 },
+        width: 600.0,
+        height: 400.0,
+        ..Camera::three_quarter()
+    };
+    let eye = Eye::new(&camera);
+    let drawing = render(&scene(floor, material), &camera, &plain(&[])).unwrap();
+    let fills = fills(&drawing);
+    assert_eq!(palette(&fills).len(), 3);
+    assert!(fills.len() < 400, "{} regions", fills.len());
+    let on_floor = |p: Point| {
+        let (near, far) = (eye.world(p, 0.0), eye.world(p, 1.0));
+        let way = far - near;
+        let at = near - way * (near.y / way.y);
+        (way.y < 0.0 && at.z > -40.0 && at.z < 0.0 && at.x.abs() < 20.0).then_some(at)
+    };
+    let tile = |at: DVec3| if (at.x.floor() + at.z.floor()).rem_euclid(2.0) == 1.0 { dark } else { pale };
+    // Near the eye every tile is there; blurs of texels round its corners.
+    let near = |p: Point| on_floor(p).filter(|at| at.z > -9.0).map(tile);
+    assert!(assert_true(&fills, &camera, 4.0, near) > 5000);
+    // Far from it all is what both are in the mean.
+    let mean = *palette(&fills).iter().find(|own| ![dark, pale].contains(own)).unwrap();
+    let far = |p: Point| on_floor(p).filter(|at| at.z < -32.0).map(|_| mean);
+    assert!(assert_true(&fills, &camera, 1.0, far) > 20);
+}
+
+#[test]
+fn a_picture_that_the_style_names_gives_lines_and_no_paint() {
+    let folder = std::env::temp_dir().join(format!("ligne-artist-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let disc = |x: u32, y: u32| (x as i32 - 32).pow(2) + (y as i32 - 32).pow(2) < 400;
+    std::fs::write(folder.join("ink.png"), png(64, 64, |x, y| if disc(x, y) { [0; 3] } else { [255; 3] }))
+        .unwrap();
+    let sheet = |table: &str| {
+        let text = format!("extends = \"toon\"\n[lines]\nkinds = [\"artist\"]\n{table}\n");
+        std::fs::write(folder.join("sheet.toml"), text).unwrap();
+        Style::load(folder.join("sheet.toml").to_str().unwrap(), &[]).unwrap()
+    };
+    // What is painted is cut in halves, and has no line.
+    let halves = png(8, 8, |x, _| if x < 4 { [200, 0, 0] } else { [0, 0, 200] });
+    let material = Material { picture: Some(halves), ..white() };
+    let model = scene(pictured(1.0), material);
+    let camera = front(1.0, 1.0);
+    let eye = Eye::new(&camera);
+    for (table, has_disc) in [
+        ("artist_texture = \"ink.png\"", true),
+        ("artist_texture = { \"sh*\" = \"ink.png\" }", true),
+        ("artist_texture = { other = \"ink.png\" }", false),
+        ("artist_texture = \"ink.png\"\nartist_smooth = 100.0", false),
+    ] {
+        let style = sheet(table);
+        let drawing = render(&model, &camera, &style).unwrap();
+        // What is too fine for a smooth line is too fine for its paint.
+        let is_smooth = table.contains("smooth");
+        assert!(is_smooth || palette(&fills(&drawing)).len().is_multiple_of(2), "both halves are painted");
+        let drawn: Vec<[Point; 2]> = ink_marks(&drawing).flat_map(axis).collect();
+        // Its middle is that of a texel.
+        let middle = glam::DVec2::new(32.5, 31.5) / 64.0;
+        let off = |p: Point| ((eye.world(p, 5.0).truncate() - middle).length() - 20.0 / 64.0).abs();
+        let on_disc = drawn.iter().filter(|[a, b]| off(a.midpoint(*b)) < 0.012).count();
+        assert_eq!(on_disc > 8, has_disc, "{table}: {on_disc} of {}", drawn.len());
+        if has_disc {
+            let beside: Vec<Point> =
+                drawn.iter().map(|[a, b]| a.midpoint(*b)).filter(|p| off(*p) >= 0.012).collect();
+            assert!(beside.is_empty(), "{table}: {beside:?}");
+        }
+    }
+    let missing = "[lines]\nartist_texture = \"none.png\"\n";
+    std::fs::write(folder.join("sheet.toml"), missing).unwrap();
+    let error = Style::load(folder.join("sheet.toml").to_str().unwrap(), &[]).unwrap_err();
+    assert!(error.to_string().contains("none.png"), "{error}");
+    std::fs::remove_dir_all(&folder).unwrap();
+}
+
+#[test]
+fn what_has_no_numbers_is_painted_all_the_same() {
+    let mut geometry = square(CORNERS);
+    geometry.colours[1] = [f32::NAN, f32::INFINITY, -3.0, 1.0];
+    geometry.corner_uvs = vec![[0, NONE, 1], [NONE; 3]];
+    geometry.uvs = vec![[f32::NAN, 0.0], [1e30, 0.0]];
+    let material = Material { picture: Some(png(2, 2, |x, _| [x as u8 * 255; 3])), ..white() };
+    for material in [white(), material] {
+        let drawing = render(&scene(geometry.clone(), material), &front(1.0, 1.0), &plain(&[])).unwrap();
+        assert!(!fills(&drawing).is_empty());
+    }
+}

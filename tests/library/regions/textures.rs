@@ -1,0 +1,152 @@
+//! Pictures become regions of a few colours: point by point what the picture shows there, whatever the view.
+
+use glam::{DVec2, DVec3};
+use kurbo::{Point, Shape as _};
+use ligne::colour::srgb::Colour;
+use ligne::drawing::{LayerKind, Mark};
+use ligne::geometry::numbers::portable_math::{acos, atan2};
+use ligne::lines::LineKind;
+use ligne::pipeline::render;
+use ligne::scene::{Camera, Scene};
+use ligne::style::Style;
+
+use crate::support::measures::line_picture::Ink;
+use crate::support::measures::plain_fills::{fills, plain};
+use crate::support::references::drawing_judge::{axis, ink_marks};
+use crate::support::references::textbook_camera::Eye;
+
+const CREAM: [u8; 3] = [246, 239, 224];
+const SECTORS: [[u8; 3]; 6] = [[214, 66, 52], CREAM, [240, 180, 41], CREAM, [45, 110, 178], CREAM];
+const CLOTH: [[u8; 3]; 3] = [[52, 122, 84], [148, 190, 160], [250, 247, 238]];
+
+/// The ball on the cloth, from `examples/models`.
+fn picnic() -> Scene {
+    Scene::open(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/picnic.obj")).unwrap()
+}
+
+/// What a line of sight meets of a ball of radius 1/4 on a square cloth of side 1: the colour that its picture has there.
+fn truth(eye: &Eye, p: Point) -> Option<[u8; 3]> {
+    let (near, far) = (eye.world(p, 0.0), eye.world(p, 1.0));
+    let way = (far - near).normalize();
+    let middle = DVec3::new(0.0, 0.25, 0.0);
+    let along = (middle - near).dot(way);
+    let off2 = (near + way * along - middle).length_squared();
+    if off2 < 0.0625 {
+        let at = (near + way * (along - (0.0625 - off2).sqrt()) - middle) / 0.25;
+        let down = acos(at.y) / std::f64::consts::PI;
+        let turn = (atan2(-at.z, at.x) / std::f64::consts::TAU).rem_euclid(1.0);
+        let is_cap = !(1.0 / 12.0..11.0 / 12.0).contains(&down);
+        return Some(if is_cap { CREAM } else { SECTORS[(turn * 6.0) as usize % 6] });
+    }
+    let at = near - way * (near.y / way.y);
+    let place = DVec2::new(at.x + 0.5, 0.5 - at.z);
+    if place.min_element() < 0.0 || place.max_element() > 1.0 {
+        return None;
+    }
+    // The first row of the picture is that of the greatest v.
+    let checks = place * 5.0 - (place * 5.0).floor();
+    let stripes = usize::from(checks.x < 0.5) + usize::from(checks.y > 0.5);
+    Some(CLOTH[2 - stripes])
+}
+
+#[test]
+fn every_point_is_painted_as_its_picture_is_there() {
+    let scene = picnic();
+    for [azimuth, elevation] in [[30.0, 25.0], [-75.0, 50.0], [160.0, 12.0]] {
+        let camera = Camera::azimuth_elevation(azimuth, elevation, scene.up).fit(&scene);
+        let eye = Eye::new(&camera);
+        let drawing = render(&scene, &camera, &plain(&[])).unwrap();
+        let fills = fills(&drawing);
+        assert!(fills.len() < 120, "{} regions: colours are cut up", fills.len());
+        let mut seen = 0;
+        for k in 0..200 * 200 {
+            let p = Point::new((k % 200) as f64 + 0.5, (k / 200) as f64 + 0.5);
+            let p = Point::new(p.x * camera.width / 200.0, p.y * camera.height / 200.0);
+            // Not beside a border: the ball is a polyhedron, and borders have round corners.
+            let round = (0..8).map(|k| std::f64::consts::TAU * f64::from(k) / 8.0);
+            let mut near = round.map(|t| p + kurbo::Vec2::from_angle(t) * 2.0);
+            let Some(own) = truth(&eye, p).filter(|own| near.all(|q| truth(&eye, q) == Some(*own))) else {
+                continue;
+            };
+            let top = fills.iter().rev().find(|(mark, _)| mark.path.winding(p) != 0);
+            let [r, g, b] = own;
+            let off = top.map(|(_, c)| c.r.abs_diff(r).max(c.g.abs_diff(g)).max(c.b.abs_diff(b)));
+            assert!(
+                off.is_some_and(|off| off <= 4),
+                "{p} is {:?}, not {own:?}",
+                top.map(|(_, colour)| colour)
+            );
+            seen += 1;
+        }
+        assert!(seen > 6000, "{seen} points");
+    }
+}
+
+#[test]
+fn a_picture_can_count_as_its_mean_or_not_at_all() {
+    let scene = picnic();
+    let camera = Camera::three_quarter().fit(&scene);
+    let colours = |changes: &[&str]| {
+        let drawing = render(&scene, &camera, &plain(changes)).unwrap();
+        let mut colours: Vec<Colour> = fills(&drawing).into_iter().map(|(_, colour)| colour).collect();
+        colours.sort_unstable();
+        colours.dedup();
+        colours
+    };
+    assert_eq!(colours(&["fills.texture='off'"]), [Colour::WHITE]);
+    assert_eq!(colours(&["fills.texture='mean'"]).len(), 2);
+    assert_eq!(colours(&[]).len(), 6);
+    // The ball's picture is a palette, and keeps its colours.
+    assert_eq!(colours(&["fills.texture_colours=2"]).len(), 5);
+}
+
+#[test]
+fn lines_are_the_same_with_and_without_pictures() {
+    let scene = picnic();
+    let camera = Camera::three_quarter().fit(&scene);
+    let ink = |change: &str| {
+        let style = Style::load("toon", &[change.to_owned()]).unwrap();
+        let drawing = render(&scene, &camera, &style).unwrap();
+        drawing.layers.into_iter().find(|layer| layer.kind == LayerKind::Lines)
+    };
+    assert_eq!(ink("fills.texture='regions'"), ink("fills.texture='off'"));
+}
+
+#[test]
+fn artist_lines_run_where_painted_colours_change() {
+    let scene = picnic();
+    let camera = Camera::azimuth_elevation(30.0, 25.0, scene.up).fit(&scene);
+    let eye = Eye::new(&camera);
+    let round = |p: Point, radius: f64| {
+        (0..16)
+            .map(move |k| p + kurbo::Vec2::from_angle(std::f64::consts::TAU * f64::from(k) / 16.0) * radius)
+    };
+    for style in ["ink", "toon"] {
+        let change = "lines.kinds=['contour','border','artist']".to_owned();
+        let style = Style::load(style, &[change]).unwrap();
+        let drawing = render(&scene, &camera, &style).unwrap();
+        let is_artist = |mark: &&Mark| mark.provenance.classes.contains(&LineKind::Artist.name());
+        let drawn: Vec<[Point; 2]> = ink_marks(&drawing).filter(is_artist).flat_map(axis).collect();
+        assert!(drawn.len() > 50, "{} pieces", drawn.len());
+        for [a, b] in &drawn {
+            let p = a.midpoint(*b);
+            let mut seen: Vec<_> = round(p, 2.5).map(|q| truth(&eye, q)).collect();
+            seen.dedup();
+            assert!(seen.len() > 1, "a line at {p}, where nothing changes");
+        }
+        let all: Vec<[Point; 2]> = ink_marks(&drawing).flat_map(axis).collect();
+        let ink = Ink::new(all, 4.0);
+        let step = camera.width / 300.0;
+        for k in 0..300 * 300 {
+            let p = Point::new((k % 300) as f64 * step, (k / 300) as f64 * step);
+            if p.y < camera.height && truth(&eye, p) != truth(&eye, p + kurbo::Vec2::new(1.0, 0.0)) {
+                assert!(ink.distance(p) < 3.0, "no line at {p}");
+            }
+        }
+    }
+    // Colours that are near to each other have no line between them.
+    let far =
+        Style::load("ink", &["lines.kinds=['artist']".to_owned(), "lines.artist_tolerance=1".to_owned()])
+            .unwrap();
+    assert_eq!(ink_marks(&render(&scene, &camera, &far).unwrap()).count(), 0);
+}

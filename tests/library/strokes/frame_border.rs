@@ -1,0 +1,116 @@
+//! Lines that leave the frame: full ink up to its border, and none beyond.
+
+use glam::DVec3;
+use kurbo::{BezPath, Point, Rect, Shape};
+use ligne::chains::Chain;
+use ligne::drawing::{Mark, Paint};
+use ligne::strokes::{InkContext, ink};
+use ligne::style::Style;
+
+use crate::support::measures::stroke_marks::{axis, chain, context, length, outline, style, width_at};
+use crate::support::scenes::moving_boxes::{before, drawn, going, lines, rigged, unit_box};
+
+const FRAME: Rect = Rect::new(0.0, 0.0, 200.0, 100.0);
+
+fn framed(chains: &[Chain], style: &Style) -> Vec<Mark> {
+    let context = InkContext { frame: Some(FRAME), ..context(style) };
+    ink(chains, &context, &style.stroke).into_iter().flat_map(|layer| layer.marks).collect()
+}
+
+fn is_inside(path: &BezPath) -> bool {
+    let bounds = path.bounding_box();
+    bounds.x0 >= -1e-6 && bounds.y0 >= -1e-6 && bounds.x1 <= 200.0 + 1e-6 && bounds.y1 <= 100.0 + 1e-6
+}
+
+#[test]
+fn tapers_lie_past_the_border() {
+    let style = style(&["pen.swell.taper=40"]);
+    let marks = framed(&[chain(&[(0.0, 50.0), (120.0, 50.0)], [1.0; 2])], &style);
+    let mark = &marks[0];
+    // At the border it has its width; at the other end it tapers as ever.
+    for x in [0.3, 5.0, 40.0, 79.0] {
+        assert!((width_at(mark, x, 50.0) - 4.0).abs() < 0.15, "{x}: {}", width_at(mark, x, 50.0));
+    }
+    // 5 px from that end, an eighth of the taper: it goes from a fifth of the width at the end to all of it, eased.
+    let eased = 4.0 * (0.2 + 0.8 * 0.125 * (2.0 - 0.125));
+    assert!((width_at(mark, 115.0, 50.0) - eased).abs() < 0.15, "{}", width_at(mark, 115.0, 50.0));
+    assert!(is_inside(&mark.path) && is_inside(axis(mark)));
+    assert!((length(axis(mark)) - 120.0).abs() < 0.01);
+    let mean = mark.path.area().abs() / 120.0;
+    assert!((outline(mark).width - mean).abs() < 0.05, "{} {mean}", outline(mark).width);
+    // A line that ends inside, however near, is none that leaves.
+    let near = framed(&[chain(&[(0.5, 50.0), (120.0, 50.0)], [1.0; 2])], &style);
+    assert!(width_at(&near[0], 1.5, 50.0) < 1.0);
+}
+
+#[test]
+fn the_border_cuts_slanted_lines_straight() {
+    let style = style(&["pen.swell.taper=30", "pen.width=8"]);
+    // From the left border to the lower one.
+    let marks = framed(&[chain(&[(0.0, 40.0), (90.0, 100.0)], [1.0; 2])], &style);
+    let mark = &marks[0];
+    assert!(is_inside(&mark.path));
+    // Ink meets both borders all over the width of the line: 8 px over the cosine of its angle to them.
+    let long = (90.0_f64 * 90.0 + 60.0 * 60.0).sqrt();
+    let dark = |from: Point, to: Point| {
+        (0..2000).filter(|k| mark.path.winding(from.lerp(to, f64::from(*k) / 2000.0)) != 0).count() as f64
+            / 2000.0
+            * (to - from).hypot()
+    };
+    let left = dark(Point::new(0.01, 0.0), Point::new(0.01, 99.9));
+    assert!((left - 8.0 * long / 90.0).abs() < 0.3, "{left}");
+    let below = dark(Point::new(0.0, 99.99), Point::new(200.0, 99.99));
+    assert!((below - 8.0 * long / 60.0).abs() < 0.3, "{below}");
+}
+
+#[test]
+fn tremor_and_dashes_end_at_the_border() {
+    for sets in [
+        &["pen.hand.tremor=3", "pen.hand.tremor_length=20"][..],
+        &["pen.hand.tremor=2", "pen.dash=[6, 4]"],
+        &["pen.swell.taper=20", "pen.hand.overshoot=30", "pen.hand.passes=3", "pen.hand.stray=2"],
+        &["pen.brush={ path = 'M0 5C30 -1 60 -1 100 5C60 9 30 9 0 5Z' }"],
+    ] {
+        let style = style(sets);
+        for points in
+            [&[(0.0, 50.0), (200.0, 30.0)], &[(60.0, 0.0), (150.0, 100.0)], &[(30.0, 50.0), (80.0, 0.0)]]
+        {
+            let marks = framed(&[chain(points, [1.0; 2])], &style);
+            assert!(!marks.is_empty());
+            for mark in &marks {
+                let drawn = if matches!(mark.paint, Paint::Stroke(_)) { axis(mark) } else { &mark.path };
+                assert!(is_inside(drawn), "{sets:?}: {:?}", drawn.bounding_box());
+            }
+        }
+    }
+}
+
+#[test]
+fn tips_of_brushes_lie_past_the_border() {
+    let style = style(&["pen.brush={ path = 'M0 5L30 0L70 0L100 5L70 10L30 10Z' }"]);
+    let marks = framed(&[chain(&[(0.0, 50.0), (150.0, 50.0)], [1.0; 2])], &style);
+    for x in [0.3, 20.0, 60.0] {
+        assert!(width_at(&marks[0], x, 50.0) > 3.6, "{x}: {}", width_at(&marks[0], x, 50.0));
+    }
+    assert!(width_at(&marks[0], 140.0, 50.0) < 2.0);
+}
+
+#[test]
+fn motion_lines_that_run_out_end_at_the_border() {
+    // The picture is 10 units wide; the way began 12 units to the left.
+    let model = rigged(vec![unit_box()], vec![going(0, DVec3::X * 12.0)]);
+    let changes = ["motion.taper=1", "motion.width=9", "motion.segments=100", "motion.speed=1"];
+    let own = crate::support::scenes::moving_boxes::style(&changes);
+    let mut camera = before();
+    camera.target.x += 12.0;
+    camera.eye.x += 12.0;
+    let drawing = drawn(&model, 1.0, &camera, &own);
+    let marks = lines(&drawing);
+    assert!(!marks.is_empty());
+    let frame = Rect::new(0.0, 0.0, drawing.page.width, drawing.page.height);
+    for mark in marks {
+        let bounds = mark.path.bounding_box();
+        assert!(frame.inflate(1e-6, 1e-6).union(bounds) == frame.inflate(1e-6, 1e-6), "{bounds:?}");
+    }
+    assert!(lines(&drawing).iter().any(|mark| mark.path.bounding_box().x0 < 1e-6));
+}

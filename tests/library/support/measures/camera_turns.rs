@@ -1,0 +1,136 @@
+//! How much of a drawing stays where it belongs when the camera turns a little.
+
+use glam::{DAffine3, DVec3};
+use kurbo::Point;
+use ligne::chains::{self, Chain, ChainOptions};
+use ligne::drawing::Unit;
+use ligne::lines::{HiddenLines, LineKind, LineOptions, Surface};
+use ligne::mesh::Mesh;
+use ligne::scene::{Camera, Scene, UpAxis};
+
+use super::line_picture::Ink;
+use crate::support::references::contour_stops::view_map;
+use crate::support::references::textbook_camera::Eye;
+
+/// What smoothing, simplifying and fitting may leave between a drawn line and its surface, px.
+const PRECISION_PX: f64 = 0.25;
+/// Farther off than this is gone, px.
+const REACH: f64 = 6.0;
+/// A line with at least this much that goes, px, is one that pops.
+const POP_PX: f64 = 5.0;
+
+/// How much of the ink of two drawings each finds in the other.
+#[derive(Debug, Clone, Default)]
+pub struct Stability {
+    /// Length of all lines of both, px.
+    pub length: f64,
+    /// What lies no farther from the other than twice what its place on the surface moved.
+    pub stays: f64,
+    /// Lines of either that go in part or as a whole.
+    pub pops: Vec<Pop>,
+}
+
+/// A line that is in one drawing only, or that jumps.
+#[derive(Debug, Clone, Copy)]
+pub struct Pop {
+    pub kind: LineKind,
+    /// What is gone of it, and its length, px.
+    pub gone: f64,
+    pub length: f64,
+    /// The middle of what is gone.
+    pub place: Point,
+    /// Whether it is a line of the first drawing.
+    pub first: bool,
+}
+
+impl std::fmt::Display for Pop {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let Self { kind, gone, length, place, first } = self;
+        let which = if *first { "first" } else { "second" };
+        let (kind, x, y) = (kind.name(), place.x, place.y);
+        write!(f, "{gone:.1} of {length:.1} px of a {kind} of the {which} drawing at ({x:.1}, {y:.1})")
+    }
+}
+
+impl Stability {
+    /// Percent.
+    pub fn share(&self) -> f64 {
+        100.0 * self.stays / self.length.max(f64::MIN_POSITIVE)
+    }
+
+    pub fn add(&mut self, other: Self) {
+        self.length += other.length;
+        self.stays += other.stays;
+        self.pops.extend(other.pops);
+    }
+}
+
+/// The camera turned about the upright line through its target.
+pub fn turned(camera: &Camera, scene: &Scene, degrees: f64) -> Camera {
+    let up = if scene.up == UpAxis::Y { DVec3::Y } else { DVec3::Z };
+    let turn = DAffine3::from_axis_angle(up, degrees.to_radians());
+    let eye = camera.target + turn.transform_vector3(camera.eye - camera.target);
+    Camera { eye, up: turn.transform_vector3(camera.up), ..*camera }
+}
+
+/// Compares the default drawings of two cameras.
+pub fn compare(surface: &Surface, options: &LineOptions, cameras: [&Camera; 2]) -> Stability {
+    let drawings = cameras.map(|camera| {
+        let map = view_map(surface, camera, options);
+        let mut chains = chains::link(&map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
+        chains.retain(|c| c.invisibility == 0);
+        chains
+    });
+    let eyes = cameras.map(Eye::new);
+    let mut result = Stability::default();
+    for (from, to) in [(0, 1), (1, 0)] {
+        let ink = Ink::new(drawings[to].iter().flat_map(segments).map(|(s, _)| s).collect(), REACH);
+        for chain in &drawings[from] {
+            let (mut length, mut gone, mut place) = (0.0, 0.0, Point::ZERO.to_vec2());
+            for (p, depth, part) in samples(chain) {
+                let moved = (eyes[to].image(eyes[from].world(p, depth)) - p).hypot();
+                length += part;
+                if ink.distance(p) > 2.0 * moved + PRECISION_PX {
+                    gone += part;
+                    place += p.to_vec2() * part;
+                }
+            }
+            result.length += length;
+            result.stays += length - gone;
+            if gone >= POP_PX {
+                let place = (place / gone).to_point();
+                result.pops.push(Pop { kind: chain.kind, gone, length, place, first: from == 0 });
+            }
+        }
+    }
+    result
+}
+
+/// The surface of a scene, as default drawings have it.
+pub fn surface(scene: &Scene, options: &LineOptions) -> Surface {
+    Surface::new(Mesh::build(scene.to_soup()), options)
+}
+
+/// The sides of a chain with the depths at their ends.
+fn segments(chain: &Chain) -> impl Iterator<Item = ([Point; 2], [f64; 2])> + '_ {
+    let n = chain.points.len();
+    let sides = if chain.closed { n } else { n.saturating_sub(1) };
+    (0..sides).map(move |i| {
+        let j = (i + 1) % n;
+        ([chain.points[i], chain.points[j]], [chain.samples[i].depth, chain.samples[j].depth])
+    })
+}
+
+/// Places along a chain every half px: where, at what depth, for how much length.
+fn samples(chain: &Chain) -> Vec<(Point, f64, f64)> {
+    let mut found = Vec::new();
+    for ([a, b], [from, to]) in segments(chain) {
+        let length = (b - a).hypot();
+        let count = (length / 0.5).ceil().max(1.0);
+        for k in 0..count as usize {
+            let t = (k as f64 + 0.5) / count;
+            found.push((a.lerp(b, t), from + (to - from) * t, length / count));
+        }
+    }
+    found
+}

@@ -1,0 +1,270 @@
+//! Whether the visible contours of rounded surfaces stop only where something explains it.
+//!
+//! Asked of the finished view map alone, not of the code that made it.
+
+use glam::DVec3;
+use kurbo::Point;
+use ligne::lines::{self, LineKind, LineOptions, Surface};
+use ligne::scene::{Camera, Projection, Scene, UpAxis};
+use ligne::view::View;
+use ligne::visibility::{self, ViewMap, ViewVertexKind};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::support::measures::line_picture::{Ink, nearest_on};
+
+/// How near an explanation has to be, px.
+const NEAR_PX: f64 = 0.75;
+/// A contour's own line is no explanation this far back along it, px.
+const OWN_PX: f64 = 2.5;
+
+/// Nothing is sought farther off than this, px.
+const FAR_PX: f64 = 8.0;
+/// Loose pieces shorter than this are not drawn, px.
+const CRUMB_PX: f64 = 4.0;
+
+/// What one or more views came to.
+#[derive(Debug, Clone, Default)]
+pub struct Tally {
+    pub views: usize,
+    /// Smooth contours, and pieces of the polyhedron's that are drawn in their place, by the view map's
+    /// count.
+    pub curves: u64,
+    pub bare: u64,
+    /// Places where a visible contour stops.
+    pub stops: usize,
+    /// Of these: under a nearer line, where the contour turns back, at another line, at the frame.
+    pub junctions: usize,
+    pub cusps: usize,
+    pub at_lines: usize,
+    pub at_frame: usize,
+    /// Across a gap from another such place, not wider than [`NEAR_PX`]; at the end of a piece so short
+    /// that it is not drawn by itself.
+    pub slits: usize,
+    pub crumbs: usize,
+    /// The rest.
+    pub unexplained: Vec<Stop>,
+}
+
+/// A place where a visible contour stops for no reason.
+#[derive(Debug, Clone, Copy)]
+pub struct Stop {
+    pub position: Point,
+    pub kind: ViewVertexKind,
+    /// Whether a hidden contour goes on there.
+    pub goes_on: bool,
+    /// How far it is to the next place where a visible contour stops; infinite beyond [`FAR_PX`].
+    pub gap: f64,
+    /// Length of the piece that stops, up to [`FAR_PX`].
+    pub length: f64,
+}
+
+impl std::fmt::Display for Stop {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        let Self { position, kind, goes_on, gap, length } = self;
+        let on = if *goes_on { "goes on hidden" } else { "nothing goes on" };
+        write!(f, "({:.2}, {:.2}) {kind:?}, {on}, gap {gap:.2}, after {length:.1} px", position.x, position.y)
+    }
+}
+
+impl Tally {
+    pub fn add(&mut self, other: Self) {
+        self.views += other.views;
+        self.curves += other.curves;
+        self.bare += other.bare;
+        self.stops += other.stops;
+        self.junctions += other.junctions;
+        self.cusps += other.cusps;
+        self.at_lines += other.at_lines;
+        self.at_frame += other.at_frame;
+        self.slits += other.slits;
+        self.crumbs += other.crumbs;
+        self.unexplained.extend(other.unexplained);
+    }
+
+    /// Pieces of the polyhedron's contour drawn in a view, on average.
+    pub fn bare_a_view(&self) -> f64 {
+        self.bare as f64 / (self.views as f64).max(1.0)
+    }
+
+    /// Stops that are explained, percent.
+    pub fn explained(&self) -> f64 {
+        100.0 * (1.0 - self.unexplained.len() as f64 / (self.stops as f64).max(1.0))
+    }
+
+    pub fn header() -> String {
+        format!(
+            "{:24} {:>5} {:>7} {:>6} {:>8} {:>7} {:>6} {:>6} {:>6} {:>6} {:>6} {:>6} {:>7} {:>8}",
+            "model",
+            "views",
+            "curves",
+            "bare",
+            "a view",
+            "stops",
+            "under",
+            "cusps",
+            "lines",
+            "frame",
+            "slits",
+            "crumbs",
+            "unexpl.",
+            "expl. %"
+        )
+    }
+
+    pub fn row(&self, name: &str) -> String {
+        format!(
+            "{name:24} {:5} {:7} {:6} {:8.3} {:7} {:6} {:6} {:6} {:6} {:6} {:6} {:7} {:8.3}",
+            self.views,
+            self.curves,
+            self.bare,
+            self.bare_a_view(),
+            self.stops,
+            self.junctions,
+            self.cusps,
+            self.at_lines,
+            self.at_frame,
+            self.slits,
+            self.crumbs,
+            self.unexplained.len(),
+            self.explained()
+        )
+    }
+}
+
+/// The 26 directions to the faces, edges and corners of a cube, every other view parallel.
+pub fn cameras(scene: &Scene) -> Vec<Camera> {
+    let mut cameras = Vec::new();
+    for code in (0..27).filter(|code| *code != 13) {
+        let way = DVec3::new(f64::from(code % 3), f64::from(code / 3 % 3), f64::from(code / 9)) - DVec3::ONE;
+        let own_up = if scene.up == UpAxis::Y { DVec3::Y } else { DVec3::Z };
+        let up = if way.cross(own_up) == DVec3::ZERO { DVec3::X } else { own_up };
+        let projection = match code % 2 {
+            0 => Projection::Perspective { fov_y_deg: 35.0 },
+            _ => Projection::Orthographic { height: 1.0 },
+        };
+        let eye = way.normalize();
+        let camera =
+            Camera { eye, target: DVec3::ZERO, up, projection, width: 1000.0, height: 1000.0, near: None };
+        cameras.push(camera.fit(scene));
+    }
+    cameras
+}
+
+/// The view map of a surface.
+pub fn view_map(surface: &Surface, camera: &Camera, options: &LineOptions) -> ViewMap {
+    let surface = surface.clone().finer_for(camera);
+    let view = View::new(&surface.mesh, camera);
+    let lines = lines::extract(&surface, &view, options);
+    visibility::build(&surface.mesh, &view, &lines, options)
+}
+
+/// Looks at all places of a view map where a visible smooth contour stops.
+pub fn check(map: &ViewMap) -> Tally {
+    let mut tally =
+        Tally { views: 1, curves: map.contours.curves, bare: map.contours.bare, ..Tally::default() };
+    let place = |v: u32| map.vertices[v as usize].position;
+    let seen: Vec<usize> = (0..map.edges.len()).filter(|e| map.edges[*e].invisibility == 0).collect();
+    let ends = |e: usize| [map.edges[e].start.0, map.edges[e].end.0];
+    let mut at: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
+    let mut hidden_at: FxHashSet<u32> = FxHashSet::default();
+    for (e, edge) in map.edges.iter().enumerate() {
+        for v in ends(e) {
+            if edge.invisibility == 0 {
+                at.entry(v).or_default().push(e);
+            } else if edge.kind == LineKind::Contour {
+                hidden_at.insert(v);
+            }
+        }
+    }
+    let ink = Ink::new(seen.iter().map(|e| ends(*e).map(place)).collect(), NEAR_PX);
+    let is_smooth = |e: &&usize| map.edges[**e].kind == LineKind::Contour && map.edges[**e].smooth;
+    // Where a line meets another by identity it does not stop in the open.
+    let stops: Vec<(usize, u32)> = seen
+        .iter()
+        .filter(is_smooth)
+        .flat_map(|e| ends(*e).map(|v| (*e, v)))
+        .filter(|(_, v)| at[v].len() == 1)
+        .collect();
+    let others = Ink::new(stops.iter().map(|(_, v)| [place(*v); 2]).collect(), FAR_PX);
+    tally.stops = stops.len();
+    for (stop, &(e, v)) in stops.iter().enumerate() {
+        let vertex = map.vertices[v as usize];
+        let (own, _) = behind(v, e, OWN_PX, &at, &ends, &place);
+        let lines: Vec<(usize, f64)> = ink
+            .near(vertex.position)
+            .map(|(i, s)| (seen[i], nearest_on(vertex.position, s), s))
+            .filter(|(_, t, s)| (vertex.position - s[0].lerp(s[1], *t)).hypot() <= NEAR_PX)
+            .filter(|(e, _, _)| !own.contains(e))
+            .map(|(e, t, _)| (e, t))
+            .collect();
+        let depth = |e: usize, t: f64| {
+            let [a, b] = ends(e).map(|v| map.vertices[v as usize].depth);
+            a + (b - a) * t
+        };
+        let bounds = |e: usize| matches!(map.edges[e].kind, LineKind::Contour | LineKind::Border);
+        let nearer = lines.iter().any(|(o, t)| bounds(*o) && depth(*o, *t) < vertex.depth);
+        let line = lines.iter().any(|(o, _)| map.edges[*o].kind != LineKind::Contour);
+        let from = |(i, [p, _]): (usize, [Point; 2])| {
+            if i == stop { f64::INFINITY } else { (p - vertex.position).hypot() }
+        };
+        let gap = others.near(vertex.position).map(from).fold(f64::INFINITY, f64::min);
+        let (_, length) = behind(v, e, FAR_PX, &at, &ends, &place);
+        let kind = vertex.kind;
+        if kind == ViewVertexKind::Frame {
+            tally.at_frame += 1;
+        } else if kind == ViewVertexKind::TJunction && nearer {
+            tally.junctions += 1;
+        } else if line {
+            tally.at_lines += 1;
+        } else if kind == ViewVertexKind::Cusp || turns_back(map, v, e, &ends) {
+            tally.cusps += 1;
+        } else if gap <= NEAR_PX {
+            tally.slits += 1;
+        } else if length < CRUMB_PX {
+            tally.crumbs += 1;
+        } else {
+            let (position, goes_on) = (vertex.position, hidden_at.contains(&v));
+            tally.unexplained.push(Stop { position, kind, goes_on, gap, length });
+        }
+    }
+    tally
+}
+
+/// The visible line that ends at `v` with edge `e`, at least `reach` px back, and its length so far.
+fn behind(
+    v: u32,
+    e: usize,
+    reach: f64,
+    at: &FxHashMap<u32, Vec<usize>>,
+    ends: &impl Fn(usize) -> [u32; 2],
+    place: &impl Fn(u32) -> Point,
+) -> (FxHashSet<usize>, f64) {
+    let mut own = FxHashSet::default();
+    let (mut from, mut edge, mut length) = (v, e, 0.0);
+    loop {
+        own.insert(edge);
+        let [a, b] = ends(edge);
+        let to = if a == from { b } else { a };
+        length += (place(b) - place(a)).hypot();
+        let next = at[&to].iter().copied().find(|o| !own.contains(o));
+        match next {
+            Some(next) if length < reach => (from, edge) = (to, next),
+            _ => return (own, length),
+        }
+    }
+}
+
+/// Whether the contour goes on hidden from `v`, and in the image comes back at least a little: a cusp.
+fn turns_back(map: &ViewMap, v: u32, e: usize, ends: &impl Fn(usize) -> [u32; 2]) -> bool {
+    let place = |v: u32| map.vertices[v as usize].position;
+    let other = |e: usize, v: u32| {
+        let [a, b] = ends(e);
+        if a == v { b } else { a }
+    };
+    let here = place(v);
+    let came = here - place(other(e, v));
+    // Edges are in the order of their segments, which run along the curve: hidden ones lie close by.
+    let window = e.saturating_sub(64)..(e + 65).min(map.edges.len());
+    let goes = |o: &usize| *o != e && map.edges[*o].kind == LineKind::Contour && ends(*o).contains(&v);
+    window.filter(goes).any(|o| came.dot(place(other(o, v)) - here) < 0.0)
+}

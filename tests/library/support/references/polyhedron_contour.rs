@@ -1,0 +1,59 @@
+//! How far visible smooth contours lie from the contour of the polyhedron, seen or hidden.
+
+use kurbo::Point;
+use ligne::lines::{Contours, LineKind, LineOptions, Surface};
+use ligne::mesh::Mesh;
+use ligne::scene::{Camera, Scene};
+use ligne::visibility::ViewMap;
+
+use super::contour_stops::view_map;
+use crate::support::measures::line_picture::{Ink, quantile, samples};
+
+/// Distances are told up to here, px.
+const REACH: f64 = 8.0;
+
+/// A surface with smooth contours, and with those of the polyhedron.
+pub struct Both {
+    auto: Surface,
+    polygon: Surface,
+}
+
+impl Both {
+    pub fn of(scene: &Scene) -> Self {
+        let [auto, polygon] = [Contours::Auto, Contours::Mesh]
+            .map(|contours| Surface::new(Mesh::build(scene.to_soup()), &options(contours)));
+        Self { auto, polygon }
+    }
+
+    /// The distances of a view in px, ascending, one for each half px of smooth contour; `None` where the
+    /// model is not taken as rounded, so that both contours are one.
+    pub fn distances(&self, camera: &Camera) -> Option<Vec<f64>> {
+        let smooth = view_map(&self.auto, camera, &options(Contours::Auto));
+        if smooth.contours.curves == 0 {
+            return None;
+        }
+        let polygon = view_map(&self.polygon, camera, &options(Contours::Mesh));
+        let truth = Ink::new(contours(&polygon, |_, _| true), REACH);
+        let drawn = contours(&smooth, |smooth, seen| smooth && seen);
+        let mut found: Vec<f64> = samples(&drawn, 0.5).iter().map(|(p, _)| truth.distance(*p)).collect();
+        found.sort_by(f64::total_cmp);
+        Some(found)
+    }
+}
+
+/// Half, 95 of 100, all of the distances are at most, and the share within half a px in percent.
+pub fn summary(distances: &[f64]) -> [f64; 4] {
+    let within = distances.partition_point(|d| *d <= 0.5) as f64;
+    let share = 100.0 * within / (distances.len() as f64).max(1.0);
+    [quantile(distances, 0.5), quantile(distances, 0.95), quantile(distances, 1.0), share]
+}
+
+fn options(contours: Contours) -> LineOptions {
+    LineOptions { contours, ..LineOptions::default() }
+}
+
+fn contours(map: &ViewMap, wanted: impl Fn(bool, bool) -> bool) -> Vec<[Point; 2]> {
+    let contours = map.edges.iter().filter(|e| e.kind == LineKind::Contour || e.kind == LineKind::Border);
+    let wanted = contours.filter(|e| wanted(e.smooth, e.invisibility == 0));
+    wanted.map(|e| [e.start, e.end].map(|v| map.vertices[v.index()].position)).collect()
+}

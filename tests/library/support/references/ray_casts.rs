@@ -1,0 +1,170 @@
+//! Rays from the eye through every triangle that may be in their way, in f64: slow and obvious but for a grid
+//! of cells over the picture.
+
+use kurbo::{Point, Vec2};
+
+use super::textbook_camera::Eye;
+use super::triangle_scene::Polygons;
+
+/// Side of a cell, px.
+const CELL: f64 = 8.0;
+/// Surfaces that touch hide nothing of each other: this share of the size of all counts as touching.
+const CONTACT: f64 = 1e-6;
+
+/// What lies before a point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Before {
+    Nothing,
+    /// A surface that touches the point.
+    Contact,
+    Something,
+}
+
+/// A triangle as the eye sees it: signed distances to its sides, and nearness over the picture.
+struct Seen {
+    sides: [[f64; 3]; 3],
+    nearness: [f64; 3],
+    range: [f64; 2],
+    face: u32,
+}
+
+pub struct Rays<'a> {
+    pub polygons: &'a Polygons,
+    pub eye: &'a Eye,
+    seen: Vec<Seen>,
+    cells: Vec<Vec<u32>>,
+    columns: usize,
+    rows: usize,
+}
+
+impl<'a> Rays<'a> {
+    /// All triangles, in a frame of `width` x `height` px.
+    pub fn new(polygons: &'a Polygons, eye: &'a Eye, width: f64, height: f64) -> Self {
+        let (columns, rows) = ((width / CELL).ceil() as usize + 1, (height / CELL).ceil() as usize + 1);
+        let cells = vec![Vec::new(); columns * rows];
+        let mut rays = Self { polygons, eye, seen: Vec::new(), cells, columns, rows };
+        (0..polygons.faces.len()).filter(|face| !polygons.is_flat(*face)).for_each(|face| rays.add(face));
+        rays
+    }
+
+    fn add(&mut self, face: usize) {
+        let mut corners = self.polygons.corners(face).map(|p| project(self.eye, p));
+        let area = turn(corners[0].0, corners[1].0, corners[2].0);
+        let longest =
+            (0..3).map(|k| (corners[k].0 - corners[(k + 1) % 3].0).hypot2()).fold(0.0, f64::max).sqrt();
+        if area.abs() <= 1e-8 * longest {
+            return; // edge-on
+        }
+        if area < 0.0 {
+            corners.swap(1, 2);
+        }
+        let [a, b, c] = corners;
+        let sides = [(a, b), (b, c), (c, a)].map(|(p, q)| {
+            let way = (q.0 - p.0) / (q.0 - p.0).hypot2().sqrt();
+            let [x, y] = [-way.y, way.x];
+            [x, y, -(x * p.0.x + y * p.0.y)]
+        });
+        let (u, v) = (b.0 - a.0, c.0 - a.0);
+        let (rise_u, rise_v) = (b.1 - a.1, c.1 - a.1);
+        let x = (rise_u * v.y - rise_v * u.y) / area.abs();
+        let y = (rise_v * u.x - rise_u * v.x) / area.abs();
+        let nearness = [x, y, a.1 - x * a.0.x - y * a.0.y];
+        let range = [a.1.min(b.1).min(c.1), a.1.max(b.1).max(c.1)];
+        let id = self.seen.len() as u32;
+        let cell = |value: f64, most: usize| ((value / CELL).floor().max(0.0) as usize).min(most - 1);
+        let low = |f: fn(&Point) -> f64| corners.iter().map(|p| f(&p.0)).fold(f64::INFINITY, f64::min) - 1e-6;
+        let high =
+            |f: fn(&Point) -> f64| corners.iter().map(|p| f(&p.0)).fold(f64::NEG_INFINITY, f64::max) + 1e-6;
+        let x_of = |p: &Point| p.x;
+        let y_of = |p: &Point| p.y;
+        for row in cell(low(y_of), self.rows)..=cell(high(y_of), self.rows) {
+            for column in cell(low(x_of), self.columns)..=cell(high(x_of), self.columns) {
+                let (x, y) = ((column as f64 + 0.5) * CELL, (row as f64 + 0.5) * CELL);
+                let reaches = |s: &[f64; 3]| {
+                    s[0] * x + s[1] * y + s[2] >= -(s[0].abs() + s[1].abs()) * CELL / 2.0 - 1e-6
+                };
+                if sides.iter().all(reaches) {
+                    self.cells[row * self.columns + column].push(id);
+                }
+            }
+        }
+        self.seen.push(Seen { sides, nearness, range, face: face as u32 });
+    }
+
+    /// What lies before a place of the picture at a nearness; `touching` says of each face how near in depth
+    /// it may be without hiding, or that it is left out.
+    pub fn before(&self, at: Point, nearness: f64, touching: impl Fn(u32) -> Option<f64>) -> Before {
+        let depth = self.depth(nearness);
+        let contact = CONTACT * self.polygons.size;
+        let mut found = Before::Nothing;
+        for seen in self.through(at) {
+            let hit = seen.nearness[0] * at.x + seen.nearness[1] * at.y + seen.nearness[2];
+            let lead = depth - self.depth(hit.clamp(seen.range[0], seen.range[1]));
+            if lead <= -contact {
+                continue;
+            }
+            match touching(seen.face) {
+                None => {}
+                Some(limit) if lead > limit => return Before::Something,
+                Some(_) => found = Before::Contact,
+            }
+        }
+        found
+    }
+
+    /// The nearest of the wanted faces at a place.
+    pub fn nearest(&self, at: Point, wanted: impl Fn(u32) -> bool) -> Option<f64> {
+        let seen = self.through(at).filter(|seen| wanted(seen.face));
+        let hits = seen.map(|seen| seen.nearness[0] * at.x + seen.nearness[1] * at.y + seen.nearness[2]);
+        hits.max_by(f64::total_cmp)
+    }
+
+    /// Whether nothing at all is seen at a place.
+    pub fn is_background(&self, at: Point) -> bool {
+        self.through(at).next().is_none()
+    }
+
+    /// The depth within which surfaces touch.
+    pub fn contact(&self) -> f64 {
+        CONTACT * self.polygons.size
+    }
+
+    fn through(&self, at: Point) -> impl Iterator<Item = &Seen> + '_ {
+        let (column, row) = ((at.x / CELL).floor(), (at.y / CELL).floor());
+        let inside =
+            column >= 0.0 && row >= 0.0 && (column as usize) < self.columns && (row as usize) < self.rows;
+        let cell = if inside { &self.cells[row as usize * self.columns + column as usize][..] } else { &[] };
+        let covers = move |s: &[f64; 3]| s[0] * at.x + s[1] * at.y + s[2] >= -1e-7;
+        cell.iter().map(|id| &self.seen[*id as usize]).filter(move |seen| seen.sides.iter().all(covers))
+    }
+
+    fn depth(&self, nearness: f64) -> f64 {
+        if self.eye.perspective { 1.0 / nearness } else { -nearness }
+    }
+}
+
+/// Where a point is in the picture, and how near: a number that is linear over straight lines there.
+pub fn project(eye: &Eye, p: glam::DVec3) -> (Point, f64) {
+    let depth = eye.depth(p);
+    (eye.image(p), if eye.perspective { 1.0 / depth } else { -depth })
+}
+
+/// Eight places around one, at a distance.
+pub fn around(at: Point, radius: f64) -> impl Iterator<Item = Point> {
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let ways = [
+        (1.0, 0.0),
+        (half, half),
+        (0.0, 1.0),
+        (-half, half),
+        (-1.0, 0.0),
+        (-half, -half),
+        (0.0, -1.0),
+        (half, -half),
+    ];
+    ways.into_iter().map(move |(x, y)| at + Vec2::new(x, y) * radius)
+}
+
+fn turn(a: Point, b: Point, c: Point) -> f64 {
+    (b - a).cross(c - a)
+}

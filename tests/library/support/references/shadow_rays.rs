@@ -1,0 +1,199 @@
+//! A slow reference for cast shadows: one ray through every triangle.
+
+use glam::DVec3;
+use ligne::mesh::{FaceId, Mesh};
+use ligne::shadows::{Caster, Shadows};
+
+use crate::support::scenes::random_dice::Dice;
+
+/// The direction from a point towards a light, of any length.
+fn towards(caster: &Caster, point: DVec3) -> DVec3 {
+    match *caster {
+        Caster::Directional { towards } => towards,
+        Caster::Point { position } => position - point,
+    }
+}
+
+pub fn middle(mesh: &Mesh, face: u32) -> DVec3 {
+    let [a, b, c] = mesh.corners(FaceId(face));
+    (a + b + c) / 3.0
+}
+
+/// Whether a triangle stands between a point and a light (not the face of the point).
+fn is_blocked(mesh: &Mesh, caster: &Caster, face: u32, p: DVec3) -> bool {
+    let (along, most) = match caster {
+        Caster::Directional { towards } => (*towards, f64::INFINITY),
+        Caster::Point { position } => (*position - p, 1.0),
+    };
+    let least = 2e-6 * mesh.extents.diagonal / along.length();
+    (0..mesh.triangles.len() as u32).filter(|f| *f != face).any(|f| {
+        let [a, b, c] = mesh.corners(FaceId(f));
+        let (u, v) = (b - a, c - a);
+        let h = along.cross(v);
+        let det = u.dot(h);
+        if det.abs() < 1e-14 {
+            return false;
+        }
+        let s = (p - a).dot(h) / det;
+        let q = (p - a).cross(u);
+        let r = along.dot(q) / det;
+        let t = v.dot(q) / det;
+        s >= 0.0 && r >= 0.0 && s + r <= 1.0 && t > least && t < most
+    })
+}
+
+/// What rays say at a point, `None` where they disagree a little way off.
+fn surely_blocked(mesh: &Mesh, caster: &Caster, face: u32, p: DVec3, reach: f64) -> Option<bool> {
+    let answer = is_blocked(mesh, caster, face, p);
+    let [a, b, c] = mesh.corners(FaceId(face));
+    let along = (b - a).normalize() * reach;
+    let across = (b - a).cross(c - a).normalize().cross(along);
+    let around = [along, -along, across, -across];
+    around.iter().all(|d| is_blocked(mesh, caster, face, p + *d) == answer).then_some(answer)
+}
+
+fn inside(mesh: &Mesh, face: u32, p: DVec3, slack: f64) -> bool {
+    let [a, b, c] = mesh.corners(FaceId(face));
+    let normal = (b - a).cross(c - a).normalize();
+    [(a, b), (b, c), (c, a)].iter().all(|(a, b)| normal.cross(*b - *a).normalize().dot(p - *a) >= -slack)
+        && (p - a).dot(normal).abs() <= 5e-7 * mesh.extents.diagonal
+}
+
+pub fn lights(mesh: &Mesh, dice: &mut Dice) -> Vec<Caster> {
+    let mut sun = dice.direction();
+    sun.z = sun.z.abs() + 0.3;
+    vec![
+        Caster::Directional { towards: sun },
+        Caster::Point { position: mesh.extents.middle + dice.direction() * mesh.extents.diagonal },
+        Caster::Point { position: mesh.extents.middle + dice.point(0.2) * mesh.extents.diagonal },
+        Caster::Directional { towards: DVec3::Z },
+    ]
+}
+
+fn on_face(mesh: &Mesh, face: u32, dice: &mut Dice) -> DVec3 {
+    let [a, b, c] = mesh.corners(FaceId(face));
+    let (u, v) = (dice.between(0.0, 1.0), dice.between(0.0, 1.0));
+    let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+    a + (b - a) * u + (c - a) * v
+}
+
+/// 1 for parts whose normals point outward, -1 for such that are inside out.
+fn outward(mesh: &Mesh) -> Vec<f64> {
+    let parts = mesh.face_part.iter().map(|p| p.index() + 1).max().unwrap_or(0);
+    let mut volumes = vec![0.0; parts];
+    for (face, part) in mesh.face_part.iter().enumerate() {
+        let [a, b, c] = mesh.corners(FaceId(face as u32));
+        volumes[part.index()] += a.dot(b.cross(c));
+    }
+    volumes.into_iter().map(f64::signum).collect()
+}
+
+pub fn check_points(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dice) {
+    let outward = outward(mesh);
+    let asked: Vec<(u32, DVec3)> = (0..count)
+        .map(|_| {
+            let face = dice.below(mesh.triangles.len()) as u32;
+            (face, on_face(mesh, face, dice))
+        })
+        .collect();
+    let masks = shadows.shadowed(mesh, &asked);
+    let mut sure = 0;
+    for ((face, p), mask) in asked.iter().zip(masks) {
+        let [a, b, c] = mesh.corners(FaceId(*face));
+        for (k, caster) in shadows.casters().iter().enumerate() {
+            let Some(blocked) = surely_blocked(mesh, caster, *face, *p, 1e-5 * mesh.extents.diagonal) else {
+                continue;
+            };
+            // Faces of solids that are turned away are not asked.
+            let outward = outward[mesh.face_part[*face as usize].index()];
+            let attached = (b - a).cross(c - a).dot(towards(caster, *p)) * outward <= 0.0;
+            let dark = mask >> k & 1 == 1;
+            if attached && !dark {
+                continue;
+            }
+            sure += 1;
+            assert_eq!(dark, blocked, "light {k}, face {face} at {p}");
+        }
+    }
+    assert!(sure * 3 > count * shadows.casters().len(), "{sure} of {count}");
+}
+
+/// Checks that lines lie on their faces and part light from shadow; returns how many were checked.
+pub fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
+    let mut checked = 0;
+    for segment in &shadows.lines.segments {
+        let caster = &shadows.casters()[segment.caster as usize];
+        let [p, q] = segment.ends.map(|end| shadows.lines.points[end as usize]);
+        let [a, b, c] = mesh.corners(FaceId(segment.face));
+        let normal = (b - a).cross(c - a).normalize();
+        // Where light grazes a face, what is near in the light's view is not so near on the face.
+        let fall = normal.dot(towards(caster, p).normalize()).abs().max(1e-6);
+        let slack = 1e-6 * mesh.extents.diagonal / fall;
+        assert!([p, q].iter().all(|p| inside(mesh, segment.face, *p, slack)), "{segment:?} {p} {q}");
+        let Some(across) = normal.cross(q - p).try_normalize() else { continue };
+        if p.distance(q) < 1e-3 * mesh.extents.diagonal {
+            continue;
+        }
+        // A narrow strip of shadow may have both its borders between the sides.
+        let parts = |reach: f64| {
+            let sides = [1.0, -1.0].map(|side| (p + q) / 2.0 + across * (side * reach));
+            if !sides.iter().all(|side| inside(mesh, segment.face, *side, 0.0)) {
+                return None;
+            }
+            let [one, other] =
+                sides.map(|side| surely_blocked(mesh, caster, segment.face, side, 0.3 * reach));
+            Some(one? != other?)
+        };
+        let found = [1e-4, 1e-5, 2e-6].map(|reach| parts(reach * mesh.extents.diagonal / fall.max(0.1)));
+        if found.iter().any(Option::is_some) {
+            // Of a strip narrower than that, the other border is near.
+            let beside = || {
+                let others =
+                    shadows.lines.segments.iter().filter(|s| *s != segment && s.face == segment.face);
+                others.filter(|s| s.caster == segment.caster).any(|s| {
+                    let [p1, q1] = s.ends.map(|end| shadows.lines.points[end as usize]);
+                    let m = (p + q) / 2.0;
+                    let along = q1 - p1;
+                    let t = ((m - p1).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+                    m.distance(p1 + along * t) < 1e-5 * mesh.extents.diagonal / fall
+                })
+            };
+            assert!(
+                found.contains(&Some(true)) || beside(),
+                "{segment:?} from {p} to {q} parts nothing: {found:?}"
+            );
+            checked += 1;
+        }
+    }
+    checked
+}
+
+/// Checks that light and shadow change along random lines over a face as often as lines are crossed.
+pub fn check_crossings(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dice) {
+    let mut crossed = 0;
+    for _ in 0..count {
+        let face = dice.below(mesh.triangles.len()) as u32;
+        let (p, q) = (on_face(mesh, face, dice), on_face(mesh, face, dice));
+        let [a, b, c] = mesh.corners(FaceId(face));
+        let normal = (b - a).cross(c - a).normalize();
+        for (k, caster) in shadows.casters().iter().enumerate() {
+            let sides = [p, q].map(|p| surely_blocked(mesh, caster, face, p, 1e-5 * mesh.extents.diagonal));
+            let [Some(one), Some(other)] = sides else { continue };
+            let side = |a: DVec3, b: DVec3, p: DVec3| (b - a).cross(p - a).dot(normal) > 0.0;
+            let crossings = shadows
+                .lines
+                .segments
+                .iter()
+                .filter(|s| s.face == face && s.caster == k as u32)
+                .filter(|s| {
+                    let [a, b] = s.ends.map(|end| shadows.lines.points[end as usize]);
+                    side(p, q, a) != side(p, q, b) && side(a, b, p) != side(a, b, q)
+                })
+                .count();
+            // A solid's averted faces get no lines, since no light falls on them.
+            assert_eq!(one != other, crossings % 2 == 1, "light {k} on face {face} from {p} to {q}");
+            crossed += crossings;
+        }
+    }
+    assert!(crossed > 0);
+}

@@ -1,0 +1,111 @@
+//! The contour of a torus as geometry has it: where it is, where it is seen, where it has cusps.
+//!
+//! With the centre of the tube at R c(u) and the normal n = c cos v + z sin v, a point is on the contour
+//! where n points as far to the eye as the tube is thick: two values of v for each u. A line of sight
+//! touches the torus there, so that two of its four meetings are known and the others are roots of a
+//! quadratic. An eye between the two planes that the torus lies between sees other contours: not for those.
+
+use glam::DVec3;
+use kurbo::Point;
+use ligne::geometry::numbers::portable_math::{acos, atan2, cos, sin};
+use ligne::scene::Camera;
+
+use super::textbook_camera::Eye;
+
+/// A point of the contour.
+#[derive(Debug, Clone, Copy)]
+pub struct Place {
+    pub image: Point,
+    pub visible: bool,
+    /// Whether the surface bends away from the line of sight; changes at cusps.
+    pub convex: bool,
+}
+
+/// A stretch of contour that is seen from end to end.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    pub points: Vec<Point>,
+    pub closed: bool,
+    /// How many of its ends are cusps.
+    pub cusps: usize,
+}
+
+/// The two contours of a torus about the z axis, each a loop.
+pub fn contours(radius: f64, tube: f64, camera: &Camera, count: usize) -> [Vec<Place>; 2] {
+    let eye = Eye::new(camera);
+    [-1.0, 1.0].map(|branch| {
+        let place = |k: usize| {
+            let u = std::f64::consts::TAU * k as f64 / count as f64;
+            let c = DVec3::new(cos(u), sin(u), 0.0);
+            let (a, b, wanted) = if eye.perspective {
+                (eye.eye.dot(c) - radius, eye.eye.z, tube)
+            } else {
+                (-eye.forward.dot(c), -eye.forward.z, 0.0)
+            };
+            let v = atan2(b, a) + branch * acos((wanted / (a * a + b * b).sqrt()).clamp(-1.0, 1.0));
+            let p = c * (radius + tube * cos(v)) + DVec3::Z * (tube * sin(v));
+            let (to_eye, far) = if eye.perspective {
+                ((eye.eye - p).normalize(), p.distance(eye.eye))
+            } else {
+                (-eye.forward, f64::INFINITY)
+            };
+            let [linear, constant] = other_meetings(radius, tube, p, to_eye);
+            let root = linear * linear / 4.0 - constant;
+            let meets = root > 0.0 && {
+                let (low, high) = (-linear / 2.0 - root.sqrt(), -linear / 2.0 + root.sqrt());
+                [low, high].iter().any(|t| *t > 0.0 && *t < far)
+            };
+            Place { image: eye.image(p), visible: constant > 0.0 && !meets, convex: constant > 0.0 }
+        };
+        (0..count).map(place).collect()
+    })
+}
+
+/// Along a line p + t d that touches the torus at t = 0, the quartic of the torus is t² (t² + a t + b):
+/// a and b.
+fn other_meetings(radius: f64, tube: f64, p: DVec3, d: DVec3) -> [f64; 2] {
+    let s = p.length_squared() + radius * radius - tube * tube;
+    let q = p.dot(d);
+    let flat = d.x * d.x + d.y * d.y;
+    [4.0 * q, 4.0 * q * q + 2.0 * s - 4.0 * radius * radius * flat]
+}
+
+/// The stretches that are seen.
+pub fn visible_pieces(contours: &[Vec<Place>]) -> Vec<Piece> {
+    let mut pieces = Vec::new();
+    for places in contours {
+        let n = places.len();
+        let Some(start) = (0..n).find(|k| !places[*k].visible) else {
+            let points = places.iter().map(|p| p.image).collect();
+            pieces.push(Piece { points, closed: true, cusps: 0 });
+            continue;
+        };
+        let mut current: Option<Piece> = None;
+        for k in 1..=n {
+            let (before, here) = (places[(start + k - 1) % n], places[(start + k) % n]);
+            let cusp = usize::from(before.convex != here.convex);
+            match (&mut current, here.visible) {
+                (None, true) => {
+                    current = Some(Piece { points: vec![here.image], closed: false, cusps: cusp });
+                }
+                (Some(piece), true) => piece.points.push(here.image),
+                (Some(piece), false) => {
+                    piece.cusps += cusp;
+                    pieces.extend(current.take());
+                }
+                (None, false) => {}
+            }
+        }
+    }
+    pieces
+}
+
+impl Piece {
+    pub fn segments(&self) -> Vec<[Point; 2]> {
+        let mut segments: Vec<[Point; 2]> = self.points.windows(2).map(|w| [w[0], w[1]]).collect();
+        if self.closed {
+            segments.push([self.points[self.points.len() - 1], self.points[0]]);
+        }
+        segments
+    }
+}

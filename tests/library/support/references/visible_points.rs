@@ -1,0 +1,70 @@
+//! Every visible line of a view map, point by point in the world, against rays through all other parts.
+
+use kurbo::Point;
+use ligne::lines::LineOptions;
+use ligne::scene::{Camera, Scene};
+use rayon::prelude::*;
+
+use super::ray_casts::{Before, Rays, around, project};
+use super::textbook_camera::Eye;
+use super::triangle_scene::Polygons;
+use crate::support::pipeline::{Stages, stages};
+
+/// What was found: places asked, those that another part hides, and the first of these.
+#[derive(Debug, Default, Clone)]
+pub struct Shown {
+    pub asked: usize,
+    pub hidden: usize,
+    pub first: Option<Point>,
+}
+
+/// Asks along all visible view edges, 2 px apart; places that a shift by `excused` px clears are not counted, nor
+/// places of round lines whose polygon is seen within as much.
+pub fn hidden_by_others(scene: &Scene, camera: &Camera, options: &LineOptions, excused: f64) -> Shown {
+    let polygons = Polygons::of(scene);
+    let eye = Eye::new(camera);
+    let rays = Rays::new(&polygons, &eye, camera.width, camera.height);
+    let stages = stages(scene, camera, options);
+    let visible: Vec<usize> =
+        (0..stages.map.edges.len()).filter(|id| stages.map.edges[*id].invisibility == 0).collect();
+    let found: Vec<Shown> = visible.par_iter().map(|id| ask(&stages, &rays, *id, excused)).collect();
+    found.into_iter().fold(Shown::default(), |sum, one| Shown {
+        asked: sum.asked + one.asked,
+        hidden: sum.hidden + one.hidden,
+        first: sum.first.or(one.first),
+    })
+}
+
+fn ask(stages: &Stages, rays: &Rays, id: usize, excused: f64) -> Shown {
+    let edge = &stages.map.edges[id];
+    let segment = &stages.lines.segments[edge.segment as usize];
+    let [p, q] = segment.ends.map(|end| stages.lines.position(&stages.mesh, end) + stages.mesh.origin);
+    let [(from, near_p), (to, near_q)] = [project(rays.eye, p), project(rays.eye, q)];
+    let hosts = segment.hosts.iter().filter_map(|host| stages.mesh.face_part.get(*host as usize));
+    let own: Vec<u32> = hosts.chain([&edge.part]).map(|part| part.index() as u32).collect();
+    let [a, b] = stages.ends(edge);
+    let count = ((b - a).hypot2().sqrt() / 2.0).ceil().max(1.0) as usize;
+    let mut shown = Shown::default();
+    let others = |face: u32| (!own.contains(&rays.polygons.part[face as usize])).then_some(rays.contact());
+    for k in 0..count {
+        let at = a.lerp(b, (k as f64 + 0.5) / count as f64);
+        // Where the place is on the whole segment, whose nearness is linear in the picture.
+        let way = to - from;
+        let share = if way.hypot2() > 0.0 { (at - from).dot(way) / way.hypot2() } else { 0.5 };
+        let nearness = near_p + (near_q - near_p) * share;
+        let hides = |at: Point| rays.before(at, nearness, others) == Before::Something;
+        let nearby =
+            || std::iter::once(at).chain([0.25, 0.5, 1.0].into_iter().flat_map(|k| around(at, k * excused)));
+        // A round line lies beside its polygon in depth as well: what counts is whether the polygon is seen there.
+        let polygon_is_seen = |at: Point| {
+            let front = rays.nearest(at, |face| own.contains(&rays.polygons.part[face as usize]));
+            front.is_some_and(|front| rays.before(at, front, others) != Before::Something)
+        };
+        shown.asked += 1;
+        if nearby().all(hides) && !(edge.smooth && nearby().any(polygon_is_seen)) {
+            shown.hidden += 1;
+            shown.first = shown.first.or(Some(at));
+        }
+    }
+    shown
+}

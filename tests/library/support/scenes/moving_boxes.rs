@@ -1,0 +1,119 @@
+//! Boxes that move, and the motion lines in their drawings.
+
+use glam::{DAffine3, DQuat, DVec3};
+use kurbo::{ParamCurve, PathSeg, Point};
+use ligne::animation::rig::{Form, Node, Placement};
+use ligne::animation::{Channel, Clip, Interpolation, Playing, Property, Rig, Rigged, Target, Track};
+use ligne::drawing::{Drawing, LayerKind, Mark, Paint};
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::{Camera, Scene, Style, motion, render};
+
+use super::solids::{Solid, cuboid};
+use crate::support::pipeline::{geometry, orthographic, scene_of_geometries};
+
+/// How long clips last, and how long lines go back by default, seconds.
+pub const LASTS: f64 = 4.0;
+pub const BACK: f64 = 20.0 / 24.0;
+
+/// A channel of a node, linear between keys.
+pub fn channel(node: usize, property: Property, times: &[f64], values: &[f64]) -> Channel {
+    let track = Track::new(times.into(), values.into(), Interpolation::Linear).unwrap();
+    Channel { target: Target::Node(node, property), track }
+}
+
+/// A node that goes evenly.
+pub fn going(node: usize, speed: DVec3) -> Channel {
+    let ends = [DVec3::ZERO, speed * LASTS].concat_all();
+    channel(node, Property::Translation, &[0.0, LASTS], &ends)
+}
+
+/// A node that turns evenly about z, by so many degrees a second.
+pub fn turning(node: usize, degrees: f64) -> Channel {
+    let times: Vec<f64> = (0..=40).map(|k| f64::from(k) / 10.0).collect();
+    let turn = |time: &f64| {
+        let half = (degrees * time / 2.0).to_radians();
+        [0.0, 0.0, sin(half), cos(half)]
+    };
+    let values: Vec<f64> = times.iter().flat_map(turn).collect();
+    channel(node, Property::Rotation, &times, &values)
+}
+
+/// Coordinates one after the other.
+pub trait ConcatAll {
+    fn concat_all(self) -> Vec<f64>;
+}
+
+impl ConcatAll for [DVec3; 2] {
+    fn concat_all(self) -> Vec<f64> {
+        self.iter().flat_map(|v| v.to_array()).collect()
+    }
+}
+
+/// A node at rest.
+pub fn node(name: &str, parent: Option<usize>) -> Node {
+    let (translation, rotation, scale) = (DVec3::ZERO, DQuat::IDENTITY, DVec3::ONE);
+    let rest = Placement::Parts { translation, rotation, scale };
+    Node { name: name.to_owned(), leaves_lines: false, parent, rest, weights: Vec::new(), visible: true }
+}
+
+/// Solids that hang on a node each, and what moves these.
+pub fn rigged(solids: Vec<Solid>, channels: Vec<Channel>) -> Rigged {
+    let count = solids.len();
+    let scene = scene_of_geometries(solids.into_iter().map(geometry).collect());
+    let nodes = (0..count).map(|k| node(&format!("node {k}"), None)).collect();
+    let forms = (0..count).map(|node| Form { node, ..Form::default() }).collect();
+    let parts = (0..count).map(|node| (node, DAffine3::IDENTITY)).collect();
+    let clips = vec![Clip { name: "go".to_owned(), channels }];
+    Rigged { scene, rig: Rig { nodes, order: (0..count).collect(), forms, parts, clips, ..Rig::default() } }
+}
+
+/// Ink with motion lines, changed.
+pub fn style(changes: &[&str]) -> Style {
+    let all = [&["motion.enabled=true"], changes].concat();
+    Style::load("ink", &all.iter().map(|change| (*change).to_owned()).collect::<Vec<_>>()).unwrap()
+}
+
+/// The scene at a moment, with what moves in it.
+pub fn scene_at(rigged: &Rigged, time: f64, style: &Style) -> Scene {
+    motion::posed(rigged, &[Playing::all(0, time)], &style.motion, style.seed).unwrap()
+}
+
+/// The drawing of a moment.
+pub fn drawn(rigged: &Rigged, time: f64, camera: &Camera, style: &Style) -> Drawing {
+    render(&scene_at(rigged, time, style), camera, style).unwrap()
+}
+
+/// The motion lines of a drawing.
+pub fn lines(drawing: &Drawing) -> Vec<&Mark> {
+    let marks = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Motion).flat_map(|l| &l.marks);
+    marks.inspect(|mark| assert_eq!(mark.provenance.classes, ["motion"])).collect()
+}
+
+/// Points along a path, close together.
+pub fn along(mark: &Mark) -> Vec<Point> {
+    let path = match &mark.paint {
+        Paint::Outline(outline) => &outline.axis,
+        _ => &mark.path,
+    };
+    path.segments().flat_map(|s: PathSeg| (0..=1000).map(move |k| s.eval(f64::from(k) / 1000.0))).collect()
+}
+
+/// Where a line begins and ends; the way that it shows goes back along `back`.
+pub fn ends(mark: &Mark, back: kurbo::Vec2) -> [Point; 2] {
+    let points = along(mark);
+    let (first, last) = (points[0], points[points.len() - 1]);
+    if (last - first).dot(back) > 0.0 { [first, last] } else { [last, first] }
+}
+
+/// To the left: what comes from there shows it.
+pub const LEFT: kurbo::Vec2 = kurbo::Vec2::new(-1.0, 0.0);
+
+/// A camera before the x-y plane, 100 px a unit, the origin in the middle.
+pub fn before() -> Camera {
+    orthographic(DVec3::Z * 50.0, DVec3::ZERO, 10.0)
+}
+
+/// A box with sides of one, about the origin.
+pub fn unit_box() -> Solid {
+    cuboid(DVec3::splat(-0.5), DVec3::splat(0.5))
+}

@@ -1,0 +1,12 @@
+//! The surface that a mesh stands for: creases, seams, fillets and rounded coordinates.
+
+mod creases;
+mod cylinders;
+mod narrow_fillets;
+mod part_bodies;
+mod quantized_coordinates;
+mod rounded_coordinates;
+mod seams;
+mod shallow_creases;
+mod sliver_creases;
+mod touching_bodies;

@@ -1,0 +1,107 @@
+//! A surface whose faces are parts of their own is drawn as one part is.
+
+use crate::support::measures::segment_sets::{length, uncovered};
+use crate::support::pipeline::scene;
+use crate::support::references::drawing_judge::{axis, ink_marks};
+use crate::support::scenes::hard_scenes::any_camera;
+use crate::support::scenes::random_dice::Dice;
+use crate::support::scenes::round_solids::{globe, icosphere, saddle};
+use crate::support::scenes::solids::{Solid, cuboid, sphere, torus, tube};
+use glam::DVec3;
+use kurbo::Point;
+use ligne::drawing::Drawing;
+use ligne::pipeline::render;
+use ligne::scene::{Camera, Scene};
+use ligne::style::Style;
+
+/// Every face as a solid of its own, with corners of its own.
+fn faces(solid: &Solid) -> Vec<Solid> {
+    let face = |triangle: &[u32; 3]| Solid {
+        positions: triangle.map(|v| solid.positions[v as usize]).to_vec(),
+        triangles: vec![[0, 1, 2]],
+    };
+    solid.triangles.iter().map(face).collect()
+}
+
+fn draw(scene: &Scene, camera: &Camera, style: &str) -> Drawing {
+    render(scene, camera, &Style::preset(style).unwrap()).unwrap()
+}
+
+/// The lines of one pen: those of the outline, or the others.
+fn strokes(drawing: &Drawing, outline: bool) -> Vec<[Point; 2]> {
+    let marks = ink_marks(drawing).filter(|mark| mark.provenance.classes.contains(&"silhouette") == outline);
+    marks.flat_map(axis).collect()
+}
+
+/// Asserts that two scenes are drawn alike, pen by pen, within so many px.
+fn assert_alike(name: &str, one: &Scene, other: &Scene, within: f64) {
+    let dice = &mut Dice::new(7);
+    for style in ["ink", "technical"] {
+        for _ in 0..4 {
+            let camera = any_camera(dice);
+            let [one, other] = [one, other].map(|scene| draw(scene, &camera, style));
+            for outline in [true, false] {
+                let [one, other] = [&one, &other].map(|drawing| strokes(drawing, outline));
+                let (missing, extra) = (uncovered(&one, &other, within), uncovered(&other, &one, within));
+                // What the ends of short pieces differ in direction.
+                let slack = 1.0 + 0.002 * length(&one);
+                assert!(
+                    missing <= slack && extra <= slack,
+                    "{name}, {style} from {}: {missing} px of {} missing, {extra} too much; outline {outline}",
+                    camera.eye,
+                    length(&one)
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_rounded_surface_of_single_faces_has_the_lines_of_one_part() {
+    let solids = [
+        ("icosphere 1", icosphere(1)),
+        ("icosphere 2", icosphere(2)),
+        ("globe", globe(24)),
+        ("torus", torus(24, 12, 1.0, 0.45)),
+        ("fine torus", torus(48, 24, 1.0, 0.3)),
+        ("tube", tube(24, 5, 0.7, 1.0)),
+        ("saddle", saddle(12)),
+    ];
+    for (name, solid) in solids {
+        assert_alike(name, &scene([solid.clone()]), &scene(faces(&solid)), 0.5);
+    }
+}
+
+#[test]
+fn a_box_of_single_faces_has_the_lines_of_one_part() {
+    let solid = cuboid(DVec3::new(-1.0, -0.6, -0.8), DVec3::new(1.0, 0.6, 0.8));
+    assert_alike("box", &scene([solid.clone()]), &scene(faces(&solid)), 0.06);
+}
+
+#[test]
+fn bodies_of_single_faces_beside_each_other_have_the_lines_of_two_parts() {
+    // A ball before a box that it does not touch, and two boxes that share an edge.
+    let ball = sphere(16, 0.6).moved(|p| p + DVec3::new(0.0, 0.0, 1.5));
+    let boxes = [DVec3::splat(-1.0), DVec3::new(0.0, 0.0, -1.0)].map(|low| cuboid(low, low + 1.0));
+    let [first, second] = boxes;
+    let parts = [ball, first, second];
+    let single: Vec<Solid> = parts.iter().flat_map(faces).collect();
+    assert_alike("ball and boxes", &scene(parts), &scene(single), 0.5);
+}
+
+#[test]
+fn the_outline_of_a_ball_of_single_faces_is_one_ring() {
+    let ball = scene(faces(&icosphere(2)));
+    let camera = Camera::three_quarter().fit(&ball);
+    let drawing = draw(&ball, &camera, "ink");
+    // Every piece ends where another one begins.
+    let mut ends: Vec<[i64; 2]> = Vec::new();
+    for mark in ink_marks(&drawing) {
+        let axis = axis(mark);
+        let (first, last) = (axis[0][0], axis[axis.len() - 1][1]);
+        ends.extend([first, last].map(|p| [p.x, p.y].map(|c| (c * 1000.0).round() as i64)));
+        assert!(mark.provenance.part.is_some());
+    }
+    ends.sort_unstable();
+    assert!(ends.len() > 20 && ends.chunks(2).all(|pair| pair[0] == pair[1]), "{ends:?}");
+}

@@ -1,0 +1,390 @@
+//! Seams between surfaces that were each turned into triangles by itself are no lines; gaps and steps that are meant stay.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+
+use crate::support::pipeline::{exact, orthographic, perspective, scene, stages};
+use crate::support::scenes::random_dice::Dice;
+use crate::support::scenes::solids::{Solid, cuboid};
+use glam::DVec3;
+use kurbo::Point;
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::lines::{LineKind, LineOptions};
+use ligne::mesh::{EdgeFaces, Mesh, Soup, Turns};
+
+fn mesh(solid: &Solid) -> Mesh {
+    Mesh::build(Soup {
+        positions: solid.positions.clone(),
+        triangles: solid.triangles.clone(),
+        ..Soup::default()
+    })
+}
+
+/// How many edges have one face, and how many turn by more than so many degrees.
+fn open_and_sharp(mesh: &Mesh, degrees: f64) -> [usize; 2] {
+    let turns = Turns::of(mesh);
+    let count = |holds: &dyn Fn(usize) -> bool| (0..mesh.edges.len()).filter(|edge| holds(*edge)).count();
+    [
+        count(&|edge| matches!(mesh.edges.faces(edge), EdgeFaces::One(_))),
+        count(&|edge| f64::from(turns.at(mesh, edge)) < cos(degrees.to_radians())),
+    ]
+}
+
+/// A rectangle with corners of its own.
+fn tile(solid: &mut Solid, corner: DVec3, u: DVec3, v: DVec3) {
+    solid.add(Solid {
+        positions: vec![corner, corner + u, corner + u + v, corner + v],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+    });
+}
+
+/// A unit box of two tiles a side, that are parted somewhere else on each.
+fn box_of_tiles() -> Solid {
+    let mut solid = Solid::default();
+    let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
+    let sides =
+        [(x, y, z), (y, z, x), (z, x, y), (y, x, DVec3::ZERO), (z, y, DVec3::ZERO), (x, z, DVec3::ZERO)];
+    for (k, (u, v, corner)) in sides.into_iter().enumerate() {
+        let part = 0.3 + 0.07 * k as f64;
+        tile(&mut solid, corner, u * part, v);
+        tile(&mut solid, corner + u * part, u * (1.0 - part), v);
+    }
+    solid
+}
+
+/// A unit box of which each side is parted in its own places along its edges, and triangles without area that stitch sides to
+/// each other there: two along each edge, next to each other or one upon the other.
+fn stitched_box(upon: bool) -> Solid {
+    let mut solid = Solid { triangles: Vec::new(), ..cuboid(DVec3::ZERO, DVec3::ONE) };
+    let sides = [[0u32, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+    let mut stitches = BTreeMap::new();
+    for side in sides {
+        let at = |positions: &[DVec3], v: u32| positions[v as usize];
+        let middle = solid.positions.len() as u32;
+        solid.positions.push(side.iter().map(|v| at(&solid.positions, *v)).sum::<DVec3>() / 4.0);
+        for k in 0..4 {
+            let (from, to) = (side[k], side[(k + 1) % 4]);
+            let [low, high] = [from.min(to), from.max(to)];
+            let near = solid.positions.len() as u32;
+            let is_first = !stitches.contains_key(&[low, high]);
+            let near = *stitches.entry([low, high]).or_insert(near);
+            let far = near + 1;
+            if is_first {
+                let [a, b] = [low, high].map(|v| at(&solid.positions, v));
+                solid.positions.extend([a.lerp(b, 0.25), a.lerp(b, 0.75)]);
+                let needles = if upon {
+                    [[low, high, far], [low, near, high]]
+                } else {
+                    [[low, near, far], [near, high, far]]
+                };
+                let turned = |[a, b, c]: [u32; 3]| if from == low { [a, b, c] } else { [c, b, a] };
+                solid.triangles.extend(needles.map(turned));
+            }
+            let own = if is_first { far } else { near };
+            solid.triangles.extend([[from, own, middle], [own, to, middle]]);
+        }
+    }
+    solid
+}
+
+/// A tube about the z axis with its own number of sides.
+fn tube(around: u32, from: f64, to: f64) -> Solid {
+    let at = |k: u32, z: f64| {
+        let turn = TAU * f64::from(k) / f64::from(around);
+        DVec3::new(cos(turn), sin(turn), z)
+    };
+    let mut solid = Solid::default();
+    for k in 0..around {
+        let next = (k + 1) % around;
+        solid.add(Solid {
+            positions: vec![at(k, from), at(next, from), at(next, to), at(k, to)],
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+        });
+    }
+    solid
+}
+
+fn key(lines: &[[Point; 2]]) -> Vec<[i64; 2]> {
+    // The places where lines end, to a hundredth of a px.
+    let mut ends: Vec<[i64; 2]> =
+        lines.iter().flatten().map(|p| [p.x, p.y].map(|c| (c * 100.0).round() as i64)).collect();
+    ends.sort_unstable();
+    ends.dedup();
+    ends
+}
+
+/// Asserts that a solid is drawn as the unit box, from wherever one looks.
+fn assert_drawn_as_a_box(solid: &Solid) {
+    let mut dice = Dice::new(5);
+    for k in 0..12 {
+        let way = dice.direction() * 6.0;
+        let middle = DVec3::splat(0.5);
+        let camera = if k % 2 == 0 {
+            perspective(middle + way, middle, 30.0)
+        } else {
+            orthographic(middle + way, middle, 2.5)
+        };
+        let length = |lines: &[[Point; 2]]| lines.iter().map(|[a, b]| a.distance(*b)).sum::<f64>();
+        let drawn = |solid: Solid| {
+            let drawn = stages(&scene([solid]), &camera, &exact());
+            assert!(drawn.visible_of(LineKind::Border).is_empty());
+            [drawn.visible(), drawn.outline()]
+        };
+        let ([own, outline], [plain, plain_outline]) =
+            (drawn(solid.clone()), drawn(cuboid(DVec3::ZERO, DVec3::ONE)));
+        for (own, plain) in [(&own, &plain), (&outline, &plain_outline)] {
+            assert!((length(own) - length(plain)).abs() < 1e-6, "{} and {}", length(own), length(plain));
+        }
+        assert!(key(&plain).iter().all(|end| key(&own).contains(end)));
+    }
+}
+
+#[test]
+fn a_box_of_tiles_is_drawn_as_a_box() {
+    let tiles = box_of_tiles();
+    assert_eq!(open_and_sharp(&mesh(&tiles), 45.0)[0], 0, "every edge has two faces");
+    assert_drawn_as_a_box(&tiles);
+}
+
+#[test]
+fn a_box_whose_sides_are_stitched_by_triangles_without_area_is_drawn_as_a_box() {
+    for upon in [false, true] {
+        let stitched = stitched_box(upon);
+        assert_eq!(mesh(&stitched).cleaning.degenerate, 24);
+        assert_drawn_as_a_box(&stitched);
+    }
+}
+
+#[test]
+fn a_seam_of_a_curve_is_no_line_though_its_chords_differ() {
+    let mut two = tube(24, -1.0, 0.0);
+    two.add(tube(37, 0.0, 1.0));
+    // Only the far ends are open.
+    assert_eq!(open_and_sharp(&mesh(&two), 45.0), [24 + 37, 0]);
+    let drawn = stages(
+        &scene([two]),
+        &perspective(DVec3::new(5.0, 1.0, 1.5), DVec3::ZERO, 40.0),
+        &LineOptions::default(),
+    );
+    let middle = drawn.view.frame.width / 2.0;
+    let across = drawn.visible_of(LineKind::Border);
+    assert!(!across.is_empty() && across.iter().flatten().all(|p| (p.x - middle).abs() > 100.0));
+}
+
+/// A square plate with a round hole of so many chords, four times a number, whose corners are joined to the four of the plate; and
+/// the wall of the hole with a number of chords of its own, that is wider by what chords stand off a circle.
+fn plate_with_a_hole(chords: u32, wall: u32, turned: f64) -> Solid {
+    let at = |count: u32, k: u32, from: f64| {
+        let angle = from + f64::from(k % count) / f64::from(count) * TAU;
+        DVec3::new(cos(angle), sin(angle), 0.0)
+    };
+    let mut solid = Solid::default();
+    // The last chords of each quarter are seen from its corner at a low angle.
+    let corner = |quarter: u32| at(4, quarter, 0.05) * 20.0;
+    let quarter = |k: u32| k * 4 / chords;
+    for k in 0..chords {
+        let [from, to] = [k, k + 1].map(|k| at(chords, k, 0.0));
+        let own = corner(quarter(k));
+        solid.add(Solid { positions: vec![from, own, to], triangles: vec![[0, 1, 2]] });
+        if quarter(k + 1) != quarter(k) {
+            solid.add(Solid { positions: vec![to, own, corner(quarter(k) + 1)], triangles: vec![[0, 1, 2]] });
+        }
+    }
+    for k in 0..wall {
+        let wider = 2.0 - cos(TAU / f64::from(chords * 2));
+        let [from, to] = [k, k + 1].map(|k| at(wall, k, turned) * wider);
+        tile(&mut solid, from, to - from, DVec3::NEG_Z);
+    }
+    solid
+}
+
+#[test]
+fn what_is_sewn_neither_turns_over_nor_leans() {
+    let mut sewn = 0;
+    for (chords, wall) in [(12, 16), (16, 12), (8, 20), (20, 9), (24, 7), (40, 11), (12, 31)] {
+        for turned in [0.02, 0.05, 0.11, 0.2] {
+            let solid = plate_with_a_hole(chords, wall, turned);
+            let mesh = mesh(&solid);
+            sewn += mesh.triangles.len() - solid.triangles.len();
+            for (face, normal) in mesh.triangles.iter().zip(&mesh.face_normals) {
+                let is_plate = face.iter().all(|v| mesh.positions[*v as usize].z + mesh.origin.z > -1e-9);
+                assert!(!is_plate || normal[2] > 0.9, "{chords} {wall} {turned}: {normal:?}");
+            }
+        }
+    }
+    assert!(sewn > 50, "{sewn}");
+}
+
+#[test]
+fn a_straight_side_beside_a_rounded_corner_is_no_curve() {
+    // A plate whose long side ends in the rounding of a corner.
+    let mut plate = Solid { positions: vec![DVec3::new(0.0, 9.0, 0.0), DVec3::ZERO], ..Solid::default() };
+    plate.positions.extend((0..=4).map(|k| {
+        let turn = TAU / 4.0 * f64::from(k) / 4.0;
+        DVec3::new(9.0 + sin(turn), 1.0 - cos(turn), 0.0)
+    }));
+    plate.positions.push(DVec3::new(10.0, 9.0, 0.0));
+    plate.triangles = (1..plate.positions.len() as u32 - 1).map(|k| [0, k, k + 1]).collect();
+    let faces = plate.triangles.len();
+    // What has a side of its own near it, one that runs the other way.
+    plate.add(Solid {
+        positions: [[5.0, -0.3, 0.1], [4.0, -0.3, 0.1], [4.5, -1.0, 0.1]].map(DVec3::from).to_vec(),
+        triangles: vec![[0, 1, 2]],
+    });
+    assert_eq!(mesh(&plate).triangles.len(), faces + 1, "no face is cut");
+}
+
+#[test]
+fn corners_on_both_sides_of_a_seam_are_one() {
+    // As far apart as programs put them that turn each surface into triangles by itself.
+    let mut dice = Dice::new(11);
+    let mut two = tube(24, -1.0, 0.0);
+    two.add(
+        tube(24, 0.0, 1.0).moved(|p| if p.z == 0.0 { p * 1.00004 + DVec3::new(0.0, 2e-5, -3e-5) } else { p }),
+    );
+    two.add(tube(24, 1.0, 1.5).moved(|p| DVec3::new(p.x, p.y + 5e-5, p.z - 3e-5)));
+    assert_eq!(open_and_sharp(&mesh(&two), 45.0), [2 * 24, 0]);
+    // A strip that is narrower than that is no seam.
+    let narrow = tube(24, 0.0, 5e-5);
+    let turned = dice.direction();
+    assert_eq!(open_and_sharp(&mesh(&narrow.moved(|p| p + turned)), 45.0)[0], 2 * 24);
+}
+
+#[test]
+fn a_gap_that_is_meant_stays_open() {
+    for gap in [0.01, 0.05] {
+        let mut two = tube(24, -1.0, -gap);
+        two.add(tube(37, 0.0, 1.0));
+        assert_eq!(open_and_sharp(&mesh(&two), 45.0)[0], 2 * (24 + 37), "{gap}");
+    }
+    let mut tiles = Solid::default();
+    tile(&mut tiles, DVec3::ZERO, DVec3::X, DVec3::Y);
+    tile(&mut tiles, DVec3::new(-0.3, 1.001, 0.0), DVec3::X * 1.5, DVec3::Y);
+    assert_eq!(open_and_sharp(&mesh(&tiles), 45.0)[0], 8);
+}
+
+#[test]
+fn what_is_painted_apart_is_not_sewn() {
+    let mut tiles = Solid::default();
+    tile(&mut tiles, DVec3::ZERO, DVec3::X, DVec3::Y);
+    tile(&mut tiles, DVec3::new(0.0, 1.0, 0.0), DVec3::X * 0.25, DVec3::Y);
+    tile(&mut tiles, DVec3::new(0.25, 1.0, 0.0), DVec3::X * 0.75, DVec3::Y);
+    for shift in [0.0, 0.25] {
+        // The second and the third tile have their colours from elsewhere in the picture.
+        let uv = |(k, p): (usize, &DVec3)| [p.x as f32, p.y as f32 + if k < 4 { 0.0 } else { shift }];
+        let mesh = Mesh::build(Soup {
+            positions: tiles.positions.clone(),
+            triangles: tiles.triangles.clone(),
+            uvs: tiles.positions.iter().enumerate().map(uv).collect(),
+            corner_uvs: tiles.triangles.clone(),
+            ..Soup::default()
+        });
+        assert_eq!(open_and_sharp(&mesh, 45.0)[0], if shift == 0.0 { 7 } else { 10 });
+        for (triangle, uvs) in mesh.triangles.iter().zip(&mesh.corner_uvs) {
+            for (v, uv) in triangle.iter().zip(uvs) {
+                let place = mesh.positions[*v as usize] + mesh.origin;
+                assert_eq!(mesh.uvs[*uv as usize][0], place.x as f32);
+            }
+        }
+    }
+}
+
+/// A wedge of an angle along x, with corners in its sharp edge on both sides.
+fn wedge(degrees: f64, corners: [&[f64]; 2]) -> Solid {
+    let (half, long) = (degrees.to_radians() / 2.0, 3.0);
+    let far = [-half, half].map(|turn| DVec3::new(0.0, cos(turn), sin(turn)) * 2.0);
+    let mut solid = Solid::default();
+    let mut polygon = |points: &[DVec3]| {
+        let triangles = (2..points.len() as u32).map(|k| [0, k - 1, k]).collect();
+        solid.add(Solid { positions: points.to_vec(), triangles });
+    };
+    let at = |p: DVec3, x: f64| p + DVec3::X * x;
+    // A fan round a far corner, so that no triangle has all its corners on the sharp edge.
+    for (k, own) in corners.into_iter().enumerate() {
+        let mut points = vec![at(far[k], 0.0), DVec3::ZERO];
+        points.extend(own.iter().map(|x| at(DVec3::ZERO, *x)));
+        points.extend([at(DVec3::ZERO, long), at(far[k], long)]);
+        if k == 0 {
+            points[1..].reverse();
+        }
+        polygon(&points);
+    }
+    polygon(&[far[0], far[1], at(far[1], long), at(far[0], long)]);
+    polygon(&[DVec3::ZERO, far[1], far[0]]);
+    polygon(&[at(DVec3::ZERO, long), at(far[0], long), at(far[1], long)]);
+    solid
+}
+
+#[test]
+fn a_corner_in_an_edge_is_sewn_however_sharp_the_edge_is() {
+    let mut dice = Dice::new(3);
+    for degrees in [3.0, 20.0, 45.0, 59.0, 61.0, 90.0, 130.0] {
+        for corners in
+            [[&[1.0][..], &[]], [&[], &[0.4, 2.2]], [&[1.0], &[2.0]], [&[0.5, 1.0, 2.9], &[0.7, 0.8]]]
+        {
+            let turn = dice.turn();
+            // As written with six decimals, and as it is.
+            for rounded in [false, true] {
+                let round = |p: DVec3| if rounded { (p * 1e6).round() / 1e6 } else { p };
+                let [own, plain] = [corners, [&[][..], &[][..]]]
+                    .map(|corners| wedge(degrees, corners).moved(|p| round(turn * p)));
+                let open = open_and_sharp(&mesh(&own), 45.0)[0];
+                assert_eq!(open, 0, "{degrees} degrees, {corners:?}, rounded: {rounded}");
+                let way = dice.direction() * 9.0;
+                let [own, plain] = [own, plain].map(|solid| {
+                    let drawn = stages(&scene([solid]), &perspective(way, DVec3::ZERO, 40.0), &exact());
+                    assert!(drawn.visible_of(LineKind::Border).is_empty());
+                    [drawn.visible(), drawn.outline()]
+                        .map(|lines| lines.iter().map(|[a, b]| a.distance(*b)).sum::<f64>())
+                });
+                let off = [0, 1].map(|k| (own[k] - plain[k]).abs());
+                assert!(
+                    off[0] < 0.01 && off[1] < 0.01,
+                    "{degrees} degrees, {corners:?}: {own:?} and {plain:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn the_sides_of_a_card_that_share_no_corner_stay_apart() {
+    // Front and back, nearer to each other than the sides of seams are, each parted in a place of its own.
+    let mut card = Solid::default();
+    for (z, part) in [(0.0, 0.3), (5e-5, 0.6)] {
+        let mut side = Solid::default();
+        tile(&mut side, DVec3::Z * z, DVec3::X * part, DVec3::Y);
+        tile(&mut side, DVec3::new(part, 0.0, z), DVec3::X * (1.0 - part), DVec3::Y);
+        if z == 0.0 {
+            side.triangles.iter_mut().for_each(|triangle| triangle.reverse());
+        }
+        card.add(side);
+    }
+    let own = mesh(&card);
+    assert_eq!((own.triangles.len(), open_and_sharp(&own, 45.0)[0]), (8, 12));
+}
+
+#[test]
+fn surfaces_of_different_parts_are_not_sewn() {
+    let solid = |low: f64, high: f64| {
+        let mut solid = Solid::default();
+        tile(&mut solid, DVec3::new(low, low, 0.0), DVec3::X * (high - low), DVec3::Y);
+        solid
+    };
+    let drawn = stages(
+        &scene([solid(0.0, 1.0), solid(1.0, 3.0)]),
+        &orthographic(DVec3::new(0.0, 0.0, 9.0), DVec3::ZERO, 9.0),
+        &exact(),
+    );
+    assert_eq!(drawn.mesh.triangles.len(), 4);
+}
+
+#[test]
+fn steps_stay_steps_however_low() {
+    let mut plate = cuboid(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.2));
+    // A tile as high as half a pixel, on the plate and without a floor.
+    let mut tile = cuboid(DVec3::new(0.3, 0.3, 0.2), DVec3::new(0.7, 0.7, 0.2005));
+    tile.triangles.drain(0..2);
+    plate.add(tile);
+    assert_eq!(open_and_sharp(&mesh(&plate), 45.0)[1], 12 + 8);
+}

@@ -1,0 +1,139 @@
+//! Wrinkles: slivers of machined parts where two ways to cut one circle differ.
+
+use std::f64::consts::TAU;
+
+use glam::DVec3;
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::lines::{LineKind, LineOptions};
+use ligne::mesh::{Mesh, Soup, Turns};
+use ligne::surface::Patches;
+
+use crate::support::pipeline::{orthographic, scene, stages};
+use crate::support::scenes::solids::Solid;
+
+const CORNERS: usize = 24;
+
+/// A shaft of 24 sides that narrows at its end, by so much over a fifth of its radius. Where `halved` says so of a side, the
+/// shaft was cut in two there and its end was not: a sliver lies between the chord and the corner out of it.
+fn shaft(narrowing: f64, halved: impl Fn(usize) -> bool) -> Solid {
+    let mut solid = Solid::default();
+    let mut put = |turn: f64, radius: f64, height: f64| {
+        let turn = TAU * turn / CORNERS as f64;
+        solid.positions.push(DVec3::new(radius * cos(turn), radius * sin(turn), height));
+        solid.positions.len() as u32 - 1
+    };
+    let (bottom, top) = (put(0.0, 0.0, 0.0), put(0.0, 0.0, 2.2));
+    let rings = [(1.0, 0.0), (1.0, 2.0), (1.0 - narrowing, 2.2)]
+        .map(|(radius, height)| (0..CORNERS).map(|k| put(k as f64, radius, height)).collect::<Vec<u32>>());
+    let halves: Vec<Option<[u32; 2]>> = (0..CORNERS)
+        .map(|k| halved(k).then(|| [0.0, 1.992].map(|height| put(k as f64 + 0.5, 1.0, height))))
+        .collect();
+    for (k, half) in halves.into_iter().enumerate() {
+        let [[a, b], [c, d], [e, f]] = [0, 1, 2].map(|ring| [rings[ring][k], rings[ring][(k + 1) % CORNERS]]);
+        solid.triangles.extend([[c, d, e], [d, f, e], [e, f, top]]);
+        let columns = match half {
+            None => vec![[a, b, c, d]],
+            Some([low, high]) => {
+                solid.triangles.push([c, high, d]);
+                vec![[a, low, c, high], [low, b, high, d]]
+            }
+        };
+        for [a, b, c, d] in columns {
+            solid.triangles.extend([[a, b, c], [b, d, c], [b, a, bottom]]);
+        }
+    }
+    solid
+}
+
+fn mesh(solid: Solid) -> Mesh {
+    Mesh::build(Soup { positions: solid.positions, triangles: solid.triangles, ..Soup::default() })
+}
+
+/// How many edges of creases there are where the end of the shaft begins.
+fn creases(solid: Solid) -> usize {
+    let mesh = mesh(solid);
+    let hard = Patches::new(&mesh, 40.0, false).hard;
+    let is_there = |edge: &usize| {
+        let ends = mesh.edges.vertices[*edge].map(|v| (mesh.positions[v as usize] + mesh.origin).z);
+        ends.iter().all(|z| (1.9..2.1).contains(z))
+    };
+    (0..mesh.edges.len()).filter(|edge| hard.is_hard(*edge)).filter(is_there).count()
+}
+
+#[test]
+fn slivers_where_two_ways_to_cut_one_circle_differ_are_no_creases() {
+    // The end turns in by 20 degrees.
+    let wrinkled = mesh(shaft(0.073, |side| side % 4 == 0));
+    let turns = Turns::of(&wrinkled);
+    let sharp = (0..wrinkled.edges.len()).filter(|edge| turns.of_two(*edge) < 0.76).count();
+    assert_eq!(sharp, 12 + 30 + CORNERS, "two sides of each of six slivers, and both rims");
+    assert_eq!(creases(shaft(0.073, |side| side % 4 == 0)), 0);
+    // Without slivers the end is told from the shaft, which it meets at an angle.
+    assert_eq!(creases(shaft(0.073, |_| false)), CORNERS);
+}
+
+#[test]
+fn creases_beside_slivers_stay_and_so_do_lines_that_go_on() {
+    // By 60 degrees: 18 sides, and both halves of 6.
+    assert_eq!(creases(shaft(0.346, |side| side % 4 == 0)), 30);
+    assert_eq!(creases(shaft(0.073, |_| true)), 2 * CORNERS);
+}
+
+/// A mound like a roof with round ends on a plate, steep on both sides; its ridge is a sliver.
+fn mound() -> Solid {
+    const ROUND: usize = 12;
+    let tips = [DVec3::new(-3.0, 0.0, 2.0), DVec3::new(3.0, 0.0, 2.0)];
+    let mut solid = Solid::default();
+    solid.positions.extend(tips);
+    solid.positions.extend([DVec3::new(0.0, -0.05, 2.0), DVec3::new(0.0, 0.05, 2.0)]);
+    // Around both ends at its foot, and the rim of the plate.
+    let foot: Vec<DVec3> = (0..2 * (ROUND + 1))
+        .map(|k| {
+            let (end, step) = (k / (ROUND + 1), k % (ROUND + 1));
+            let turn = (0.25 + 0.5 * end as f64 + 0.5 * step as f64 / ROUND as f64) * TAU;
+            tips[end] + DVec3::new(0.84 * cos(turn), 0.84 * sin(turn), -1.0)
+        })
+        .collect();
+    solid.positions.extend(&foot);
+    solid.positions.extend(foot.iter().map(|p| DVec3::new(3.0 * p.x, 8.0 * p.y, p.z)));
+    let count = foot.len() as u32;
+    let (at, rim) = (|k: u32| 4 + k % count, |k: u32| 4 + count + k % count);
+    let round = ROUND as u32;
+    for k in 0..count {
+        solid.triangles.extend([[at(k), rim(k), rim(k + 1)], [at(k), rim(k + 1), at(k + 1)]]);
+        if k % (round + 1) < round {
+            solid.triangles.push([k / (round + 1), at(k), at(k + 1)]);
+        }
+    }
+    // The two sides from the foot to the ridge, and the ridge.
+    for [from, near, to, far] in [[round, 0, 1, 2], [2 * round + 1, 1, 0, 3]] {
+        solid.triangles.extend([
+            [near, at(from), far],
+            [at(from), at(from + 1), far],
+            [at(from + 1), to, far],
+        ]);
+    }
+    solid.triangles.extend([[0, 2, 1], [0, 1, 3]]);
+    solid
+}
+
+#[test]
+fn a_ridge_is_a_crease_however_thin() {
+    // Around it the surface turns by a hundred degrees.
+    assert_eq!(creases(mound()), 4);
+}
+
+#[test]
+fn an_outline_along_a_sliver_has_its_corners() {
+    // From above and from one side: of the slivers those of the far side have their lower edges on the outline.
+    let eye = DVec3::new(10.0 * cos(1.3), 0.0, 10.0 * sin(1.3));
+    let wrinkled = scene([shaft(0.073, |side| side % 4 == 0)]);
+    let drawn = stages(&wrinkled, &orthographic(eye, DVec3::Z, 4.0), &LineOptions::default());
+    let height = |v: u32| (drawn.mesh.positions[v as usize] + drawn.mesh.origin).z;
+    let contours = || {
+        let of_kind = drawn.lines.segments.iter().filter(|s| s.kind == LineKind::Contour);
+        of_kind.filter(|s| s.ends.iter().all(|v| height(*v) > 1.9))
+    };
+    assert_eq!(contours().filter(|s| s.strength > 40.0 && !s.smooth).count(), 6);
+    assert!(contours().all(|s| s.smooth == (s.strength < 40.0)), "corners where it bends by more");
+}

@@ -1,0 +1,342 @@
+//! Cast shadows: known shapes, and rays through every triangle as a reference.
+
+use crate::support::pipeline;
+use crate::support::pipeline::scene;
+use crate::support::references::shadow_rays::{check_crossings, check_lines, check_points, lights, middle};
+use crate::support::scenes::random_dice::Dice;
+use crate::support::scenes::random_scenes;
+use crate::support::scenes::round_solids;
+use crate::support::scenes::solids::{Solid, cuboid, torus};
+use glam::DVec3;
+use ligne::lines::{FeatureLines, LineKind, NO_FACE};
+use ligne::mesh::Mesh;
+use ligne::scene::Scene;
+use ligne::shadows::{Caster, Shadows};
+
+fn mesh(solids: impl IntoIterator<Item = Solid>) -> Mesh {
+    Mesh::build(scene(solids).to_soup())
+}
+
+/// An upright rectangle of two triangles at a height.
+fn sheet(low: [f64; 2], high: [f64; 2], z: f64) -> Solid {
+    let corner = |x: f64, y: f64| DVec3::new(x, y, z);
+    Solid {
+        positions: vec![
+            corner(low[0], low[1]),
+            corner(high[0], low[1]),
+            corner(high[0], high[1]),
+            corner(low[0], high[1]),
+        ],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+    }
+}
+
+/// The lines of one light on the faces of one part: number of closed loops, length, points (world).
+/// Fails where a point does not join two segments.
+fn loops(mesh: &Mesh, shadows: &Shadows, part: usize) -> (usize, f64, Vec<DVec3>) {
+    let lines = &shadows.lines;
+    let on_part = |face: u32| mesh.face_part[face as usize].index() == part;
+    let chosen: Vec<[u32; 2]> = lines.segments.iter().filter(|s| on_part(s.face)).map(|s| s.ends).collect();
+    let mut touching = vec![Vec::new(); lines.points.len()];
+    let mut length = 0.0;
+    for &[a, b] in &chosen {
+        touching[a as usize].push(b);
+        touching[b as usize].push(a);
+        length += lines.points[a as usize].distance(lines.points[b as usize]);
+    }
+    let mut count = 0;
+    let mut seen = vec![false; touching.len()];
+    let mut points = Vec::new();
+    for start in 0..touching.len() {
+        if touching[start].is_empty() {
+            continue;
+        }
+        assert_eq!(touching[start].len(), 2, "point at {:?}", lines.points[start] + mesh.origin);
+        points.push(lines.points[start] + mesh.origin);
+        let mut stack = vec![start];
+        count += usize::from(!seen[start]);
+        while let Some(point) = stack.pop() {
+            if !std::mem::replace(&mut seen[point], true) {
+                stack.extend(touching[point].iter().map(|p| *p as usize));
+            }
+        }
+    }
+    (count, length, points)
+}
+
+fn assert_has_corners(points: &[DVec3], corners: &[DVec3]) {
+    for corner in corners {
+        let nearest = points.iter().map(|p| p.distance(*corner)).fold(f64::INFINITY, f64::min);
+        assert!(nearest < 1e-6, "{corner}: {nearest}");
+    }
+}
+
+fn perimeter(corners: &[DVec3]) -> f64 {
+    (0..corners.len()).map(|k| corners[k].distance(corners[(k + 1) % corners.len()])).sum()
+}
+
+#[test]
+fn a_box_casts_the_hexagon_that_it_must() {
+    for towards in [DVec3::new(1.0, 0.7, 2.0), DVec3::new(-0.3, 0.2, 0.5)] {
+        let mesh = mesh([
+            sheet([-10.0, -9.0], [9.5, 10.0], 0.0),
+            cuboid(DVec3::new(-1.0, -1.0, 0.5), DVec3::new(1.0, 1.0, 2.0)),
+        ]);
+        let shadows = Shadows::new(&mesh, &[Caster::Directional { towards }]);
+        let (count, length, points) = loops(&mesh, &shadows, 0);
+        let fall = |p: DVec3| p - towards * (p.z / towards.z);
+        // Contour: all corners but the one nearest to the light and the one farthest from it.
+        let s = DVec3::new(towards.x.signum(), towards.y.signum(), 0.0);
+        let (low, high) = (0.5, 2.0);
+        let corner = |x: f64, y: f64, z: f64| fall(DVec3::new(x * s.x, y * s.y, z));
+        let hexagon = [
+            corner(1.0, -1.0, low),
+            corner(1.0, 1.0, low),
+            corner(-1.0, 1.0, low),
+            corner(-1.0, 1.0, high),
+            corner(-1.0, -1.0, high),
+            corner(1.0, -1.0, high),
+        ];
+        assert_eq!(count, 1);
+        assert_has_corners(&points, &hexagon);
+        assert!((length - perimeter(&hexagon)).abs() < 1e-6, "{length}");
+        assert!(points.iter().all(|p| p.z.abs() < 1e-9));
+        assert!(shadows.lines.segments.iter().all(|s| s.caster == 0));
+    }
+}
+
+#[test]
+fn a_box_on_the_ground_casts_no_line_along_its_foot() {
+    let towards = DVec3::new(1.0, 0.5, 1.0);
+    let mesh =
+        mesh([sheet([-10.0, -10.0], [10.0, 10.0], 0.0), cuboid(DVec3::ZERO, DVec3::new(1.0, 1.0, 2.0))]);
+    let shadows = Shadows::new(&mesh, &[Caster::Directional { towards }]);
+    let fall = |p: DVec3| p - towards * (p.z / towards.z);
+    // From the foot of one upright edge round the top to that of the other.
+    let path = [
+        DVec3::new(1.0, 0.0, 0.0),
+        fall(DVec3::new(1.0, 0.0, 2.0)),
+        fall(DVec3::new(0.0, 0.0, 2.0)),
+        fall(DVec3::new(0.0, 1.0, 2.0)),
+        DVec3::new(0.0, 1.0, 0.0),
+    ];
+    let length: f64 = path.windows(2).map(|w| w[0].distance(w[1])).sum();
+    let lines = &shadows.lines;
+    let points: Vec<DVec3> = lines.points.iter().map(|p| *p + mesh.origin).collect();
+    assert_has_corners(&points[..], &path[1..4]);
+    for foot in [path[0], path[4]] {
+        assert!(points.iter().any(|p| p.distance(foot) < 1e-6), "{foot}");
+    }
+    let found: f64 = lines
+        .segments
+        .iter()
+        .map(|s| {
+            let [a, b] = s.ends.map(|end| points[end as usize]);
+            a.distance(b)
+        })
+        .sum();
+    assert!((found - length).abs() < 1e-4, "{found} {length}");
+}
+
+#[test]
+fn a_point_light_enlarges_shadows() {
+    for height in [2.0, 30.0] {
+        let light = DVec3::new(0.3, 0.2, height);
+        let mesh = mesh([sheet([-12.0, -12.0], [12.0, 12.0], 0.0), sheet([-1.0, -0.5], [1.0, 0.5], 1.0)]);
+        let shadows = Shadows::new(&mesh, &[Caster::Point { position: light - mesh.origin }]);
+        let (count, length, points) = loops(&mesh, &shadows, 0);
+        let enlarged = |x: f64, y: f64| {
+            let p = DVec3::new(x, y, 1.0);
+            light + (p - light) * (height / (height - 1.0))
+        };
+        let corners = [enlarged(-1.0, -0.5), enlarged(1.0, -0.5), enlarged(1.0, 0.5), enlarged(-1.0, 0.5)];
+        assert_eq!(count, 1);
+        assert_has_corners(&points, &corners);
+        assert!((length - perimeter(&corners)).abs() < 1e-6, "{length}");
+    }
+}
+
+#[test]
+fn the_shadow_of_a_ring_has_a_hole() {
+    let ring = torus(24, 8, 1.0, 0.2).moved(|p| p + DVec3::Z * 2.0);
+    let mesh = mesh([sheet([-10.0, -10.0], [10.0, 10.0], 0.0), ring]);
+    let towards = DVec3::new(0.4, 0.1, 1.0);
+    let shadows = Shadows::new(&mesh, &[Caster::Directional { towards }]);
+    let (count, _, _) = loops(&mesh, &shadows, 0);
+    assert_eq!(count, 2);
+    let ground = |x: f64, y: f64| DVec3::new(x, y, 0.0) - mesh.origin;
+    let middle = DVec3::new(-0.8, -0.2, 0.0);
+    let face = |p: DVec3| u32::from(p.y > p.x);
+    let asked: Vec<(u32, DVec3)> =
+        [0.0, 1.0, 1.5].iter().map(|r| middle + DVec3::X * *r).map(|p| (face(p), ground(p.x, p.y))).collect();
+    assert_eq!(shadows.shadowed(&mesh, &asked), [0, 1, 0]);
+    assert_eq!(shadows.unlit(&mesh, asked[1].0, asked[1].1), 1);
+}
+
+#[test]
+fn nothing_in_the_way_casts_nothing() {
+    let lights = [
+        Caster::Directional { towards: DVec3::new(0.3, -0.4, 0.8) },
+        Caster::Directional { towards: DVec3::Z },
+        Caster::Point { position: DVec3::new(4.0, 1.0, 3.0) },
+        Caster::Point { position: DVec3::new(0.01, 0.02, 1.1) },
+    ];
+    for solid in [
+        cuboid(DVec3::splat(-0.5), DVec3::splat(0.5)),
+        round_solids::icosphere(2),
+        sheet([-1.0, -1.0], [1.0, 1.0], 0.0),
+        Solid::default(),
+    ] {
+        let mesh = mesh([solid]);
+        let shadows = Shadows::new(&mesh, &lights);
+        assert!(shadows.lines.segments.is_empty(), "{:?}", shadows.lines.segments);
+        let middles: Vec<(u32, DVec3)> =
+            (0..mesh.triangles.len() as u32).map(|f| (f, middle(&mesh, f))).collect();
+        assert!(shadows.shadowed(&mesh, &middles).iter().all(|mask| *mask == 0));
+    }
+}
+
+#[test]
+fn faces_of_solids_that_are_turned_away_are_not_in_a_cast_shadow_but_sheets_are() {
+    let mesh = mesh([
+        cuboid(DVec3::new(-1.0, -1.0, 1.0), DVec3::new(1.0, 1.0, 2.0)),
+        sheet([-1.0, -1.0], [1.0, 1.0], 0.0),
+        sheet([-1.0, -1.0], [1.0, 1.0], -1.0).moved(|p| DVec3::new(-p.x, p.y, p.z)),
+    ]);
+    let shadows = Shadows::new(&mesh, &[Caster::Directional { towards: DVec3::Z }]);
+    let asked: Vec<(u32, DVec3)> = (0..mesh.triangles.len() as u32).map(|f| (f, middle(&mesh, f))).collect();
+    for ((face, p), mask) in asked.iter().zip(shadows.shadowed(&mesh, &asked)) {
+        // Both sheets lie in the shadow of the box, whichever way they are wound.
+        assert_eq!(mask, u32::from((p + mesh.origin).z < 0.5), "{face}");
+    }
+}
+
+#[test]
+fn sheets_side_by_side_cast_no_seam() {
+    // Two sheets that touch along x = 0 without sharing a vertex, over a ground.
+    let mesh = mesh([
+        sheet([-10.0, -10.0], [10.0, 10.0], 0.0),
+        sheet([-1.0, -1.0], [0.0, 1.0], 2.0),
+        sheet([0.0, -1.5], [1.0, 1.5], 2.0),
+    ]);
+    let shadows = Shadows::new(&mesh, &[Caster::Directional { towards: DVec3::new(0.1, 0.2, 1.0) }]);
+    let (count, length, _) = loops(&mesh, &shadows, 0);
+    assert_eq!(count, 1);
+    assert!((length - 10.0).abs() < 1e-5, "{length}");
+}
+
+#[test]
+fn lines_are_appended_as_tone_borders_on_their_faces() {
+    let mesh = mesh([sheet([-9.0, -9.0], [9.0, 9.0], 0.0), sheet([-1.0, -1.0], [1.0, 1.0], 1.0)]);
+    let shadows = Shadows::new(&mesh, &[Caster::Directional { towards: DVec3::Z }]);
+    let mut lines = FeatureLines { points: vec![DVec3::ONE], ..FeatureLines::default() };
+    shadows.lines.append_to(&mesh, &mut lines);
+    assert_eq!(lines.segments.len(), shadows.lines.segments.len());
+    assert!(!lines.segments.is_empty());
+    for (segment, of) in lines.segments.iter().zip(&shadows.lines.segments) {
+        assert_eq!((segment.kind, segment.hosts), (LineKind::Isophote, [of.face, NO_FACE]));
+        for (end, own) in segment.ends.iter().zip(of.ends) {
+            assert_eq!(lines.position(&mesh, *end), shadows.lines.points[own as usize]);
+        }
+    }
+}
+
+#[test]
+fn points_and_lines_agree_with_rays_in_random_scenes() {
+    let mut dice = Dice::new(4);
+    for kind in ["boxes", "tetrahedra", "interpenetrating", "spheres", "tori", "mixture", "soup"] {
+        for _ in 0..3 {
+            let mut scene = random_scenes::random_scene(kind, &mut dice);
+            let ground = pipeline::scene([sheet([-3.0, -3.0], [3.0, 3.0], -1.6)]);
+            scene.geometries.extend(ground.geometries);
+            let mut part = ground.parts[0].clone();
+            part.geometry = scene.geometries.len() - 1;
+            scene.parts.push(part);
+            let mesh = Mesh::build(scene.to_soup());
+            let shadows = Shadows::new(&mesh, &lights(&mesh, &mut dice));
+            check_points(&mesh, &shadows, 300, &mut dice);
+            let checked = check_lines(&mesh, &shadows);
+            println!("{kind}: {checked} of {} lines checked", shadows.lines.segments.len());
+            assert!(checked > 3);
+        }
+    }
+}
+
+#[test]
+fn nothing_is_missing_between_separate_boxes() {
+    let mut dice = Dice::new(12);
+    for _ in 0..6 {
+        let mut solids = vec![sheet([-4.0, -4.0], [4.0, 4.0], -1.6)];
+        for x in [-1.0, 0.0, 1.0] {
+            for z in [-1.0, 0.0, 1.0] {
+                let turn = dice.turn();
+                let half =
+                    DVec3::new(dice.between(0.1, 0.25), dice.between(0.1, 0.25), dice.between(0.1, 0.25));
+                let place = DVec3::new(x, dice.between(-1.0, 1.0), z);
+                solids.push(cuboid(-half, half).moved(|p| turn * p + place));
+            }
+        }
+        let mesh = mesh(solids);
+        let mut casters = lights(&mesh, &mut dice);
+        // Inside, but in none of the boxes.
+        casters[2] = Caster::Point { position: DVec3::new(0.5, dice.between(-1.0, 1.0), 0.5) - mesh.origin };
+        let shadows = Shadows::new(&mesh, &casters);
+        check_points(&mesh, &shadows, 400, &mut dice);
+        check_crossings(&mesh, &shadows, 400, &mut dice);
+        assert!(check_lines(&mesh, &shadows) > 10);
+    }
+}
+
+#[test]
+fn size_place_and_threads_change_nothing() {
+    let at = |scale: f64, place: DVec3| {
+        let put = |solid: Solid| solid.moved(|p| p * scale + place);
+        let mesh = mesh([
+            put(sheet([-5.0, -5.0], [5.0, 5.0], 0.0)),
+            put(torus(16, 8, 1.0, 0.3).moved(|p| DVec3::new(p.x, p.z, p.y + 2.0))),
+            put(cuboid(DVec3::new(1.0, 1.0, 0.5), DVec3::new(2.0, 2.0, 1.0))),
+        ]);
+        let casters = [
+            Caster::Directional { towards: DVec3::new(0.5, 0.3, 1.0) },
+            Caster::Point { position: DVec3::new(0.1, -0.3, 4.0) * scale + (place - mesh.origin) },
+        ];
+        (Shadows::new(&mesh, &casters), mesh)
+    };
+    let (shadows, mesh) = at(1.0, DVec3::ZERO);
+    let length = |shadows: &Shadows| -> f64 {
+        let lines = &shadows.lines;
+        let of = |ends: [u32; 2]| {
+            let [a, b] = ends.map(|end| lines.points[end as usize]);
+            a.distance(b)
+        };
+        lines.segments.iter().map(|s| of(s.ends)).sum()
+    };
+    assert!(check_lines(&mesh, &shadows) > 20);
+    for (scale, place) in [(1e-3, DVec3::ZERO), (1e4, DVec3::ZERO), (1.0, DVec3::new(1e5, -2e5, 3e4))] {
+        let (other, _) = at(scale, place);
+        assert!((length(&other) / scale - length(&shadows)).abs() < 1e-3, "{scale} {place}");
+    }
+    let one = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool");
+    let (alone, _) = one.install(|| at(1.0, DVec3::ZERO));
+    assert_eq!(alone.lines, shadows.lines);
+}
+
+#[test]
+fn models_cast_shadows_on_themselves() {
+    let own = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/");
+    for name in ["castle.obj", "pump.glb", "gear.obj", "bear.ply"] {
+        let scene = Scene::open(std::path::Path::new(own).join(name)).expect("a model");
+        let mesh = Mesh::build(scene.to_soup());
+        let mut dice = Dice::new(1);
+        let casters = [
+            Caster::Directional { towards: DVec3::new(0.4, 0.8, 0.6) },
+            Caster::Point { position: DVec3::new(0.4, 0.7, -0.5) * mesh.extents.diagonal },
+        ];
+        let shadows = Shadows::new(&mesh, &casters);
+        let lines = &shadows.lines;
+        println!("{name}: {} segments, {} points", lines.segments.len(), lines.points.len());
+        assert!(lines.points.iter().all(|p| p.is_finite()));
+        let most = if mesh.triangles.len() > 20_000 { 60 } else { 200 };
+        check_points(&mesh, &shadows, most, &mut dice);
+    }
+}

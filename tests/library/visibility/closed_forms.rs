@@ -1,0 +1,471 @@
+//! Scenes whose drawing is known by geometry: what is seen of them and where it ends.
+
+use crate::support::measures::segment_sets::{cover_alike, distance, doubled, length};
+use crate::support::pipeline::{
+    Stages, counting, exact, geometry, orthographic, perspective, scene, scene_of_geometries, stages,
+};
+use crate::support::references::textbook_camera::Eye;
+use crate::support::scenes::solids::{Solid, cuboid, sphere, torus};
+use glam::DVec3;
+use kurbo::Point;
+use ligne::chains::{self, ChainOptions};
+use ligne::drawing::{Length, Unit};
+use ligne::lines::{HiddenLines, LineKind};
+use ligne::mesh::EdgeMark;
+use ligne::scene::{Camera, Geometry, Material, Scene};
+use ligne::visibility::ViewVertexKind;
+
+/// How near a computed end is to the known one, px.
+const EXACT_PX: f64 = 1e-6;
+
+fn at(x: f64, y: f64, z: f64) -> DVec3 {
+    DVec3::new(x, y, z)
+}
+
+fn cube() -> Solid {
+    cuboid(DVec3::splat(-1.0), DVec3::ONE)
+}
+
+/// Two views that show three sides of a cube.
+fn generic_views() -> [Camera; 2] {
+    let eye = at(3.1, 2.3, 4.7);
+    [perspective(eye, at(0.1, 0.0, -0.1), 40.0), orthographic(eye, DVec3::ZERO, 5.0)]
+}
+
+fn from_front(height: f64) -> Camera {
+    orthographic(at(0.0, 0.0, 10.0), DVec3::ZERO, height)
+}
+
+/// A polygon in space, fanned.
+fn polygon(corners: &[DVec3]) -> Solid {
+    let triangles = (1..corners.len() as u32 - 1).map(|k| [0, k, k + 1]).collect();
+    Solid { positions: corners.to_vec(), triangles }
+}
+
+/// An upright rectangle in the plane of that z.
+fn rectangle(x: [f64; 2], y: [f64; 2], z: f64) -> Solid {
+    polygon(&[at(x[0], y[0], z), at(x[1], y[0], z), at(x[1], y[1], z), at(x[0], y[1], z)])
+}
+
+/// Polygons joined to one solid; equal corners are one by the weld.
+fn joined(solids: impl IntoIterator<Item = Solid>) -> Solid {
+    let mut sum = Solid::default();
+    solids.into_iter().for_each(|solid| sum.add(solid));
+    sum
+}
+
+fn outline(corners: &[DVec3]) -> Vec<[DVec3; 2]> {
+    (0..corners.len()).map(|i| [corners[i], corners[(i + 1) % corners.len()]]).collect()
+}
+
+/// Checks that the visible lines cover just the given segments of the world, each once.
+fn shows(stages: &Stages, camera: &Camera, wanted: &[[DVec3; 2]]) {
+    let wanted = Eye::new(camera).images(wanted);
+    let visible = stages.visible();
+    cover_alike(&visible, &wanted, EXACT_PX, 1e-5).unwrap_or_else(|message| panic!("{message}: {visible:?}"));
+    assert!(doubled(&visible, 1e-3) < 1e-2, "ink twice: {visible:?}");
+}
+
+/// Visible view edges, but for points (lines seen end-on) and crumbs far below a hundredth px.
+fn count_visible(stages: &Stages) -> usize {
+    stages.visible().iter().filter(|[a, b]| distance(*a, *b) > 0.01).count()
+}
+
+#[test]
+fn a_cube_shows_nine_edges_and_hides_three() {
+    for camera in generic_views() {
+        let drawn = stages(&scene([cube()]), &camera, &counting());
+        assert_eq!((count_visible(&drawn), drawn.hidden().len()), (9, 3));
+        assert!(drawn.map.edges.iter().all(|e| e.invisibility <= 1), "one face lies before the hidden edges");
+        let contours = drawn.visible_of(LineKind::Contour).len();
+        assert_eq!((contours, drawn.visible_of(LineKind::Crease).len()), (6, 3));
+        assert!(drawn.map.edges.iter().all(|e| e.silhouette == (e.kind == LineKind::Contour)));
+    }
+}
+
+#[test]
+fn a_cube_from_the_front_is_a_square() {
+    let camera = from_front(4.0);
+    let drawn = stages(&scene([cube()]), &camera, &counting());
+    let front = [at(-1.0, -1.0, 1.0), at(1.0, -1.0, 1.0), at(1.0, 1.0, 1.0), at(-1.0, 1.0, 1.0)];
+    shows(&drawn, &camera, &outline(&front));
+    assert_eq!(drawn.visible().iter().filter(|[a, b]| distance(*a, *b) > 1.0).count(), 4);
+    // The back square lies exactly behind the front one.
+    assert!((length(&drawn.hidden()) - 4.0 * 500.0).abs() < 1e-6);
+}
+
+#[test]
+fn the_contour_of_a_sphere_is_a_circle() {
+    let around = 24;
+    // The longest edge spans this angle of the sphere.
+    let span = std::f64::consts::PI / around as f64 * std::f64::consts::SQRT_2;
+    let (eye, distance_of_eye) = (at(1.0, 2.0, 5.0), 30.0_f64.sqrt());
+    let perspective_view = perspective(eye, DVec3::ZERO, 40.0);
+    let scale = Eye::new(&perspective_view).scale;
+    let circles = [
+        (perspective_view, scale / (distance_of_eye * distance_of_eye - 1.0).sqrt()),
+        (orthographic(eye, DVec3::ZERO, 4.0), 250.0),
+    ];
+    for (camera, radius) in circles {
+        let drawn = stages(&scene([sphere(around, 1.0)]), &camera, &counting());
+        let centre = Point::new(500.0, 500.0);
+        let mut turned = 0.0;
+        for edge in &drawn.map.edges {
+            assert_eq!(edge.kind, LineKind::Contour);
+            let [a, b] = drawn.ends(edge);
+            for p in [a, b] {
+                let r = distance(p, centre);
+                let sagitta = radius * (1.0 - ligne::geometry::numbers::portable_math::cos(span)) * 1.3;
+                assert!(r <= radius + 1e-9 && r >= radius - sagitta, "{r} of {radius}, {sagitta}");
+            }
+            if edge.invisibility == 0 {
+                let (u, v) = (a - centre, b - centre);
+                turned += ligne::geometry::numbers::portable_math::atan2(u.cross(v), u.dot(v)).abs();
+            }
+        }
+        let whole = std::f64::consts::TAU;
+        assert!(turned > 0.999 * whole && turned < 1.1 * whole, "{turned}");
+    }
+}
+
+#[test]
+fn a_post_before_a_plate_ends_its_lines_at_computed_points() {
+    let plate = cuboid(at(-2.0, -1.0, -1.0), at(2.0, 1.0, 0.0));
+    let post = cuboid(at(-0.3, -3.0, 2.0), at(0.5, 3.0, 3.0));
+    let eye_point = at(0.7, 0.4, 10.0);
+    let camera = perspective(eye_point, at(0.7, 0.4, 0.0), 40.0);
+    let drawn = stages(&scene([plate, post]), &camera, &counting());
+    let eye = Eye::new(&camera);
+    // The post's contours as the eye projects them onto the plane z = 0.
+    let shadow = |x: f64, z: f64| 0.7 + (x - 0.7) * 10.0 / (10.0 - z);
+    let mut wanted = Vec::new();
+    for x in [shadow(-0.3, 3.0), shadow(0.5, 2.0)] {
+        wanted.extend([-1.0, 1.0].map(|y| eye.image(at(x, y, 0.0))));
+    }
+    let visible = drawn.map.edges.iter().filter(|e| e.invisibility == 0);
+    let nodes = visible.flat_map(|e| [e.start, e.end]).map(|v| drawn.map.vertices[v.index()]);
+    let found: Vec<Point> =
+        nodes.filter(|v| v.kind == ViewVertexKind::TJunction).map(|v| v.position).collect();
+    assert_eq!(found.len(), 4, "{found:?}");
+    for point in wanted {
+        let nearest = found.iter().map(|p| distance(*p, point)).fold(f64::INFINITY, f64::min);
+        assert!(nearest < EXACT_PX, "no T-junction at {point}, {found:?}");
+    }
+}
+
+#[test]
+fn a_bar_is_seen_through_a_hole() {
+    let frame = joined([
+        rectangle([-3.0, -1.0], [-3.0, 3.0], 2.0),
+        rectangle([1.0, 3.0], [-3.0, 3.0], 2.0),
+        rectangle([-1.0, 1.0], [1.0, 3.0], 2.0),
+        rectangle([-1.0, 1.0], [-3.0, -1.0], 2.0),
+    ]);
+    let bar = rectangle([-2.5, 2.5], [-0.25, 0.5], 0.0);
+    let camera = from_front(8.0);
+    let drawn = stages(&scene([frame, bar]), &camera, &counting());
+    let eye = Eye::new(&camera);
+    let inside = |[a, b]: &[Point; 2]| {
+        let middle = a.midpoint(*b) - Point::new(500.0, 500.0);
+        middle.x.abs() < 124.0 && middle.y.abs() < 124.0
+    };
+    let seen: Vec<[Point; 2]> = drawn.visible().into_iter().filter(|s| inside(s)).collect();
+    let wanted = [-0.25, 0.5].map(|y| [at(-1.0, y, 0.0), at(1.0, y, 0.0)]);
+    cover_alike(&seen, &eye.images(&wanted), EXACT_PX, 1e-5).unwrap();
+}
+
+#[test]
+fn a_torus_has_cusps_when_its_tube_is_thick_enough() {
+    // Seen at an elevation, the contours are offsets of an ellipse with axes 1 and s by the tube's
+    // radius; the inner one has four cusps, of which two are seen, if the tube is thicker than
+    // the ellipse is curved at its ends, s * s.
+    use ligne::geometry::numbers::portable_math::{cos, pow, sin};
+    for (elevation, tube) in [(60.0_f64, 0.3), (80.0, 0.4), (25.0, 0.3), (20.0, 0.25)] {
+        let (s, c) = (sin(elevation.to_radians()), cos(elevation.to_radians()));
+        let thick = tube > s * s;
+        let camera = orthographic(at(0.0, -10.0 * c, 10.0 * s), DVec3::ZERO, 4.0);
+        let drawn = stages(&scene([torus(128, 64, 1.0, tube)]), &camera, &exact());
+        let chains = chains::link(&drawn.map, &ChainOptions::default(), Unit::Px, HiddenLines::None);
+        let open: Vec<_> = chains.iter().filter(|c| !c.closed && c.invisibility == 0).collect();
+        let ends: Vec<Point> =
+            open.iter().flat_map(|c| [c.points[0], c.points[c.points.len() - 1]]).collect();
+
+        if thick {
+            // The cusps lie where the ellipse's radius of curvature is the tube's.
+            let sin2 = (pow(tube * s, 2.0 / 3.0) - s * s) / (1.0 - s * s);
+            let (x, y) = ((1.0 - sin2).sqrt(), sin2.sqrt());
+            let normal = kurbo::Vec2::new(s * x, y) / (s * s * x * x + y * y).sqrt();
+            let (u, v) = (x - tube * normal.x, s * y - tube * normal.y);
+            let cusps = [(u, v), (-u, v), (u, -v), (-u, -v)]
+                .map(|(u, v)| Point::new(500.0 + 250.0 * u, 500.0 + 250.0 * v));
+            let nearest = |p: &Point| ends.iter().map(|e| distance(*e, *p)).fold(f64::INFINITY, f64::min);
+            let seen = cusps.iter().filter(|p| nearest(p) < 8.0).count();
+            assert_eq!(seen, 2, "elevation {elevation}, tube {tube}: {cusps:?}, {ends:?}");
+        } else {
+            let closed = chains.iter().filter(|c| c.closed && c.invisibility == 0).count();
+            assert_eq!((closed, open.len()), (2, 0), "elevation {elevation}, tube {tube}");
+        }
+        // The outermost points of the picture.
+        let reach = drawn.visible().iter().flatten().map(|p| (p.x - 500.0).abs()).fold(0.0, f64::max);
+        let known = 250.0 * (1.0 + tube);
+        assert!(reach <= known + 1e-6 && reach > known * 0.998, "{reach} of {known}");
+    }
+}
+
+#[test]
+fn a_beam_through_a_cube_is_marked_where_it_enters() {
+    let camera = perspective(at(5.0, 3.0, 4.0), DVec3::ZERO, 50.0);
+    let beam = cuboid(at(-3.0, -0.5, -0.25), at(3.0, 0.5, 0.25));
+    let drawn = stages(&scene([cube(), beam]), &camera, &counting());
+    let seen = [[at(1.0, 0.5, -0.25), at(1.0, 0.5, 0.25)], [at(1.0, -0.5, 0.25), at(1.0, 0.5, 0.25)]];
+    let found = drawn.visible_of(LineKind::Intersection);
+    cover_alike(&found, &Eye::new(&camera).images(&seen), EXACT_PX, 2e-3).unwrap();
+}
+
+#[test]
+fn a_square_exactly_behind_another_is_hidden() {
+    let camera = perspective(at(0.0, 0.0, 4.0), DVec3::ZERO, 60.0);
+    let square = |half: f64, z: f64| rectangle([-half, half], [-half, half], z);
+    let drawn = stages(&scene([square(2.0, 0.0), square(1.0, 2.0)]), &camera, &counting());
+    let front = [at(-1.0, -1.0, 2.0), at(1.0, -1.0, 2.0), at(1.0, 1.0, 2.0), at(-1.0, 1.0, 2.0)];
+    shows(&drawn, &camera, &outline(&front));
+    assert!((length(&drawn.hidden()) - length(&drawn.visible())).abs() < 1e-6);
+}
+
+#[test]
+fn squares_that_overlap_in_one_plane_are_both_drawn_once() {
+    let camera = from_front(8.0);
+    let squares = [rectangle([0.0, 2.0], [0.0, 2.0], 0.0), rectangle([1.0, 3.0], [1.0, 3.0], 0.0)];
+    let drawn = stages(&scene(squares), &camera, &counting());
+    assert!((length(&drawn.visible()) - 16.0 * 125.0).abs() < 1e-6);
+    assert!(drawn.hidden().is_empty());
+
+    // Two sides run on top of each other along one unit each.
+    let squares = [rectangle([0.0, 2.0], [0.0, 2.0], 0.0), rectangle([1.0, 3.0], [0.0, 2.0], 0.0)];
+    let drawn = stages(&scene(squares), &camera, &counting());
+    assert!((length(&drawn.visible()) - 14.0 * 125.0).abs() < 0.1, "{}", length(&drawn.visible()));
+}
+
+#[test]
+fn faces_hardly_apart_are_drawn_as_one() {
+    for camera in generic_views() {
+        let square = |z: f64| rectangle([-1.0, 1.0], [-1.0, 1.0], z);
+        let drawn = stages(&scene([square(0.0), square(1e-7)]), &camera, &counting());
+        let corners = [at(-1.0, -1.0, 0.0), at(1.0, -1.0, 0.0), at(1.0, 1.0, 0.0), at(-1.0, 1.0, 0.0)];
+        let wanted = Eye::new(&camera).images(&outline(&corners));
+        cover_alike(&drawn.visible(), &wanted, 1e-3, 1e-2).unwrap();
+        assert!(doubled(&drawn.visible(), 1e-3) < 1e-2);
+    }
+}
+
+#[test]
+fn nothing_shines_through_the_cracks_at_t_vertices() {
+    // The plate's left half knows nothing of the vertex in the middle of its right side.
+    let plate = joined([
+        rectangle([-2.0, 0.1], [-2.0, 2.0], 0.0),
+        rectangle([0.1, 2.0], [-2.0, 0.3], 0.0),
+        rectangle([0.1, 2.0], [0.3, 2.0], 0.0),
+    ]);
+    let behind = cuboid(at(-0.9, -0.9, -3.0), at(0.9, 0.9, -2.0));
+    for camera in [perspective(at(0.3, 0.2, 9.0), DVec3::ZERO, 40.0), from_front(5.0)] {
+        let drawn = stages(&scene([plate.clone(), behind.clone()]), &camera, &counting());
+        let of_behind = drawn.map.edges.iter().filter(|e| e.part.index() == 1 && e.invisibility == 0);
+        let shining: f64 = of_behind.map(|e| length(&[drawn.ends(e)])).sum();
+        assert_eq!(shining, 0.0);
+        assert!(doubled(&drawn.visible(), 1e-3) < 1e-2, "{:?}", drawn.visible());
+    }
+}
+
+#[test]
+fn doubled_faces_change_nothing() {
+    for camera in generic_views() {
+        let mut twice = cube();
+        let flipped = twice.triangles.iter().map(|&[a, b, c]| [b, a, c]).collect::<Vec<_>>();
+        twice.triangles.extend(flipped);
+        let drawn = stages(&scene([twice]), &camera, &counting());
+        assert_eq!((count_visible(&drawn), drawn.hidden().len()), (9, 3));
+    }
+}
+
+#[test]
+fn cubes_that_share_an_edge_or_a_vertex_show_all_their_lines() {
+    let eye = at(6.3, -5.9, 2.4);
+    let first = || cuboid(DVec3::ZERO, DVec3::ONE);
+    for camera in [orthographic(eye, at(1.0, 1.0, 0.5), 5.0), perspective(eye, at(1.0, 1.0, 0.5), 35.0)] {
+        let second = cuboid(at(1.0, 1.0, 0.0), at(2.0, 2.0, 1.0));
+        let drawn = stages(&scene([joined([first(), second])]), &camera, &counting());
+        assert_eq!(count_visible(&drawn), 17, "an edge");
+        let second = cuboid(at(1.0, 1.0, 1.0), at(2.0, 2.0, 2.0));
+        let drawn = stages(&scene([joined([first(), second])]), &camera, &counting());
+        assert_eq!(count_visible(&drawn), 18, "a vertex");
+    }
+}
+
+#[test]
+fn an_inner_wall_is_not_seen() {
+    // A box of two chambers: the outer sides are cut where the wall meets them.
+    let halves = joined([
+        cuboid(at(-1.0, -0.5, -0.5), at(0.0, 0.5, 0.5)),
+        cuboid(at(0.0, -0.5, -0.5), at(1.0, 0.5, 0.5)),
+    ]);
+    for camera in generic_views() {
+        let drawn = stages(&scene([halves.clone()]), &camera, &counting());
+        let plain = stages(&scene([cuboid(at(-1.0, -0.5, -0.5), at(1.0, 0.5, 0.5))]), &camera, &counting());
+        cover_alike(&drawn.visible(), &plain.visible(), EXACT_PX, 1e-5).unwrap();
+    }
+}
+
+#[test]
+fn a_bow_tie_shows_its_six_sides() {
+    let camera = from_front(4.0);
+    let left = [at(0.0, 0.0, 0.0), at(-1.0, 0.5, 0.0), at(-1.0, -0.5, 0.0)];
+    let right = [at(0.0, 0.0, 0.0), at(1.0, -0.5, 0.0), at(1.0, 0.5, 0.0)];
+    let drawn = stages(&scene([joined([polygon(&left), polygon(&right)])]), &camera, &counting());
+    assert_eq!(count_visible(&drawn), 6);
+    shows(&drawn, &camera, &[outline(&left), outline(&right)].concat());
+}
+
+/// A strip with half a twist.
+fn moebius(around: usize) -> Solid {
+    use ligne::geometry::numbers::portable_math::{cos, sin};
+    let mut strip = Solid::default();
+    for i in 0..around {
+        let u = i as f64 / around as f64 * std::f64::consts::TAU;
+        for w in [-0.3, 0.3] {
+            let r = 1.0 + w * cos(u / 2.0);
+            strip.positions.push(at(r * cos(u), r * sin(u), w * sin(u / 2.0)));
+        }
+        // The last quad joins the first one's sides crosswise.
+        let [a, b] = [2 * i as u32, 2 * i as u32 + 1];
+        let [c, d] = if i + 1 == around { [1, 0] } else { [a + 2, b + 2] };
+        strip.triangles.extend([[a, c, d], [a, d, b]]);
+    }
+    strip
+}
+
+#[test]
+fn a_moebius_strip_has_one_border_and_no_crease() {
+    let around = 120;
+    for camera in generic_views() {
+        let drawn = stages(&scene([moebius(around)]), &camera, &counting());
+        let mut borders: Vec<u32> =
+            drawn.map.edges.iter().filter(|e| e.kind == LineKind::Border).map(|e| e.segment).collect();
+        borders.dedup();
+        assert_eq!(borders.len(), 2 * around);
+        assert!(drawn.map.edges.iter().all(|e| e.kind == LineKind::Border || e.kind == LineKind::Contour));
+        assert!(!drawn.visible_of(LineKind::Contour).is_empty(), "it turns away somewhere");
+    }
+}
+
+#[test]
+fn the_near_plane_cuts_at_known_places() {
+    // A rail from the eye's side into the distance; the plane lies 2 before the eye.
+    let rail = rectangle([-1.0, 1.0], [-0.1, 0.1], 0.0).moved(|p| at(p.x, -0.5, 5.0 * p.y * 2.0));
+    let camera = Camera { near: Some(2.0), ..perspective(at(0.0, 0.0, 2.0), at(0.0, 0.0, 0.0), 90.0) };
+    let drawn = stages(&scene([rail]), &camera, &counting());
+    // The rail reaches from z = −1 to 1; what is nearer than z = 0 goes.
+    let wanted = [
+        [at(-1.0, -0.5, -1.0), at(1.0, -0.5, -1.0)],
+        [at(-1.0, -0.5, -1.0), at(-1.0, -0.5, 0.0)],
+        [at(1.0, -0.5, -1.0), at(1.0, -0.5, 0.0)],
+    ];
+    shows(&drawn, &camera, &wanted);
+    let cut = drawn.map.vertices.iter().filter(|v| v.kind == ViewVertexKind::Frame);
+    let depths: Vec<f64> = cut.map(|v| v.depth).collect();
+    assert_eq!(depths.len(), 2);
+    assert!(depths.iter().all(|d| (d - 2.0).abs() < 1e-12));
+}
+
+#[test]
+fn an_eye_inside_a_cube_sees_its_edges_from_within() {
+    let camera = perspective(DVec3::ZERO, at(0.0, 0.0, -1.0), 120.0);
+    let drawn = stages(&scene([cube()]), &camera, &counting());
+    // Beyond the frame's border the edges towards the eye go on.
+    let tan = ligne::geometry::numbers::portable_math::tan(60.0_f64.to_radians());
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let far: Vec<DVec3> = corners.iter().map(|(x, y)| at(*x, *y, -1.0)).collect();
+    let mut wanted = outline(&far);
+    wanted.extend(corners.iter().map(|(x, y)| [at(*x, *y, -1.0), at(*x, *y, -1.0 / tan)]));
+    shows(&drawn, &camera, &wanted);
+    assert!(drawn.map.edges.iter().all(|e| e.kind == LineKind::Crease && e.invisibility == 0));
+}
+
+#[test]
+fn wires_are_seen_and_hidden_like_other_lines() {
+    let wire = Geometry {
+        positions: vec![at(-2.0, 0.25, -1.0), at(2.0, 0.25, -1.0), at(-2.0, -0.25, 1.0), at(2.0, -0.25, 1.0)],
+        wires: vec![[0, 1], [2, 3]],
+        ..Geometry::default()
+    };
+    let plate = geometry(rectangle([-1.0, 0.5], [-1.0, 1.0], 0.0));
+    let camera = from_front(5.0);
+    let drawn = stages(&scene_of_geometries(vec![wire, plate]), &camera, &counting());
+    let wanted = [
+        [at(-2.0, -0.25, 1.0), at(2.0, -0.25, 1.0)],
+        [at(-2.0, 0.25, -1.0), at(-1.0, 0.25, -1.0)],
+        [at(0.5, 0.25, -1.0), at(2.0, 0.25, -1.0)],
+    ];
+    cover_alike(&drawn.visible_of(LineKind::Wire), &Eye::new(&camera).images(&wanted), EXACT_PX, 1e-5)
+        .unwrap();
+}
+
+#[test]
+fn a_border_between_materials_is_a_line() {
+    let two =
+        Geometry { triangle_material: vec![0, 1], ..geometry(rectangle([-1.0, 1.0], [-1.0, 1.0], 0.0)) };
+    let with_materials = Scene { materials: vec![Material::default(); 2], ..scene_of_geometries(vec![two]) };
+    let camera = from_front(4.0);
+    let drawn = stages(&with_materials, &camera, &counting());
+    let diagonal = [[at(-1.0, -1.0, 0.0), at(1.0, 1.0, 0.0)]];
+    cover_alike(&drawn.visible_of(LineKind::Material), &Eye::new(&camera).images(&diagonal), EXACT_PX, 1e-5)
+        .unwrap();
+    assert_eq!(count_visible(&drawn), 5);
+}
+
+#[test]
+fn parts_of_two_materials_that_lie_on_each_other_have_no_border_inside() {
+    let sheet = |material: u32| Geometry {
+        triangle_material: vec![material; 2],
+        ..geometry(rectangle([-1.0, 1.0], [-1.0, 1.0], 0.0))
+    };
+    let both =
+        Scene { materials: vec![Material::default(); 2], ..scene_of_geometries(vec![sheet(0), sheet(1)]) };
+    let drawn = stages(&both, &from_front(4.0), &counting());
+    assert_eq!((count_visible(&drawn), drawn.visible_of(LineKind::Material).len()), (4, 0));
+
+    // Where one of them ends inside the other, there is one.
+    let half = Geometry { triangles: vec![[0, 1, 2]], triangle_material: vec![1], ..sheet(1) };
+    let both = Scene { materials: vec![Material::default(); 2], ..scene_of_geometries(vec![sheet(0), half]) };
+    let drawn = stages(&both, &from_front(4.0), &counting());
+    assert_eq!((count_visible(&drawn), drawn.visible_of(LineKind::Material).len()), (5, 1));
+}
+
+#[test]
+fn marks_of_the_file_make_and_unmake_creases() {
+    let mut square = geometry(rectangle([-1.0, 1.0], [-1.0, 1.0], 0.0));
+    let plain = EdgeMark::Unmarked;
+    square.edge_marks = vec![[plain, plain, EdgeMark::Hard], [plain; 3]];
+    let drawn = stages(&scene_of_geometries(vec![square]), &from_front(4.0), &counting());
+    assert_eq!(drawn.visible_of(LineKind::Crease).len(), 1);
+
+    for camera in generic_views() {
+        let mut soft = geometry(cube());
+        soft.edge_marks = vec![[EdgeMark::Hidden; 3]; soft.triangles.len()];
+        let drawn = stages(&scene_of_geometries(vec![soft]), &camera, &counting());
+        assert_eq!((count_visible(&drawn), drawn.visible_of(LineKind::Contour).len()), (6, 6));
+    }
+}
+
+#[test]
+fn lines_seen_end_on_leave_no_dots() {
+    let camera = from_front(5.0);
+    let plate = cuboid(at(-2.0, -2.0, 0.0), at(2.0, 2.0, 0.5));
+    let drawn =
+        stages(&scene([plate, cuboid(at(-1.0, -1.0, -3.0), at(1.0, 1.0, -2.0))]), &camera, &counting());
+    let off = Length::px(0.0);
+    let plain = ChainOptions { smooth: off, simplify: off, tidy: off, fit: false, ..ChainOptions::default() };
+    let chains = chains::link(&drawn.map, &plain, Unit::Px, HiddenLines::None);
+    let visible: Vec<_> = chains.iter().filter(|c| c.invisibility == 0).collect();
+    assert!(visible.iter().all(|c| c.part.index() == 0), "only the plate is seen: {visible:?}");
+    assert_eq!(visible.len(), 1, "{visible:?}");
+}

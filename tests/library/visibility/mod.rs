@@ -1,0 +1,11 @@
+//! Hidden lines, contours and cast shadows: against rays through every triangle and closed forms.
+
+mod cast_shadows;
+mod closed_forms;
+mod contour_validity;
+mod dual_space_search;
+mod hidden_line_precedence;
+mod locality;
+mod smooth_contours;
+mod thin_folds;
+mod visibility_by_rays;

@@ -1,0 +1,152 @@
+//! Splinters: the contour of a fold that is thinner than a pen is not drawn, and all else is.
+
+use glam::DVec3;
+use kurbo::Point;
+use ligne::drawing::Length;
+use ligne::geometry::numbers::portable_math::{cos, sin};
+use ligne::pipeline::render;
+use ligne::scene::Camera;
+use ligne::style::Style;
+
+use crate::support::measures::segment_sets::length;
+use crate::support::pipeline::{orthographic, scene};
+use crate::support::references::drawing_judge::{axis, ink_marks};
+use crate::support::scenes::solids::Solid;
+
+/// A square of side 40 with a long step in its middle, from tip to tip 20 long: the surface rises to it, and falls
+/// behind its edge by half its width.
+fn step(width: f64) -> Solid {
+    let up = width / 2.0;
+    let positions = [
+        [-20.0, -20.0, 0.0],
+        [20.0, -20.0, 0.0],
+        [20.0, 20.0, 0.0],
+        [-20.0, 20.0, 0.0],
+        [-10.0, 0.0, 0.0],
+        [10.0, 0.0, 0.0],
+        [0.0, 0.0, up],
+        [0.0, width, 0.0],
+    ];
+    Solid {
+        positions: positions.map(DVec3::from_array).to_vec(),
+        triangles: vec![
+            [0, 1, 6],
+            [0, 6, 4],
+            [1, 5, 6],
+            [4, 6, 7],
+            [6, 5, 7],
+            [0, 4, 3],
+            [1, 2, 5],
+            [4, 7, 3],
+            [5, 2, 7],
+            [7, 2, 3],
+        ],
+    }
+}
+
+/// Seen from before it, at an angle with the ground: below 26.6 degrees, what falls by half its width is averted. A unit is
+/// 25 px.
+fn before(elevation_deg: f64) -> Camera {
+    let angle = elevation_deg.to_radians();
+    let eye = DVec3::new(0.0, -100.0 * cos(angle), 100.0 * sin(angle));
+    Camera { up: DVec3::Z, ..orthographic(eye, DVec3::ZERO, 40.0) }
+}
+
+/// What is drawn of a solid near the middle of the page, px.
+fn drawn(solid: Solid, elevation_deg: f64, tidy: Option<f64>) -> f64 {
+    let mut style = Style::preset("ink").unwrap();
+    if let Some(tidy) = tidy {
+        style.chain.tidy = Length::px(tidy);
+    }
+    let drawing = render(&scene([solid]), &before(elevation_deg), &style).unwrap();
+    let is_inside = |p: Point| (100.0..900.0).contains(&p.x) && (400.0..600.0).contains(&p.y);
+    let inside = |s: &[Point; 2]| s.iter().all(|p| is_inside(*p));
+    let strokes: Vec<[Point; 2]> = ink_marks(&drawing).flat_map(axis).filter(inside).collect();
+    length(&strokes)
+}
+
+#[test]
+fn a_fold_thinner_than_a_pen_is_not_drawn() {
+    // 0.3 px in the image, and 2.8 px in space.
+    let thin = 0.1;
+    assert_eq!(drawn(step(thin), 20.0, None), 0.0);
+    assert!((drawn(step(thin), 20.0, Some(0.0)) - 500.0).abs() < 1.0, "it is a contour that is seen");
+}
+
+#[test]
+fn a_step_wider_than_a_pen_is_drawn() {
+    // Also where its averted faces are all but edge-on, and take no more of the image than those of a splinter.
+    for elevation_deg in [20.0, 26.0] {
+        let wide = drawn(step(0.5), elevation_deg, None);
+        assert!((wide - 500.0).abs() < 5.0, "{elevation_deg}: {wide}");
+    }
+}
+
+/// The same with tips 28 apart, and the edge between them to and fro: a needle that is averted, one that faces the eye.
+fn step_to_and_fro() -> Solid {
+    let (up, needle) = (0.25, 0.04);
+    let foot = needle + 3.0_f64.sqrt() * up;
+    let positions = [
+        [-20.0, -20.0, 0.0],
+        [20.0, -20.0, 0.0],
+        [20.0, 20.0, 0.0],
+        [-20.0, 20.0, 0.0],
+        [-14.0, 0.0, 0.0],
+        [14.0, 0.0, 0.0],
+        [-10.0, 0.0, up],
+        [10.0, 0.0, up],
+        [-10.0, needle, up - needle / 3.0_f64.sqrt()],
+        [10.0, needle, up],
+        [-10.0, foot, 0.0],
+        [10.0, foot, 0.0],
+    ];
+    Solid {
+        positions: positions.map(DVec3::from_array).to_vec(),
+        triangles: vec![
+            [0, 1, 7],
+            [0, 7, 6],
+            [0, 6, 4],
+            [1, 5, 7],
+            [6, 7, 8],
+            [7, 9, 8],
+            [4, 6, 8],
+            [4, 8, 10],
+            [8, 9, 11],
+            [8, 11, 10],
+            [9, 5, 11],
+            [7, 5, 9],
+            [0, 4, 3],
+            [1, 2, 5],
+            [4, 10, 3],
+            [10, 11, 3],
+            [11, 2, 3],
+            [11, 5, 2],
+        ],
+    }
+}
+
+#[test]
+fn a_line_that_needles_lead_to_and_fro_is_drawn() {
+    let line = drawn(step_to_and_fro(), 20.0, None);
+    // Some of it is seen twice.
+    assert!(line > 695.0, "{line}");
+}
+
+#[test]
+fn a_spike_thinner_than_a_pen_is_drawn() {
+    let around = 12u32;
+    let ring = |k: u32| {
+        let angle = std::f64::consts::TAU * f64::from(k) / f64::from(around);
+        DVec3::new(cos(angle), sin(angle), 0.0) * 0.006
+    };
+    let mut solid = step(0.0);
+    solid.positions.truncate(4);
+    solid.triangles = vec![[0, 1, 2], [0, 2, 3]];
+    let first = solid.positions.len() as u32;
+    solid.positions.extend((0..around).map(ring));
+    solid.positions.push(DVec3::Z * 4.0);
+    let tip = first + around;
+    solid.triangles.extend((0..around).map(|k| [first + k, first + (k + 1) % around, tip]));
+    let spike = drawn(solid, 20.0, None);
+    assert!(spike > 90.0, "{spike}");
+}

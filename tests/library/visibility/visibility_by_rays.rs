@@ -1,0 +1,253 @@
+//! Visibility against a slow reference: one ray through every triangle for each view edge.
+
+use crate::support::measures::segment_sets::{cover_alike, distance, length, uncovered};
+use crate::support::pipeline::{Stages, counting, exact, stages};
+use crate::support::references::textbook_camera::Eye;
+use crate::support::scenes::random_dice::Dice;
+use crate::support::scenes::random_scenes::{CAMERAS, SCENES, random_camera, random_scene};
+use glam::DVec3;
+use ligne::geometry::numbers::tolerance;
+use ligne::lines::{HiddenLines, LineOptions};
+use ligne::mesh::{FaceId, Mesh};
+use ligne::scene::{Camera, Scene};
+use ligne::view::Frame;
+
+/// What one ray says of one point.
+enum Answer {
+    /// So many surfaces lie in front.
+    Count(u16),
+    /// The ray grazes a border, a depth is at the limit of touching: rounding may decide.
+    Ambiguous,
+}
+
+/// The difference in depth that counts as touching a face.
+fn contact(mesh: &Mesh, face: u32, frame: &Frame, depth: f64) -> f64 {
+    mesh.extent(FaceId(face)).contact.max(tolerance::CONTACT_PX * frame.px_at(depth))
+}
+
+/// Shoots a ray from the eye to a point of a feature segment.
+fn shoot(stages: &Stages, camera: &Camera, eye: &Eye, segment: usize, point: DVec3) -> Answer {
+    let source = &stages.lines.segments[segment];
+    let mesh = &stages.mesh;
+    let depth = eye.depth(point);
+    // The ray runs from depth 0 to the point at 1; in a parallel view hits behind the eye count.
+    let from = if eye.perspective { eye.eye } else { point - eye.forward * depth };
+    let way = point - from;
+    let focus = camera.eye.distance(camera.target);
+    let near = camera.near.or(eye.perspective.then_some(focus * tolerance::NEAR_OF_TARGET));
+    let near = near.unwrap_or(f64::NEG_INFINITY);
+    let frame = Frame::new(camera, DVec3::ZERO);
+    let mut count = 0;
+    for (face, ids) in mesh.triangles.iter().enumerate() {
+        let shares = source.ends.map(|end| ids.contains(&end));
+        if source.hosts.contains(&(face as u32))
+            || shares == [true; 2]
+            || mesh.is_degenerate(FaceId::from(face))
+        {
+            continue;
+        }
+        // Möller and Trumbore, "Fast, minimum storage ray-triangle intersection", 1997.
+        let [a, b, c] = ids.map(|v| mesh.positions[v as usize]);
+        let (e1, e2) = (b - a, c - a);
+        let p = way.cross(e2);
+        let determinant = e1.dot(p);
+        let steep = determinant.abs() / (e1.cross(e2).length() * way.length());
+        let s = from - a;
+        let u = s.dot(p) / determinant;
+        let q = s.cross(e1);
+        let v = way.dot(q) / determinant;
+        let inside = u.min(v).min(1.0 - u - v);
+        let slack = 1e-8 / steep.max(1e-12);
+        if inside < -slack {
+            continue;
+        }
+        let hit = e2.dot(q) / determinant * depth;
+        let lead = depth - hit;
+        let touch = if shares[0] || shares[1] {
+            let of_part = tolerance::NEIGHBOUR_OF_PART * mesh.extent(FaceId::from(face)).scale;
+            of_part.max(tolerance::NEIGHBOUR_PX * frame.px_at(depth))
+        } else {
+            contact(mesh, face as u32, &frame, depth)
+        };
+        if lead < 0.9 * touch || hit < near - 1e-9 {
+            continue;
+        }
+        if inside < slack || lead < 1.1 * touch || hit < near + 1e-9 {
+            return Answer::Ambiguous;
+        }
+        count += 1;
+    }
+    Answer::Count(count)
+}
+
+#[derive(Default, Debug)]
+struct Tally {
+    compared: usize,
+    hidden: usize,
+    ambiguous: usize,
+    crumbs: usize,
+}
+
+/// View edges shorter than this (px) are what the tolerances of touching leave where lines pierce
+/// surfaces; a ray to their middle is at the limit itself.
+const CRUMB_PX: f64 = 5e-3;
+
+/// The point of the line p–q that is seen nearest to a place of the image, and its parameter.
+fn point_seen_at(eye: &Eye, image: kurbo::Point, p: DVec3, q: DVec3) -> (DVec3, f64) {
+    let (from, to) = (eye.world(image, 0.0), eye.world(image, 1.0));
+    let (ray, way) = (to - from, q - p);
+    let across = ray.cross(way);
+    let t = (p - from).cross(ray).dot(across) / across.length_squared();
+    (p + way * t, t)
+}
+
+/// Compares every view edge of a drawing with a ray to its middle.
+fn agrees_with_rays(scene: &Scene, camera: &Camera, tally: &mut Tally) -> Result<(), String> {
+    let stages = stages(scene, camera, &counting());
+    let local = Camera {
+        eye: camera.eye - stages.mesh.origin,
+        target: camera.target - stages.mesh.origin,
+        ..*camera
+    };
+    let eye = Eye::new(&local);
+    for edge in &stages.map.edges {
+        let [a, b] = stages.ends(edge);
+        // The view edge must lie on its feature segment; there the ray ends.
+        let ends = stages.lines.segments[edge.segment as usize].ends;
+        let [p, q] = ends.map(|end| stages.lines.position(&stages.mesh, end));
+        let (point, t) = point_seen_at(&eye, a.midpoint(b), p, q);
+        let deep = eye.depth(point);
+        let frame = Frame::new(&local, DVec3::ZERO);
+        let of_face = |face| contact(&stages.mesh, face, &frame, deep);
+        let contact = (0..stages.mesh.triangles.len() as u32).map(of_face).fold(0.0, f64::max);
+        let contact_px = eye.scale * contact / if eye.perspective { deep } else { 1.0 };
+        if distance(a, b) < CRUMB_PX.max(10.0 * contact_px) {
+            tally.crumbs += 1;
+            continue;
+        }
+        let off = distance(eye.image(point), a.midpoint(b));
+        if off > 1e-6 || !(-1e-9..=1.0 + 1e-9).contains(&t) {
+            return Err(format!("{edge:?} lies {off} px beside its feature line, at {t}"));
+        }
+        match shoot(&stages, &local, &eye, edge.segment as usize, point) {
+            Answer::Ambiguous => tally.ambiguous += 1,
+            Answer::Count(count) => {
+                tally.compared += 1;
+                tally.hidden += usize::from(count > 0);
+                if count != edge.invisibility {
+                    return Err(format!("{count} surfaces hide {edge:?} from {a} to {b}, at {point}"));
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+fn all_cameras(kind: &str, seeds: std::ops::Range<u64>) {
+    let mut tally = Tally::default();
+    for seed in seeds {
+        for camera_kind in CAMERAS {
+            let mut dice = Dice::new(seed);
+            let scene = random_scene(kind, &mut dice);
+            let camera = random_camera(camera_kind, &mut dice);
+            if let Err(message) = agrees_with_rays(&scene, &camera, &mut tally) {
+                panic!("{kind}, {camera_kind}, seed {seed}: {message}");
+            }
+        }
+    }
+    println!("{kind}: {tally:?}");
+    assert!(tally.compared > 1000 && tally.hidden > 200, "{tally:?}");
+    assert!(tally.crumbs * 5 <= tally.compared, "{tally:?}");
+    assert!(tally.ambiguous * 1000 <= tally.compared, "{tally:?}");
+}
+
+#[test]
+fn boxes_agree_with_rays() {
+    all_cameras("boxes", 0..8);
+}
+
+#[test]
+fn tetrahedra_agree_with_rays() {
+    all_cameras("tetrahedra", 0..8);
+}
+
+#[test]
+fn spheres_agree_with_rays() {
+    all_cameras("spheres", 0..4);
+}
+
+#[test]
+fn tori_agree_with_rays() {
+    all_cameras("tori", 0..4);
+}
+
+#[test]
+fn soups_agree_with_rays() {
+    all_cameras("soup", 0..5);
+}
+
+#[test]
+fn interpenetrating_boxes_agree_with_rays() {
+    all_cameras("interpenetrating", 0..8);
+}
+
+#[test]
+fn mixtures_agree_with_rays() {
+    all_cameras("mixture", 0..4);
+}
+
+#[test]
+fn visible_and_hidden_length_are_the_whole() {
+    for kind in SCENES {
+        for camera_kind in CAMERAS {
+            let mut dice = Dice::new(77);
+            let (scene, camera) = (random_scene(kind, &mut dice), random_camera(camera_kind, &mut dice));
+            let stages = stages(&scene, &camera, &counting());
+            let origin = stages.mesh.origin;
+            let eye = Eye::new(&camera);
+            // Without a near plane of the camera's own, the view sets one very near to the eye.
+            let near = camera.near.or(stages.view.frame.near);
+            let all = [stages.visible(), stages.hidden()].concat();
+            let mut drawn = vec![0.0; stages.lines.segments.len()];
+            for edge in &stages.map.edges {
+                let [a, b] = stages.ends(edge);
+                drawn[edge.segment as usize] += distance(a, b);
+            }
+            for (segment, drawn) in stages.lines.segments.iter().zip(drawn) {
+                let [p, q] = segment.ends.map(|end| stages.lines.position(&stages.mesh, end) + origin);
+                let whole =
+                    eye.clipped(p, q, near).map_or(0.0, |[p, q]| distance(eye.image(p), eye.image(q)));
+                assert!(drawn <= whole + 1e-6, "{kind}, {camera_kind}: {drawn} of {whole}, {segment:?}");
+                // Where two lines run within DOUBLE_PX of each other, one of them is drawn.
+                if whole - drawn > 1e-6 * whole.max(1.0) {
+                    let image = eye.clipped(p, q, near).map(|s| s.map(|p| eye.image(p)));
+                    let lost = uncovered(image.as_slice(), &all, 1.01 * tolerance::DOUBLE_PX);
+                    assert!(
+                        lost < 4.0 * tolerance::DOUBLE_PX,
+                        "{kind}, {camera_kind}: {drawn} of {whole}, {lost} lost, {segment:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn counting_changes_nothing_visible() {
+    let mut seen = 0.0;
+    for kind in SCENES {
+        for camera_kind in CAMERAS {
+            let mut dice = Dice::new(5);
+            let (scene, camera) = (random_scene(kind, &mut dice), random_camera(camera_kind, &mut dice));
+            let with = stages(&scene, &camera, &counting());
+            let none = LineOptions { hidden: HiddenLines::None, ..exact() };
+            let without = stages(&scene, &camera, &none);
+            let (with, without) = (with.visible(), without.visible());
+            seen += length(&with);
+            if let Err(message) = cover_alike(&with, &without, 1e-6, 0.02) {
+                panic!("{kind}, {camera_kind}: {message}");
+            }
+        }
+    }
+    assert!(seen > 10_000.0, "only {seen} px to see");
+}
