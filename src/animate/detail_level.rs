@@ -1,10 +1,10 @@
-//! [`Level`]: a scene with as many faces as asked for, whatever its pose.
+//! [`Level`]: a scene with a given number of faces, in any pose.
 
 use crate::edit::simplify::{Detail, Levels};
 use crate::error::Error;
 use crate::scene::Scene;
 
-/// A scene at a level of detail, at rest, and what takes its poses there.
+/// Resting scene at a level of detail, and the data that brings its poses to that level.
 #[derive(Debug, Clone)]
 pub struct Level<'a> {
     levels: Levels<'a>,
@@ -13,10 +13,10 @@ pub struct Level<'a> {
 }
 
 impl<'a> Level<'a> {
-    /// A scene with no more than so many faces, or with the fewest its levels have.
+    /// The finest level with at most `faces` faces, or the coarsest level.
     ///
     /// # Errors
-    /// If the levels are not those of the scene.
+    /// If the levels belong to another scene.
     pub fn of(detail: &'a Detail, scene: &Scene, faces: u64) -> Result<Self, Error> {
         let mut levels = detail.levels();
         let faces = levels.seek(scene, faces)?;
@@ -24,7 +24,7 @@ impl<'a> Level<'a> {
         Ok(Self { levels, rest, faces })
     }
 
-    /// How many faces it has.
+    /// Number of faces of the level.
     #[must_use]
     pub fn faces(&self) -> u64 {
         self.faces

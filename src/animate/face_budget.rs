@@ -1,45 +1,46 @@
-//! [`Budget`]: how many faces the next frame may have, so that frames take no longer than they may.
+//! [`Budget`]: number of faces of the next frame, so that frames stay within their time.
 //!
-//! Source: A. Lake, C. Marshall, M. Harris and M. Blackstein, *Stylized Rendering Techniques for Scalable Real-Time 3D Animation*,
-//! NPAR 2000, section 7 and figure 19: resolution follows the time a frame took. Where this differs: faces go down at once and up
-//! slowly, in steps, so that a level lasts.
+//! Source: A. Lake, C. Marshall, M. Harris and M. Blackstein, *Stylized Rendering Techniques for Scalable
+//! Real-Time 3D Animation*, NPAR 2000, section 7 and figure 19: resolution follows the time of a frame.
+//!
+//! Deviation: the number of faces falls at once and rises slowly, in steps, so that a level lasts.
 
-/// A frame is aimed at this part of the time it may take: what varies from frame to frame has room.
+/// Target share of the permitted frame time. The rest absorbs variation between frames.
 const AIM: f64 = 0.6;
 
-/// Below this part of the time there is room for more.
+/// Share of the permitted time below which a frame has room for more faces.
 const ROOM: f64 = 0.42;
 
-/// So many frames in a row must have room before there is more.
+/// Number of consecutive frames with room before the number of faces rises.
 const PATIENCE: u32 = 6;
 
-/// Each level has so many times the faces of the one below.
+/// Ratio of face counts between consecutive levels.
 const STEP: f64 = 1.25;
 
-/// No frame changes the number of faces by more than this at once.
+/// Greatest change of the number of faces in one frame, as a factor.
 const MOST: f64 = 4.0;
 
-/// Fewer faces are never asked for.
+/// Least number of faces.
 const FEWEST: f64 = 100.0;
 
-/// What is guessed of a machine before it has drawn anything: faces a millisecond.
+/// Assumed speed of a machine before its first frame, faces per millisecond.
 const GUESS: f64 = 150.0;
 
-/// Follows how long frames take.
+/// Face budget that follows the times of frames.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Budget {
-    /// Milliseconds that a frame may take.
+    /// Permitted time of a frame, milliseconds.
     ms: f64,
     /// Faces of the whole scene.
     all: u64,
-    /// The level: so many steps below all faces.
+    /// Level, in steps below all faces.
     level: u32,
-    /// Frames in a row with room for more.
+    /// Consecutive frames with room for more faces.
     patient: u32,
 }
 
 impl Budget {
-    /// For frames of a scene of so many faces that may take so many milliseconds each.
+    /// A budget for frames of `ms` milliseconds and a scene of `all` faces.
     #[must_use]
     pub fn new(ms: f64, all: u64) -> Self {
         let mut budget = Self { ms, all, level: 0, patient: 0 };
@@ -47,7 +48,7 @@ impl Budget {
         budget
     }
 
-    /// How many faces the next frame may have.
+    /// Number of faces of the next frame.
     #[must_use]
     pub fn faces(&self) -> u64 {
         let faces =
@@ -55,7 +56,7 @@ impl Budget {
         (faces.max(FEWEST).ceil() as u64).min(self.all.max(1))
     }
 
-    /// Learns how long a frame with as many faces took.
+    /// Records the time of a frame drawn with that number of faces.
     pub fn took(&mut self, ms: f64) {
         let faces = self.faces() as f64;
         if ms > self.ms * (AIM + ROOM).min(0.9) {
@@ -74,7 +75,7 @@ impl Budget {
         }
     }
 
-    /// The finest level of no more than so many faces.
+    /// The finest level with at most the given number of faces.
     fn level_of(&self, faces: f64) -> u32 {
         let mut level = 0;
         while level < self.lowest() && (Self { level, ..*self }).faces() as f64 > faces {
@@ -98,7 +99,8 @@ mod tests {
     use super::*;
     use crate::geometry::numbers::noise::{hash, unit};
 
-    /// Frames of a machine that draws so many faces a millisecond, more or less: faces and times.
+    /// Simulates frames on a machine with the given speed in faces per millisecond, with some variation.
+    /// Returns faces and times.
     fn run(budget: &mut Budget, frames: u64, speed: impl Fn(u64) -> f64) -> Vec<(u64, f64)> {
         let frame = |number: u64| {
             let faces = budget.faces();

@@ -1,4 +1,4 @@
-//! [`reach`]: the points that a camera must have in its frame to see all of a film.
+//! [`reach`]: the points that a camera's frame must contain to show a whole film.
 
 use crate::parallel::prelude::*;
 use glam::{DAffine3, DVec3};
@@ -8,17 +8,17 @@ use crate::error::Error;
 use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::scene::cameras::framing::world_points;
 
-/// Directions in which the outermost points are kept. What of a round model is beyond all of them is half a percent of it: less
-/// than the margin of any frame.
+/// Number of directions for extreme points. On a ball, the part outside all of them is half a percent of its
+/// size, less than the margin of any frame.
 const DIRECTIONS: usize = 256;
 
-/// Two over the golden ratio, of a turn: directions so far apart fill the sphere evenly.
+/// Golden angle, radians. Directions at this spacing cover the sphere evenly.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
-/// The outermost points of a scene in all its poses, world.
+/// The extreme points of a scene in all its poses, world.
 ///
-/// Each entry of `poses` holds the clips that play, and how things are moved before they are looked at, such as by a
-/// camera that turns round them.
+/// Each entry of `poses` holds the clips that play, and a transform applied afterwards, such as that of a
+/// camera that moves round the model.
 ///
 /// # Errors
 /// As [`Rigged::posed`].
@@ -38,7 +38,7 @@ pub fn reach(rigged: &Rigged, poses: &[(Vec<Playing>, DAffine3)]) -> Result<Vec<
     Ok(found?.concat())
 }
 
-/// Directions all over the sphere.
+/// Directions spread evenly over the sphere (Fibonacci lattice).
 fn directions() -> Vec<DVec3> {
     let of = |number: usize| {
         let z = 1.0 - (2.0 * number as f64 + 1.0) / DIRECTIONS as f64;
@@ -48,7 +48,7 @@ fn directions() -> Vec<DVec3> {
     (0..DIRECTIONS).map(of).collect()
 }
 
-/// The points that are farthest in one of the directions.
+/// The points that are extreme in one of the directions.
 fn outermost(points: &[DVec3], directions: &[DVec3]) -> Vec<DVec3> {
     if points.len() <= directions.len() {
         return points.to_vec();

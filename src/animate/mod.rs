@@ -52,57 +52,60 @@ use crate::pipeline::{Report, Resting, Stopwatch};
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
 
-/// Creases that a pose makes depend on so many moments before it at the most, so many seconds apart.
+/// Number and distance in seconds of the earlier moments that can influence the creases of a pose.
 const MEMORY: u32 = 24;
 const STEP: f64 = 1.0 / 24.0;
 
-/// What a frame shows.
+/// Content of a frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Moment {
-    /// The clips that play, and when; none for the stored pose.
+    /// Clips that play, with their times. Empty for the stored pose.
     pub playing: Vec<Playing>,
-    /// From where it is seen.
+    /// Camera.
     pub camera: Camera,
-    /// What it is drawn on; the camera's frame is in its middle.
+    /// Page. The camera's frame is centred on it.
     pub page: Page,
 }
 
 /// Draws one moment after another.
 ///
-/// A moment's drawing depends on nothing but the moment: any may be drawn alone, in any order, by any number of threads.
+/// The drawing of a moment depends only on that moment. Moments can be drawn alone, in any order and on
+/// several threads.
 #[derive(Debug)]
 pub struct Animator<'a> {
     rigged: &'a Rigged,
-    /// Where it has fewer faces than the model.
+    /// Level of detail, if it has fewer faces than the model.
     level: Option<&'a Level<'a>>,
     style: &'a Style,
-    /// What all moments share.
+    /// Preparation that all moments share.
     resting: OnceLock<Resting<'a>>,
     shown: Option<Drawing>,
 }
 
 impl<'a> Animator<'a> {
-    /// Of a scene and what moves it, in a style.
+    /// An animator for a rigged scene in a style.
     #[must_use]
     pub fn new(rigged: &'a Rigged, style: &'a Style) -> Self {
         Self { rigged, level: None, style, resting: OnceLock::new(), shown: None }
     }
 
-    /// The same with the faces of a level of its scene.
+    /// The same, with the faces of a level of its scene.
     #[must_use]
     pub fn at_level(rigged: &'a Rigged, level: &'a Level<'a>, style: &'a Style) -> Self {
         Self { level: Some(level), ..Self::new(rigged, style) }
     }
 
-    /// The same, with all made ready that moments share, which else the first drawing does. Whoever draws moments side by side
-    /// on the threads of a pool calls it before: one that makes it there might wait for another that waits for it.
+    /// The same, with the shared preparation done now instead of in the first drawing.
+    ///
+    /// Call it before moments are drawn in parallel on a thread pool. Otherwise a thread that prepares there
+    /// could wait for another one that waits for it.
     #[must_use]
     pub fn ready(self) -> Self {
         self.resting();
         self
     }
 
-    /// The scene at rest that is drawn, with what is hidden there and shown at some time.
+    /// The resting scene that is drawn, including parts that are hidden at rest but shown at some time.
     #[must_use]
     pub fn rest(&self) -> &'a Scene {
         self.level.map_or(&self.rigged.scene, |level| &level.rest)
@@ -121,7 +124,7 @@ impl<'a> Animator<'a> {
         Ok(self.shown.insert(drawing))
     }
 
-    /// The poses that led to a moment, the latest first.
+    /// The poses before a moment, latest first.
     fn before<'b>(&'b self, playing: &'b [Playing]) -> impl Iterator<Item = Scene> + use<'b, 'a> {
         (1..=MEMORY).map_while(move |steps| {
             let scene = self.rigged.posed(&motion::earlier(playing, f64::from(steps) * STEP)).ok()?;
@@ -132,10 +135,10 @@ impl<'a> Animator<'a> {
         })
     }
 
-    /// The drawing of a moment, and what it took.
+    /// The drawing of a moment, and its report.
     ///
     /// # Errors
-    /// If a clip is none of the model's, if a pose leads beyond all numbers, or if the camera can take no picture.
+    /// If a clip is not in the model, if a pose is not finite, or if the camera is invalid.
     pub fn draw(&self, moment: &Moment) -> Result<(Drawing, Report), Error> {
         let Moment { playing, camera, page } = moment;
         let mut watch = Stopwatch::start();

@@ -1,8 +1,10 @@
-//! Strokes that come or go grow or fade over several frames.
+//! Fading of strokes that appear or disappear, over several frames.
 //!
-//! A frame looks at its neighbours, so many before and behind: of a stroke that the nearest of them lacks, so much is drawn as that
-//! one is far. A stroke that goes on under another name, as part of a longer line or in parts, is not gone: the cells of the model
-//! it runs through are those of lines that are there.
+//! Each frame is compared with a number of frames before and after it. The closer the first frame that lacks
+//! a stroke, the less of the stroke is drawn.
+//!
+//! A stroke can continue under another name, as part of a longer line or in pieces. It counts as present if
+//! the model cells along it contain lines.
 
 use kurbo::{BezPath, ParamCurve, ParamCurveNearest, PathEl, Point};
 use rustc_hash::FxHashSet;
@@ -11,13 +13,13 @@ use crate::colour::srgb::Colour;
 use crate::drawing::{Drawing, Paint};
 use crate::motion::FadeBy;
 
-/// A stroke of another name is there as long as this part of its cells holds lines.
+/// Share of its cells that must contain lines for a renamed stroke to count as present.
 const THERE: f64 = 0.5;
 
-/// What axes may be simplified by where outlines are drawn nearer to them, px.
+/// Flattening tolerance of axes when outlines are thinned, user units.
 const FLAT: f64 = 0.05;
 
-/// What is known of the strokes of a frame.
+/// Strokes of a frame: their names and the model cells that they pass through.
 #[derive(Debug, Clone, Default)]
 pub struct Trace {
     names: FxHashSet<u64>,
@@ -25,7 +27,7 @@ pub struct Trace {
 }
 
 impl Trace {
-    /// Of a drawing of an [`Animator`](super::Animator).
+    /// The trace of a drawing made by an [`Animator`](super::Animator).
     #[must_use]
     pub fn of(drawing: &Drawing) -> Self {
         let mut trace = Self::default();
@@ -44,8 +46,10 @@ impl Trace {
     }
 }
 
-/// Draws less of the strokes that some of the frames around lack: `around` are the frames before and behind this one, the nearest
-/// first, and none beyond the begin and the end, where nothing is lacking. Strokes painted with a picture are left as they are.
+/// Fades the strokes that some neighbouring frames lack.
+///
+/// `around` holds the frames before and after this one, nearest first. It holds `None` outside the film,
+/// where nothing counts as lacking. Strokes painted with a picture do not fade.
 pub fn fade(drawing: &mut Drawing, around: &[[Option<&Trace>; 2]], by: FadeBy) {
     for mark in drawing.layers.iter_mut().flat_map(|layer| &mut layer.marks) {
         let (name, places) = (mark.provenance.identity, &mark.provenance.places);
@@ -71,7 +75,7 @@ pub fn fade(drawing: &mut Drawing, around: &[[Option<&Trace>; 2]], by: FadeBy) {
     }
 }
 
-/// An outline whose points are as much nearer to the axis as a share says.
+/// An outline with its points moved towards the axis, to a share of their distance.
 fn thinned(outline: &BezPath, axis: &BezPath, share: f64) -> BezPath {
     let mut flat = BezPath::new();
     kurbo::flatten(axis, FLAT, |element| flat.push(element));

@@ -1,14 +1,14 @@
-//! [`Timeline`]: which frames there are, when each is, and which of them are drawn.
+//! [`Timeline`]: the frames of a film, their times, and which of them are drawn.
 
 use crate::error::Error;
 
-/// More frames than this are refused: half a day of film.
+/// Greatest number of frames, half a day of film.
 const MOST_FRAMES: f64 = 1e6;
 
-/// Share of a frame by which a span may be longer than whole frames: what rounding of seconds may add.
+/// Excess of a span over whole frames that counts as rounding, in frames.
 const SLACK: f64 = 1e-6;
 
-/// Equally long frames, some of which hold the drawing of the one before.
+/// Frames of equal length. Some repeat the drawing of the frame before.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timeline {
     from: f64,
@@ -18,11 +18,14 @@ pub struct Timeline {
 }
 
 impl Timeline {
-    /// Frames between two times, in seconds, so many a second: one at the begin, none at the end, so that what ends as it
-    /// began runs round. One frame where the two are the same.
+    /// Frames between two times in seconds, `fps` per second.
+    ///
+    /// The first frame lies at the start and none at the end, so that a cyclic clip loops. If the times are
+    /// equal, there is one frame.
     ///
     /// # Errors
-    /// If a time is not a number, if the end is before the begin, or if the rate is not above 0 and at most 1000.
+    /// If a time is not finite, the end is before the start, there are too many frames, or the rate is not in
+    /// (0, 1000].
     pub fn between(from: f64, to: f64, fps: f64) -> Result<Self, Error> {
         if !(from.is_finite() && to.is_finite() && from <= to) {
             return Err(Error::new(format!(
@@ -38,10 +41,10 @@ impl Timeline {
         Self::of_frames(frames as usize, from, fps)
     }
 
-    /// So many frames from a time on.
+    /// A number of frames from a time on.
     ///
     /// # Errors
-    /// If there is no frame, if the time is not a number, or if the rate is not above 0 and at most 1000.
+    /// If there are no frames or too many, the time is not finite, or the rate is not in (0, 1000].
     pub fn of_frames(frames: usize, from: f64, fps: f64) -> Result<Self, Error> {
         if !(fps > 0.0 && fps <= 1000.0) {
             return Err(Error::new(format!("{fps} is not a usable number of frames per second"))
@@ -54,48 +57,48 @@ impl Timeline {
         Ok(Self { from, fps, frames, hold: 1 })
     }
 
-    /// The same with every drawing held for so many frames: on twos, on threes.
+    /// The same, with every drawing held for several frames ("on twos", "on threes").
     #[must_use]
     pub fn holding(self, frames: usize) -> Self {
         Self { hold: frames.max(1), ..self }
     }
 
-    /// How many frames there are.
+    /// Number of frames.
     #[must_use]
     pub fn frames(&self) -> usize {
         self.frames
     }
 
-    /// Frames a second.
+    /// Frames per second.
     #[must_use]
     pub fn fps(&self) -> f64 {
         self.fps
     }
 
-    /// For how many frames a drawing is held.
+    /// Number of frames that a drawing is held.
     #[must_use]
     pub fn hold(&self) -> usize {
         self.hold
     }
 
-    /// The frames that are drawn, in order; others hold the drawing before them.
+    /// The frames that are drawn, in order. The others repeat the drawing before them.
     pub fn drawn(&self) -> impl Iterator<Item = usize> + use<> {
         (0..self.frames).step_by(self.hold)
     }
 
-    /// The frame whose drawing a frame shows.
+    /// The drawn frame whose drawing a frame shows.
     #[must_use]
     pub fn held(&self, frame: usize) -> usize {
         frame - frame % self.hold
     }
 
-    /// For how many frames a drawing is shown.
+    /// Number of frames that show the drawing of a drawn frame.
     #[must_use]
     pub fn shown(&self, drawn: usize) -> usize {
         self.hold.min(self.frames.saturating_sub(drawn))
     }
 
-    /// When a frame is, in seconds.
+    /// Time of a frame in seconds.
     #[must_use]
     pub fn time(&self, frame: usize) -> f64 {
         self.from + frame as f64 / self.fps

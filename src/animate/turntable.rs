@@ -1,4 +1,4 @@
-//! [`Turntable`]: a camera that goes round a model.
+//! [`Turntable`]: a camera that moves round a model.
 
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -6,19 +6,20 @@ use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::scene::cameras::framing::world_points;
 use crate::scene::{Camera, Scene, UpAxis};
 
-/// A turn round an upright axis in equal steps; the camera goes to its right, so that the model turns clockwise seen from above.
+/// Turn round an upright axis in equal steps. The camera moves to its right, so the model turns clockwise as
+/// seen from above.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Turntable {
-    /// A point on the axis, world.
+    /// Point on the axis, world.
     pub centre: DVec3,
-    /// Upwards along the axis, a unit vector.
+    /// Unit vector upwards along the axis.
     pub axis: DVec3,
-    /// Steps of a whole turn.
+    /// Number of steps in a whole turn.
     pub steps: usize,
 }
 
 impl Turntable {
-    /// Round the middle of a scene.
+    /// A turn round the centre of a scene's bounding box.
     #[must_use]
     pub fn round(scene: &Scene, steps: usize) -> Self {
         let points = world_points(scene);
@@ -31,10 +32,10 @@ impl Turntable {
         Self { centre: low / 2.0 + high / 2.0, axis, steps: steps.max(1) }
     }
 
-    /// From where things are before the turn to where they are after so many steps.
+    /// The rotation of the camera after a number of steps.
     #[must_use]
     pub fn turn(&self, step: usize) -> DAffine3 {
-        // Whole turns end exactly where they began.
+        // Whole turns return exactly to the start.
         let share = (step % self.steps) as f64 / self.steps as f64;
         let angle = std::f64::consts::TAU * share;
         let (sine, cosine, axis) = (sin(angle), cos(angle), self.axis);
@@ -43,7 +44,7 @@ impl Turntable {
         DAffine3::from_mat3_translation(turn, self.centre - turn * self.centre)
     }
 
-    /// The camera after so many steps.
+    /// The camera after a number of steps.
     #[must_use]
     pub fn camera(&self, first: &Camera, step: usize) -> Camera {
         if step.is_multiple_of(self.steps) {

@@ -1,4 +1,4 @@
-//! [`Values`]: what cameras, lights and materials have become while clips play.
+//! [`Values`]: animated values of cameras, lights and materials while clips play.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -9,9 +9,10 @@ use super::rig::mixed;
 use super::track::Track;
 use crate::scene::{Camera, Light, LightKind, Projection};
 
-/// Which values of cameras, lights and materials clips move, by which tracks, at which time and weight.
+/// Animated values of cameras, lights and materials, with their tracks, times and weights.
 ///
-/// A value that no camera or light can have, such as an angle of view below 0 between the keys of a cubic, leaves the stored one.
+/// Invalid values, such as a negative angle of view between the keys of a cubic, are replaced by the stored
+/// ones.
 pub(crate) struct Values<'a>(BTreeMap<Target, Vec<(&'a Track, f64, f64)>>);
 
 impl<'a> Values<'a> {
@@ -26,7 +27,7 @@ impl<'a> Values<'a> {
         Self(moved)
     }
 
-    /// A value that rests at `rest`; none if nothing moves it.
+    /// Present value, given its rest value; `None` if nothing animates it.
     fn of<const N: usize>(&self, target: Target, rest: [f64; N]) -> Option<[f64; N]> {
         let tracks = self.0.get(&target)?;
         let mut now = rest;
@@ -39,7 +40,7 @@ impl<'a> Values<'a> {
         now.iter().all(|value| value.is_finite()).then_some(now)
     }
 
-    /// What a camera, of this number in the file, sees now from where it rests.
+    /// Camera `number` of the file with its present properties.
     pub fn camera(&self, number: usize, mut camera: Camera) -> Camera {
         let of = |lens, rest: f64| Some(self.of(Target::Camera(number, lens), [rest])?[0]);
         let positive = |value: &f64| *value > 0.0;
@@ -54,7 +55,7 @@ impl<'a> Values<'a> {
                 camera.near = near.filter(positive).or(camera.near);
             }
             Projection::Orthographic { height } => {
-                // Magnifications may be negative: so they are at rest.
+                // Magnifications may be negative, as at rest.
                 let (x, y) = (*height / 2.0 * aspect, *height / 2.0);
                 let half = |lens, rest: f64| of(lens, rest).map(f64::abs).filter(positive);
                 let (now_x, now_y) = (half(Lens::HalfWidth, x), half(Lens::HalfHeight, y));
@@ -68,7 +69,7 @@ impl<'a> Values<'a> {
         camera
     }
 
-    /// What a light, of this number in the file, is now where it rests.
+    /// Sets the present properties of light `number` of the file.
     pub fn light(&self, number: usize, light: &mut Light) {
         let of = |shine, rest: f64| Some(self.of(Target::Light(number, shine), [rest])?[0]);
         if let Some(colour) = self.of(Target::Light(number, Shine::Colour), light.colour.map(f64::from)) {
@@ -84,7 +85,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// What the values of a material are now; none if nothing moves them.
+    /// Present values of a material; `None` if nothing animates them.
     pub fn material(&self, number: usize, rest: &Factors) -> Option<Factors> {
         let target = |finish| Target::Material(number, finish);
         let one = |finish, rest: f32| Some(self.of(target(finish), [f64::from(rest)])?[0] as f32);

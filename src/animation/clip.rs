@@ -1,40 +1,40 @@
-//! [`Clip`]: an animation of a file: tracks for what changes in it.
+//! [`Clip`]: an animation of a file, as tracks for the values that change.
 
 use super::track::Track;
 
 /// An animation of a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Clip {
-    /// The name in the file; `animation 0` and so on where it has none.
+    /// Name in the file, or `animation 0` and so on.
     pub name: String,
-    /// What changes.
+    /// Values that change.
     pub channels: Vec<Channel>,
 }
 
-/// How a value of a file changes.
+/// A value of the file that changes over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {
-    /// Which value.
+    /// The value.
     pub target: Target,
-    /// What it is in time.
+    /// Its keys.
     pub track: Track,
 }
 
-/// A value of a file that may change; things count as they stand in the file.
+/// A value of a file that may change. Numbers are indices in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Target {
-    /// Of a node.
+    /// Property of a node.
     Node(usize, Property),
-    /// Of a camera, whichever nodes hold it.
+    /// Property of a camera, shared by all nodes with that camera.
     Camera(usize, Lens),
-    /// Of a light, whichever nodes hold it.
+    /// Property of a light, shared by all nodes with that light.
     Light(usize, Shine),
-    /// Of a material.
+    /// Property of a material.
     Material(usize, Finish),
 }
 
 impl Target {
-    /// The node whose property it is, and which.
+    /// Node and property, if the target is a node.
     #[must_use]
     pub fn of_node(self) -> Option<(usize, Property)> {
         match self {
@@ -44,68 +44,68 @@ impl Target {
     }
 }
 
-/// What may change of a node.
+/// Animated property of a node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Property {
-    /// Where it is moved to: three numbers.
+    /// Translation: three numbers.
     Translation,
-    /// How it is turned: a quaternion, four numbers.
+    /// Rotation: a quaternion, four numbers.
     Rotation,
-    /// By how much it is stretched along its axes: three numbers.
+    /// Scale along the axes: three numbers.
     Scale,
-    /// How much of each morph target is in its mesh.
+    /// Weights of the morph targets of its mesh.
     Weights,
-    /// Whether it is shown: a number that is not 0.
+    /// Visibility: visible unless the number is 0.
     Visible,
 }
 
-/// What may change of a camera: one number each.
+/// Animated property of a camera, one number each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Lens {
-    /// The vertical angle of view of a perspective camera, in radians.
+    /// Vertical field of view of a perspective camera, in radians.
     FieldOfView,
-    /// Its width in heights.
+    /// Aspect ratio, width by height.
     Aspect,
-    /// Half the width of what a parallel view shows.
+    /// Half the width of a parallel view.
     HalfWidth,
-    /// Half its height.
+    /// Half the height of a parallel view.
     HalfHeight,
-    /// The nearest depth that is drawn.
+    /// Depth of the near plane.
     Near,
 }
 
-/// What may change of a light.
+/// Animated property of a light.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Shine {
-    /// Its colour: three numbers, linear.
+    /// Colour: three numbers, linear.
     Colour,
-    /// How bright it is.
+    /// Intensity.
     Intensity,
-    /// How far it shines.
+    /// Range of the light.
     Range,
-    /// The half angle of its cone inside which it is full, in radians.
+    /// Half angle of the cone within which a spot light has full intensity, in radians.
     InnerAngle,
-    /// That outside which it is none.
+    /// Half angle of the cone outside which a spot light is dark, in radians.
     OuterAngle,
 }
 
-/// What may change of a material.
+/// Animated property of a material.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Finish {
-    /// Its base colour and how opaque it is: four numbers, linear.
+    /// Base colour and opacity: four numbers, linear.
     Base,
-    /// The light of its own: three numbers, linear.
+    /// Emitted light: three numbers, linear.
     Emissive,
-    /// The least alpha that is not cut away.
+    /// Alpha cutoff.
     Cutoff,
-    /// How rough it is.
+    /// Roughness.
     Roughness,
-    /// How much light goes through it.
+    /// Transmission: share of light that passes through.
     Transmission,
 }
 
 impl Clip {
-    /// When it begins and ends, in seconds: its first and its last key. An empty clip is at 0.
+    /// Start and end in seconds: times of the first and last key. Zero for an empty clip.
     #[must_use]
     pub fn span(&self) -> [f64; 2] {
         let keys = self.channels.iter().map(|channel| channel.track.times());
@@ -115,7 +115,7 @@ impl Clip {
         if first <= last { [first, last] } else { [0.0, 0.0] }
     }
 
-    /// How many keys a second its tracks have, where they have most; none if no track has two keys.
+    /// Greatest number of keys a second of any track; `None` if no track has two keys.
     #[must_use]
     pub fn rate(&self) -> Option<f64> {
         let rate = |channel: &Channel| {
@@ -127,20 +127,20 @@ impl Clip {
     }
 }
 
-/// A clip that is played, at a time, and how much of it is seen.
+/// A clip that plays, with its time and weight.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Playing {
-    /// The number of the clip.
+    /// Number of the clip.
     pub clip: usize,
-    /// In seconds; before its begin and behind its end the clip stands still.
+    /// Time in seconds, clamped to the start and end of the clip.
     pub time: f64,
-    /// Weights of several clips are shares of 1, or what is left to 1 belongs to the stored pose; more than 1 in all are divided by
-    /// their sum.
+    /// Weight of the clip. If the weights of all clips add up to less than 1, the rest pose has the
+    /// remainder; if to more than 1, they are divided by their sum.
     pub weight: f64,
 }
 
 impl Playing {
-    /// All of a clip at a time.
+    /// A clip at full weight.
     #[must_use]
     pub const fn all(clip: usize, time: f64) -> Self {
         Self { clip, time, weight: 1.0 }

@@ -1,44 +1,44 @@
-//! [`Body`]: the vertices of a mesh before they are posed, and what moves them.
+//! [`Body`]: vertices in their rest position, with their morph targets and joint weights.
 
 use glam::{DAffine3, DMat3, DVec3};
 
-/// Vertices of a geometry that belong together, and what moves them: morph targets, then the joints of a skin.
+/// Vertices of a geometry that deform together: first by morph targets, then by the joints of a skin.
 ///
 /// Source: Khronos Group, glTF 2.0 specification, sections 3.7.2.2 (morph targets) and 3.7.3 (skins).
 #[derive(Debug, Clone, Default)]
 pub struct Body {
-    /// The first of its vertices in the geometry.
+    /// Index of the first vertex in the geometry.
     pub start: usize,
-    /// Where they rest.
+    /// Rest positions.
     pub positions: Vec<DVec3>,
-    /// Their normals, or none.
+    /// Rest normals; empty if there are none.
     pub normals: Vec<[f32; 3]>,
-    /// What each morph target adds.
+    /// Morph targets.
     pub targets: Vec<Target>,
-    /// Sets of four joints and their weights, each with one entry a vertex.
+    /// Sets of four joints and weights, each with one entry per vertex.
     pub sets: Vec<Influences>,
 }
 
-/// What a morph target adds at full weight; arrays are as long as there are vertices, or empty.
+/// Offsets of a morph target at full weight; one entry per vertex, or empty.
 #[derive(Debug, Clone, Default)]
 pub struct Target {
-    /// To positions.
+    /// Offsets of positions.
     pub positions: Vec<DVec3>,
-    /// To normals.
+    /// Offsets of normals.
     pub normals: Vec<[f32; 3]>,
 }
 
-/// Four joints of each vertex and how much each moves it.
+/// Four joints of each vertex and their weights.
 #[derive(Debug, Clone, Default)]
 pub struct Influences {
-    /// By their numbers in the skin.
+    /// Joint numbers within the skin.
     pub joints: Vec<[u32; 4]>,
-    /// Not necessarily 1 in all.
+    /// Weights; they need not add up to 1.
     pub weights: Vec<[f64; 4]>,
 }
 
 impl Body {
-    /// Moves vertices that rest by morph targets at their weights, and then by the joints of a skin, if it has one.
+    /// Moves rest positions and normals by morph targets, and then by the joints of a skin, if there is one.
     pub fn pose(
         &self,
         (positions, normals): (&mut [DVec3], &mut [[f32; 3]]),
@@ -62,7 +62,7 @@ impl Body {
         }
     }
 
-    /// Where one vertex is, moved as [`Body::pose`] moves all.
+    /// Position of one vertex, deformed as by [`Body::pose`].
     #[must_use]
     pub fn place(&self, vertex: usize, weights: &[f64], joints: Option<&[DAffine3]>) -> Option<DVec3> {
         let mut position = *self.positions.get(vertex)?;
@@ -72,7 +72,7 @@ impl Body {
         Some(joints.map_or(position, |joints| self.blend(vertex, joints).transform_point3(position)))
     }
 
-    /// The joint that moves a vertex most, the first of several; none if none does.
+    /// Joint with the greatest weight for a vertex, the first of equal ones; `None` if no joint moves it.
     #[must_use]
     pub fn first_joint(&self, vertex: usize) -> Option<usize> {
         let mut most: Option<(u32, f64)> = None;
@@ -89,7 +89,7 @@ impl Body {
         most.map(|(joint, _)| joint as usize)
     }
 
-    /// How the joints together move a vertex.
+    /// Blended transform of the joints of a vertex.
     fn blend(&self, vertex: usize, joints: &[DAffine3]) -> DAffine3 {
         let mut blend = DAffine3::ZERO;
         let mut total = 0.0;
@@ -108,15 +108,15 @@ impl Body {
             blend.matrix3 *= 1.0 / total;
             blend.translation /= total;
         } else if let Some(first) = joints.first() {
-            // Without any weight a vertex would fall to the origin.
+            // Without any weight a vertex would move to the origin.
             blend = *first;
         }
         blend
     }
 }
 
-/// The transform of normals that belongs to `m`: its inverse transposed times its determinant, so
-/// that flattening matrices do not divide by nothing; turned round where `m` mirrors.
+/// Transform of normals that belongs to `m`: the cofactor matrix (inverse transpose times determinant), which
+/// needs no division for singular matrices. Negated if `m` mirrors.
 fn cofactors(m: DMat3) -> DMat3 {
     let (x, y, z) = (m.x_axis, m.y_axis, m.z_axis);
     let turned = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));

@@ -1,46 +1,46 @@
-//! [`Factors`]: the values of a material as a file stores them, from which those of a drawing follow.
+//! [`Factors`]: the values of a material as stored in a file, and their conversion to a drawable material.
 
 use crate::colour::srgb::Colour;
 use crate::scene::material::Gloss;
 use crate::scene::{Alpha, Material};
 
-/// The values of a material as a file stores them: what is drawn of them may follow from several.
+/// Values of a material as stored in a file.
 ///
 /// Source: Khronos Group, glTF 2.0 specification, sections 3.9.2 and 3.9.4.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Factors {
-    /// Its base colour and how opaque it is, linear.
+    /// Base colour and alpha, linear.
     pub base: [f32; 4],
-    /// The light of its own, linear; none where a picture says where it shines.
+    /// Emitted light, linear; `None` if a texture varies it.
     pub emissive: Option<[f32; 3]>,
-    /// What becomes of alpha.
+    /// Interpretation of alpha.
     pub mode: AlphaMode,
-    /// The least alpha that is not cut away.
+    /// Alpha cutoff.
     pub cutoff: f32,
-    /// How rough it is, if its file says so.
+    /// Roughness, if the file gives it.
     pub roughness: Option<f32>,
-    /// How much light goes through it.
+    /// Transmission: share of light that passes through.
     pub transmission: f32,
 }
 
-/// What becomes of alpha.
+/// Interpretation of alpha.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum AlphaMode {
-    /// It says nothing.
+    /// Alpha is ignored.
     #[default]
     Opaque,
-    /// What has less than the cutoff is cut away.
+    /// Surface with alpha below the cutoff is removed.
     Mask,
-    /// The surface is as opaque as it says.
+    /// Alpha is the opacity of the surface.
     Blend,
 }
 
 impl Factors {
-    /// Gives a material what follows from them, and leaves it all else.
+    /// Sets the derived values of a material and leaves its other values unchanged.
     pub fn give(&self, material: &mut Material) {
         let [r, g, b, _] = self.base;
         material.colour = Colour::from_linear([r, g, b, self.opacity()]);
-        // What is lit from within by a picture is dark elsewhere, and a picture of lights is not read.
+        // Emission textures are not read. Their surfaces are mostly dark, so they emit nothing here.
         let [r, g, b] = self.emissive.unwrap_or_default();
         material.emissive = Colour::from_linear([r, g, b, 1.0]);
         material.alpha = self.alpha();
@@ -59,7 +59,7 @@ impl Factors {
     fn alpha(&self) -> Alpha {
         match self.mode {
             AlphaMode::Blend => Alpha::Blend,
-            // The texture is multiplied by the factor before it is compared; nothing is less than nothing.
+            // Alpha is the texture times the factor, and is never negative.
             AlphaMode::Mask if self.cutoff <= 0.0 => Alpha::Opaque,
             AlphaMode::Mask => Alpha::Mask { cutoff: self.cutoff / self.base[3] },
             AlphaMode::Opaque => Alpha::Opaque,
@@ -67,7 +67,7 @@ impl Factors {
     }
 }
 
-/// How a material shines that is so rough: as Blinn-Phong has it.
+/// Blinn-Phong gloss that corresponds to a roughness.
 fn gloss(roughness: f32) -> Gloss {
     let roughness = roughness.clamp(0.0, 1.0);
     let exponent = (2.0 / roughness.max(0.1).powi(4) - 2.0).max(1.0);

@@ -42,29 +42,32 @@ use crate::scene::{Camera, LightKind, NamedCamera, Scene};
 use animated_values::Values;
 use rig::{Held, Stance};
 
-/// A scene as it is stored, and what moves it.
+/// A scene in its stored pose, with the rig that animates it.
 #[derive(Debug, Clone, Default)]
 pub struct Rigged {
-    /// The scene in the pose that the file stores, with the parts and lights that are hidden in it and that a clip shows at some time:
-    /// [`Rigged::posed`] leaves these out while they are hidden. The rig knows parts, geometries, cameras and lights by their places:
-    /// leave some out of what that gives, not here.
+    /// The scene in the stored pose. It also contains parts and lights that are hidden in that pose and that
+    /// a clip shows at some time; [`Rigged::posed`] drops these while they are hidden.
+    ///
+    /// The rig refers to parts, geometries, cameras and lights by index. Remove parts from the result of
+    /// `posed`, not from this scene.
     pub scene: Scene,
-    /// What moves it; empty for formats without animation.
+    /// The rig; empty for formats without animation.
     pub rig: Rig,
 }
 
 impl From<Scene> for Rigged {
-    /// A scene that stands still.
+    /// A scene without animation.
     fn from(scene: Scene) -> Self {
         Self { scene, rig: Rig::default() }
     }
 }
 
 impl Rigged {
-    /// The scene while clips play; as it is stored if none does.
+    /// The scene while clips play; the stored pose if none does.
     ///
     /// # Errors
-    /// If a clip is none of the file's, if a time or a weight is not a number, or if a pose leads beyond all numbers.
+    /// If a clip does not exist, if a time or a weight is not a number, or if a posed coordinate is not
+    /// finite.
     pub fn posed(&self, playing: &[Playing]) -> Result<Scene, Error> {
         self.check(playing)?;
         if playing.is_empty() && !self.hides() {
@@ -80,7 +83,7 @@ impl Rigged {
         self.move_vertices(&stance, &mut scene)?;
         let skinned: Vec<bool> = rig.forms.iter().map(|form| form.skin.is_some()).collect();
         for (part, (node, place)) in scene.parts.iter_mut().zip(&rig.parts) {
-            // The joints have carried a skinned mesh into the world already.
+            // The joints already transform a skinned mesh to world space.
             let is_skinned = skinned.get(part.geometry).copied().unwrap_or(false);
             let world = if is_skinned { DAffine3::IDENTITY } else { stance.world[*node] };
             part.world_from_part = world * *place;
@@ -102,7 +105,7 @@ impl Rigged {
         Ok(scene)
     }
 
-    /// Whether the scene has parts or lights that are hidden while nothing plays.
+    /// Whether any parts or lights are hidden in the stored pose.
     #[must_use]
     pub fn hides(&self) -> bool {
         let rig = &self.rig;
@@ -114,7 +117,7 @@ impl Rigged {
         nodes.into_iter().any(|node| stance.visible.get(node) == Some(&false))
     }
 
-    /// Leaves out the parts and lights of a scene whose nodes are hidden.
+    /// Removes the parts and lights of hidden nodes from a scene.
     fn keep_shown(&self, stance: &Stance, scene: &mut Scene) {
         let shown = |node: usize| stance.visible.get(node).copied().unwrap_or(true);
         let mut nodes = self.rig.parts.iter().map(|(node, _)| *node);
@@ -123,7 +126,7 @@ impl Rigged {
         scene.lights.retain(|_| nodes.next().is_none_or(shown));
     }
 
-    /// The cameras of the scene while clips play; cheaper than all of it.
+    /// The cameras of the scene while clips play; cheaper than [`Rigged::posed`].
     ///
     /// # Errors
     /// As [`Rigged::posed`].
@@ -141,17 +144,17 @@ impl Rigged {
         Ok(self.scene.cameras.iter().zip(&self.rig.cameras).map(moved).collect())
     }
 
-    /// Keeps the parts that [`Scene::keep_parts`] would, also for what moves them.
+    /// Keeps the parts that [`Scene::keep_parts`] keeps, in the scene and in the rig.
     pub fn keep_parts(&mut self, only: &[String], hide: &[String]) {
         let names: Vec<String> = self.scene.parts.iter().map(|part| part.name.clone()).collect();
         self.scene.keep_parts(only, hide);
-        // Whole names stay or go, so that what stays can be told by name.
+        // Parts with equal names are kept or removed together, so the names identify the remaining parts.
         let kept: BTreeSet<&str> = self.scene.parts.iter().map(|part| part.name.as_str()).collect();
         let mut stays = names.iter().map(|name| kept.contains(name.as_str()));
         self.rig.parts.retain(|_| stays.next().unwrap_or(true));
     }
 
-    /// Where the nodes are while clips play.
+    /// Poses of the nodes while clips play.
     fn stance(&self, playing: &[Playing]) -> Result<Stance, Error> {
         let stance = self.rig.stance(playing);
         match stance.world.iter().position(|world| !world.is_finite()) {
@@ -162,7 +165,7 @@ impl Rigged {
         }
     }
 
-    /// Refuses what cannot play.
+    /// Returns an error for clips that do not exist and for invalid times and weights.
     fn check(&self, playing: &[Playing]) -> Result<(), Error> {
         for Playing { clip, time, weight } in playing {
             if *clip >= self.rig.clips.len() {
@@ -216,12 +219,12 @@ impl Rigged {
     }
 }
 
-/// A camera with its lens as it is now, where its node is now.
+/// Camera with its animated properties, at the present pose of its node.
 fn now_camera(camera: &Camera, held: Held, stance: &Stance, values: &Values) -> Camera {
     moved_camera(&values.camera(held.number, *camera), stance.world[held.node])
 }
 
-/// A camera where its node is now: at its origin, looking along -z with y up.
+/// Camera at the present pose of its node: at the origin, looking along -z with y up.
 fn moved_camera(camera: &Camera, world: DAffine3) -> Camera {
     let ways = [DVec3::NEG_Z, DVec3::Y].map(|way| world.transform_vector3(way).try_normalize());
     match ways {
@@ -232,7 +235,7 @@ fn moved_camera(camera: &Camera, world: DAffine3) -> Camera {
     }
 }
 
-/// A light where its node is now: at its origin, shining along -z.
+/// Light at the present pose of its node: at the origin, shining along -z.
 fn moved_light(kind: LightKind, world: DAffine3) -> LightKind {
     let along = |before: DVec3| world.transform_vector3(DVec3::NEG_Z).try_normalize().unwrap_or(before);
     match kind {

@@ -1,4 +1,4 @@
-//! [`Moment`]: where single vertices are while clips play.
+//! [`Moment`]: positions of single vertices while clips play.
 
 use glam::{DAffine3, DVec3};
 
@@ -6,17 +6,17 @@ use super::clip::Playing;
 use super::rig::Stance;
 use super::{Body, Rigged};
 
-/// A rigged scene while clips play, to be asked for a few of its vertices: far less work than to pose it all.
+/// A rigged scene at a moment, for queries of a few vertices. Much cheaper than posing the whole scene.
 #[derive(Debug)]
 pub struct Moment<'a> {
     rigged: &'a Rigged,
     stance: Stance,
-    /// How the joints of each geometry move its vertices, if it has any.
+    /// Joint transforms of each geometry with a skin.
     joints: Vec<Option<Vec<DAffine3>>>,
 }
 
 impl Rigged {
-    /// The rig while clips play; clips that the file does not have move nothing.
+    /// The rig while clips play. Clips that do not exist are ignored.
     #[must_use]
     pub fn at(&self, playing: &[Playing]) -> Moment<'_> {
         let stance = self.rig.stance(playing);
@@ -28,8 +28,8 @@ impl Rigged {
         Moment { rigged: self, stance, joints }
     }
 
-    /// The node that moves a vertex of a part: of a skinned one the joint that moves it most, else the node of the part. Both count as
-    /// they stand in the file.
+    /// Node that moves a vertex of a part: for a skinned part the joint with the greatest weight, otherwise
+    /// the node of the part. Indices are those of the stored scene.
     #[must_use]
     pub fn carrier(&self, part: usize, vertex: usize) -> Option<usize> {
         let node = self.rig.parts.get(part)?.0;
@@ -44,14 +44,14 @@ impl Rigged {
 }
 
 impl Moment<'_> {
-    /// Whether a part, as it stands in the file, is shown.
+    /// Whether a part is visible. The index is that of the stored scene.
     #[must_use]
     pub fn is_shown(&self, part: usize) -> bool {
         let node = self.rigged.rig.parts.get(part).map(|(node, _)| *node);
         node.and_then(|node| self.stance.visible.get(node).copied()).unwrap_or(true)
     }
 
-    /// Whether a part may lie elsewhere, or have another shape, than at another moment of the same scene.
+    /// Whether a part may have another position or shape than in another moment of the same scene.
     #[must_use]
     pub fn differs(&self, other: &Self, part: usize) -> bool {
         let Rigged { scene, rig } = self.rigged;
@@ -65,8 +65,8 @@ impl Moment<'_> {
             || weights(&self.stance) != weights(&other.stance)
     }
 
-    /// Where a vertex of a part is in the world; both count as they stand in the file. `None` if there is no such vertex, or it is beyond
-    /// all numbers.
+    /// World position of a vertex of a part, both by their indices in the stored scene. `None` if there is no
+    /// such vertex or its position is not finite.
     #[must_use]
     pub fn place(&self, part: usize, vertex: usize) -> Option<DVec3> {
         let Rigged { scene, rig } = self.rigged;
@@ -88,7 +88,7 @@ impl Moment<'_> {
     }
 }
 
-/// The body that holds a vertex of a geometry, and which of its own that is.
+/// Body that contains a vertex of a geometry, and the index of the vertex within it.
 fn body_of(bodies: &[Body], vertex: usize) -> Option<(&Body, usize)> {
     let holds = |body: &&Body| vertex >= body.start && vertex - body.start < body.positions.len();
     bodies.iter().find(holds).map(|body| (body, vertex - body.start))

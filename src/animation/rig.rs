@@ -1,4 +1,4 @@
-//! [`Rig`]: all that moves a scene: its nodes, skins, bodies and clips.
+//! [`Rig`]: everything that animates a scene: nodes, skins, bodies and clips.
 
 use glam::{DAffine3, DQuat, DVec3};
 
@@ -6,73 +6,73 @@ use super::clip::{Clip, Playing, Property};
 use super::deformable_mesh::Body;
 use super::material_factors::Factors;
 
-/// All that moves a scene.
+/// Everything that animates a scene.
 #[derive(Debug, Clone, Default)]
 pub struct Rig {
-    /// The nodes, each behind its parent in `order`.
+    /// Nodes, by their index in the file.
     pub nodes: Vec<Node>,
-    /// The numbers of all nodes, parents first.
+    /// Indices of all nodes, parents before children.
     pub order: Vec<usize>,
-    /// The skins.
+    /// Skins.
     pub skins: Vec<Skin>,
-    /// For each geometry of the scene, what of it moves by itself.
+    /// For each geometry of the scene, its deformable vertices.
     pub forms: Vec<Form>,
-    /// For each part of the scene, in order, its node and where it lies in that.
+    /// For each part of the scene, its node and its transform relative to the node.
     pub parts: Vec<(usize, DAffine3)>,
-    /// For each camera of the scene, which of the file it is, and its node.
+    /// For each camera of the scene, its number in the file and its node.
     pub cameras: Vec<Held>,
     /// The same for each light.
     pub lights: Vec<Held>,
-    /// The values of the materials of the file.
+    /// Values of the materials of the file.
     pub materials: Vec<Factors>,
-    /// The animations of the file.
+    /// Animations of the file.
     pub clips: Vec<Clip>,
 }
 
-/// A camera or a light of a file, in a node.
+/// A camera or a light that a node holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Held {
-    /// The number of the camera or light in the file: several nodes may hold the same.
+    /// Number of the camera or light in the file; several nodes may hold the same one.
     pub number: usize,
     /// The node that holds it.
     pub node: usize,
 }
 
-/// A place that others hang on.
+/// A node of the hierarchy.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Node {
-    /// The name it is known by.
+    /// Its name.
     pub name: String,
-    /// Whether the file says that it leaves motion lines, with all that hangs on it.
+    /// Whether the file requests motion lines for it and its descendants.
     pub leaves_lines: bool,
-    /// The number of the one it hangs on.
+    /// Index of the parent.
     pub parent: Option<usize>,
-    /// Where it rests in that.
+    /// Rest transform relative to the parent.
     pub rest: Placement,
-    /// How much of each morph target its mesh has at rest.
+    /// Rest weights of the morph targets of its mesh.
     pub weights: Vec<f64>,
-    /// Whether it is shown at rest.
+    /// Whether it is visible at rest.
     pub visible: bool,
 }
 
-/// Where something lies in what it hangs on.
+/// Transform relative to a parent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Placement {
-    /// As a matrix, which no clip moves.
+    /// A matrix; clips cannot animate it.
     Matrix(DAffine3),
-    /// Scaled, then turned, then moved.
+    /// Scale, then rotation, then translation.
     Parts {
-        /// Moved by this.
+        /// Translation.
         translation: DVec3,
-        /// Turned by this, of unit length.
+        /// Rotation, a unit quaternion.
         rotation: DQuat,
-        /// Stretched by this along its axes.
+        /// Scale along the axes.
         scale: DVec3,
     },
 }
 
 impl Placement {
-    /// The transform.
+    /// The transform as a matrix.
     #[must_use]
     pub fn transform(&self) -> DAffine3 {
         match *self {
@@ -83,7 +83,7 @@ impl Placement {
         }
     }
 
-    /// Its translation, rotation and scale; what no such parts make is lost.
+    /// Translation, rotation and scale. Shear of a matrix is lost.
     fn parts(&self) -> (DVec3, DQuat, DVec3) {
         match *self {
             Self::Matrix(matrix) => {
@@ -95,17 +95,17 @@ impl Placement {
     }
 }
 
-/// Nodes that carry vertices.
+/// Joints of a skinned mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Skin {
-    /// The numbers of the nodes.
+    /// Node indices of the joints.
     pub joints: Vec<usize>,
-    /// From where vertices rest to each joint.
+    /// Inverse bind matrix of each joint.
     pub binds: Vec<DAffine3>,
 }
 
 impl Skin {
-    /// From where vertices rest to the world, for each joint, given where all nodes are.
+    /// Transform from rest position to world space for each joint, given the world transforms of all nodes.
     #[must_use]
     pub fn transforms(&self, world: &[DAffine3]) -> Vec<DAffine3> {
         let own = |joint: &usize| world.get(*joint).copied().unwrap_or(DAffine3::IDENTITY);
@@ -113,18 +113,18 @@ impl Skin {
     }
 }
 
-/// What of a geometry moves by itself.
+/// Deformable vertices of a geometry.
 #[derive(Debug, Clone, Default)]
 pub struct Form {
-    /// The node whose weights and skin it has.
+    /// Node that holds its weights and skin.
     pub node: usize,
-    /// The number of its skin.
+    /// Number of its skin.
     pub skin: Option<usize>,
-    /// Its vertices; none if they do not move.
+    /// Its vertices; empty if they do not deform.
     pub bodies: Vec<Body>,
 }
 
-/// Where nodes are at a moment.
+/// World transforms, morph weights and visibility of all nodes at a moment.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Stance {
     pub world: Vec<DAffine3>,
@@ -133,13 +133,13 @@ pub(crate) struct Stance {
 }
 
 impl Rig {
-    /// The number of the clip of a name.
+    /// Index of the clip with a name.
     #[must_use]
     pub fn clip(&self, name: &str) -> Option<usize> {
         self.clips.iter().position(|clip| clip.name == name)
     }
 
-    /// Where the nodes are while clips play.
+    /// Pose of the nodes while clips play.
     pub(crate) fn stance(&self, playing: &[Playing]) -> Stance {
         let mut weights: Vec<Vec<f64>> = self.nodes.iter().map(|node| node.weights.clone()).collect();
         let mut visible: Vec<bool> = self.nodes.iter().map(|node| node.visible).collect();
@@ -185,7 +185,7 @@ impl Rig {
         Stance { world, weights, visible }
     }
 
-    /// The nodes that clips move, and by which tracks, at which time and weight.
+    /// Nodes that clips animate, with their tracks, times and weights.
     fn moved(&self, playing: &[Playing]) -> std::collections::BTreeMap<usize, Vec<Moved<'_>>> {
         let mut moved: std::collections::BTreeMap<usize, Vec<Moved<'_>>> = std::collections::BTreeMap::new();
         for Playing { clip, time, weight } in playing.iter().filter(|playing| playing.weight > 0.0) {
@@ -198,10 +198,10 @@ impl Rig {
     }
 }
 
-/// A property, a track of it, and when and how much it plays.
+/// Property, track, time and weight.
 type Moved<'a> = (Property, &'a super::track::Track, f64, f64);
 
-/// The mean of values by their weights; what these lack to 1 has the value at rest.
+/// Weighted mean of values. If the weights add up to less than 1, the rest value has the remainder.
 pub(crate) fn mixed<T>(rest: T, values: impl Iterator<Item = (T, f64)>) -> T
 where
     T: std::ops::Mul<f64, Output = T> + std::ops::Add<Output = T> + Copy,
@@ -217,14 +217,14 @@ where
     }
     match (sum, alone) {
         (None, _) => rest,
-        // One alone at full weight stays as it is, to the last bit.
+        // A single value at full weight stays bit-identical.
         (Some((_, total)), Some(value)) if total >= 1.0 => value,
         (Some((sum, total)), _) if total >= 1.0 => sum * (1.0 / total),
         (Some((sum, total)), _) => sum + rest * (1.0 - total),
     }
 }
 
-/// The same of rotations: their normalised mean, each by the shorter way from the first.
+/// Weighted mean of rotations: normalised, each on the same hemisphere as the first.
 fn mixed_turn(rest: DQuat, turns: impl Iterator<Item = (DQuat, f64)>) -> DQuat {
     let mut first = None;
     let near = turns.map(|(turn, weight)| {

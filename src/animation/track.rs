@@ -1,4 +1,4 @@
-//! [`Track`]: how some numbers change in time, between keys.
+//! [`Track`]: values over time, interpolated between keys.
 //!
 //! Source: Khronos Group, glTF 2.0 specification, appendix C (interpolation modes).
 
@@ -6,34 +6,34 @@ use glam::DQuat;
 
 use crate::geometry::numbers::portable_math::{atan2, sin};
 
-/// What is between two keys.
+/// Interpolation between two keys.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Interpolation {
-    /// Straight from one to the next; rotations by the shorter way, at one speed.
+    /// Linear; rotations by spherical linear interpolation along the shorter arc.
     #[default]
     Linear,
-    /// The earlier one, up to the next.
+    /// Constant: the earlier key up to the next.
     Step,
-    /// A cubic with a tangent before and one behind each key.
+    /// Cubic Hermite spline with an incoming and an outgoing tangent at each key.
     CubicSpline,
 }
 
-/// How some numbers change in time.
+/// Values over time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Track {
     times: Vec<f64>,
     values: Vec<f64>,
-    /// Numbers a key.
+    /// Numbers per key.
     width: usize,
     interpolation: Interpolation,
 }
 
 impl Track {
-    /// A track of keys at `times`, in seconds and not falling, with as many numbers each as fit; for a cubic each key has its tangent
-    /// before it, its value, and its tangent behind it.
+    /// Makes a track of keys at `times`, in seconds and not decreasing. The number of values per key follows
+    /// from the lengths. A cubic track has incoming tangent, value and outgoing tangent for each key.
     ///
     /// # Errors
-    /// Says what is wrong with the keys.
+    /// Describes what is wrong with the keys.
     pub fn new(times: Vec<f64>, values: Vec<f64>, interpolation: Interpolation) -> Result<Self, String> {
         let keys = times.len();
         if keys == 0 {
@@ -56,19 +56,19 @@ impl Track {
         Ok(Self { times, values, width, interpolation })
     }
 
-    /// How many numbers it tells.
+    /// Number of values per key.
     #[must_use]
     pub const fn width(&self) -> usize {
         self.width
     }
 
-    /// When its keys are, in seconds.
+    /// Times of the keys, in seconds.
     #[must_use]
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
-    /// The numbers at a time; before the first key and behind the last one those of these.
+    /// Values at a time, clamped to the first and last key.
     #[must_use]
     pub fn at(&self, time: f64) -> Vec<f64> {
         match self.between(time) {
@@ -77,7 +77,7 @@ impl Track {
         }
     }
 
-    /// The rotation at a time, of a track of quaternions (x, y, z, w); none if its numbers are no rotation.
+    /// Rotation at a time, for a track of quaternions (x, y, z, w); `None` if the values are not a rotation.
     #[must_use]
     pub fn rotation_at(&self, time: f64) -> Option<DQuat> {
         let quaternion = |values: &[f64]| <[f64; 4]>::try_from(values).ok().and_then(unit_quaternion);
@@ -89,7 +89,7 @@ impl Track {
         }
     }
 
-    /// The last key at or before a time, and between it and the next one, the share of the way and how long that takes.
+    /// Last key at or before a time, and the share of the way to the next key with the duration between them.
     fn between(&self, time: f64) -> (usize, Option<(f64, f64)>) {
         let after = self.times.partition_point(|key| *key <= time);
         let Some(k) = after.checked_sub(1) else { return (0, None) };
@@ -125,19 +125,18 @@ impl Track {
     }
 }
 
-/// The rotation that a quaternion near unit length stands for; none if it has hardly any length.
+/// Normalises a quaternion to a rotation; `None` if its length is near zero.
 #[must_use]
 pub fn unit_quaternion(xyzw: [f64; 4]) -> Option<DQuat> {
     let length = xyzw.iter().map(|v| v * v).sum::<f64>().sqrt();
-    // Files round their components; a length far from 1 is a mistake all the same, but turning
-    // by its direction is what every viewer does.
+    // Files round the components. Other viewers normalise quaternions of any length as well.
     (length.is_finite() && length > 1e-6).then(|| DQuat::from_array(xyzw.map(|v| v / length)))
 }
 
-/// The rotation a share of the shorter way from one to another.
+/// Spherical linear interpolation along the shorter arc.
 fn slerp(from: DQuat, to: DQuat, share: f64) -> DQuat {
     let to = if from.dot(to) < 0.0 { -to } else { to };
-    // Half the angle from its chord and its span: exact also where it is small.
+    // Half-angle formula from chord and sum: accurate for small angles too.
     let angle = 2.0 * atan2((to - from).length(), (to + from).length());
     let whole = sin(angle);
     if whole <= f64::MIN_POSITIVE {
@@ -161,7 +160,7 @@ mod tests {
         assert_eq!(linear.at(2.0), [2.0, 20.0]);
         let step = track(&[5.0, 6.0], Interpolation::Step);
         assert_eq!([0.0, 2.999, 3.0].map(|t| step.at(t)[0]), [5.0, 5.0, 6.0]);
-        // t² and its tangents give t² back.
+        // t² with its tangents is reproduced exactly.
         let square = track(&[0.0, 1.0, 2.0, 6.0, 9.0, 0.0], Interpolation::CubicSpline);
         for t in [1.0, 1.3, 2.0, 2.9, 3.0] {
             assert!((square.at(t)[0] - t * t).abs() < 1e-12, "{t}");

@@ -1,13 +1,17 @@
-//! Identities of chains: numbers that strokes keep while the model moves, made from what of it lies under them.
+//! Chain identities: numbers that stay the same from frame to frame while the model moves.
 //!
-//! Space round the model at rest is cut into cells. Each cell a chain runs through draws a lot, the better the longer the
-//! chain is in it, and the best lot names the chain: two chains have the same name as often as they have the same cells, so
-//! that one which loses or gains a little keeps its name mostly. Where several chains run through a cell, the one whose lot is best has
-//! it, and the others have the next best of theirs that is free; what finds none is named by finer cells. Nothing is asked but
-//! the chains themselves: a frame's names depend on no other frame.
+//! 1. The space around the model in its rest pose is divided into cells.
+//! 2. Each cell that a chain passes gives it a random number, better the longer the chain runs in the cell.
+//!    The best number names the chain. Two chains share a name with a probability equal to the overlap of
+//!    their cells, so a chain that loses or gains a little mostly keeps its name.
+//! 3. Where several chains pass a cell, the one with the best number gets it. The others take their next best
+//!    free one.
+//! 4. Chains without a free number are named by finer cells.
 //!
-//! Source: lots are weighted minwise hashing (Ioffe, Improved Consistent Sampling, Weighted Minhash and L1 Sketching, ICDM
-//! 2010), with exponential lots.
+//! Only the chains of the frame are used: a frame's names do not depend on other frames.
+//!
+//! Source: weighted minwise hashing (Ioffe, Improved Consistent Sampling, Weighted Minhash and L1 Sketching,
+//! ICDM 2010), with exponentially distributed numbers.
 
 use std::sync::Arc;
 
@@ -18,21 +22,22 @@ use crate::geometry::numbers::noise::{hash, unit};
 use crate::geometry::numbers::portable_math::ln;
 use crate::lines::LineKind;
 
-/// Cells along the diagonal of a model, from coarse to fine, for contours, which creep over these while
-/// the eye moves, and for all others, which stay.
+/// Cells along the diagonal of a part, from coarse to fine. The first list is for contours, which move over
+/// the surface with the camera; the second is for all other lines, which do not.
 const SLIDING: [f64; 5] = [6.0, 18.0, 54.0, 160.0, 500.0];
 const STAYING: [f64; 5] = [24.0, 72.0, 216.0, 650.0, 4000.0];
 
-/// The most cells that are told apart between two points of a line.
+/// Maximum number of cell walls per axis that are found between two points of a line.
 const MOST_CELLS: usize = 1024;
 
-/// Shifts the cells, so that no plane of symmetry is between two of them.
+/// Shift of the cells, so that no plane of symmetry lies between two of them.
 const SHIFT: f64 = 0.372_915;
 
-/// Cells along the diagonal of a model that tell where contours, and where all others run.
+/// Cells along the diagonal of a part for [`Chain::places`]: for contours, and for all other lines.
 const PLACES: [f64; 2] = [32.0, 96.0];
 
-/// Names the chains that know where on the model they are, and tells them their cells; `parts` tell parts apart.
+/// Assigns an identity and a list of cells to all chains with known anchors. `parts` holds one number per
+/// part.
 pub(crate) fn name(chains: &mut [Chain], parts: &[u64]) {
     for chain in chains.iter_mut().filter(|chain| is_anchored(chain)) {
         chain.places = places(chain, parts);
@@ -56,7 +61,7 @@ pub(crate) fn name(chains: &mut [Chain], parts: &[u64]) {
         }
         open.retain(|number| chains.get(*number).is_some_and(|chain| chain.identity == 0));
     }
-    // What even the finest cells do not tell apart lies one upon the other.
+    // Chains that even the finest cells do not separate lie on top of each other.
     for (order, number) in open.into_iter().enumerate() {
         if let Some(chain) = chains.get_mut(number) {
             let name = lots(chain, parts, SLIDING.len() - 1).first().map_or(1, |(_, name)| *name);
@@ -69,7 +74,7 @@ fn is_anchored(chain: &Chain) -> bool {
     chain.samples.iter().any(|sample| sample.anchor.is_known())
 }
 
-/// The numbers of the cells that a chain runs through.
+/// Numbers of the cells that a chain passes, ascending.
 fn places(chain: &Chain, parts: &[u64]) -> Arc<[u64]> {
     let slides = chain.kind == LineKind::Contour;
     let part = parts.get(chain.part.index()).copied().unwrap_or_default();
@@ -88,7 +93,7 @@ fn places(chain: &Chain, parts: &[u64]) -> Arc<[u64]> {
     numbers.into()
 }
 
-/// The lots of the cells of a chain, and what they would name it.
+/// Random number and name of each cell of a chain at a level.
 fn lots(chain: &Chain, parts: &[u64], level: usize) -> Vec<(f64, u64)> {
     let slides = chain.kind == LineKind::Contour;
     let cells = if slides { SLIDING[level] } else { STAYING[level] };
@@ -116,7 +121,7 @@ fn lots(chain: &Chain, parts: &[u64], level: usize) -> Vec<(f64, u64)> {
     weights.iter().map(lot).map(|(lot, own)| (lot, own.max(1))).collect()
 }
 
-/// The straight pieces of a chain, from place to place of the model at rest.
+/// Sides of a chain, between positions in the rest pose.
 fn sides(chain: &Chain) -> impl Iterator<Item = [[f64; 3]; 2]> + '_ {
     let count = chain.samples.len();
     let sides = if chain.closed { count } else { count.saturating_sub(1) };
@@ -128,8 +133,8 @@ fn sides(chain: &Chain) -> impl Iterator<Item = [[f64; 3]; 2]> + '_ {
     })
 }
 
-/// Tells the cells that a straight piece runs through, in its order, and its length in each. The length is that on the model
-/// at rest: what of a line is seen counts, not how it is seen, so that a line that turns keeps its name.
+/// Visits the cells that a segment passes, in order, with its length in each. Lengths are those of the rest
+/// pose, so that a line keeps its name when it turns.
 fn in_cells(from: [f64; 3], to: [f64; 3], cells: f64, mut told: impl FnMut([i64; 3], f64)) {
     let [from, to] = [from, to].map(|place| place.map(|x| (x + SHIFT) * cells));
     let way = [0, 1, 2].map(|axis| to[axis] - from[axis]);
@@ -157,7 +162,7 @@ mod tests {
     use crate::geometry::numbers::portable_math::{cos, sin};
     use crate::mesh::{MaterialId, PartId};
 
-    /// A chain along a straight line of the model at rest.
+    /// A chain along a straight line in the rest pose.
     fn chain(from: [f64; 3], to: [f64; 3], points: usize) -> Chain {
         let at = |k: usize| k as f64 / (points - 1) as f64;
         let place = |t: f64| [0, 1, 2].map(|axis| (from[axis] + (to[axis] - from[axis]) * t) as f32);
@@ -188,7 +193,7 @@ mod tests {
         chains.iter().map(|chain| chain.identity).collect()
     }
 
-    /// The ends of lines all over the model.
+    /// End points of lines all over the model.
     fn lines() -> impl Iterator<Item = ([f64; 3], [f64; 3])> {
         (0..300).map(f64::from).map(|k| {
             let from = [0.3 * cos(k), 0.3 * sin(1.7 * k), 0.3 * cos(2.3 * k)];

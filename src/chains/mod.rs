@@ -41,52 +41,52 @@ use tidy::raw_line::Raw;
 use tidy::removed_lines::Bin;
 use tidy::tidy_passes::tidied;
 
-/// View edges of one kind joined end to end.
+/// View edges of one class, joined end to end.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Chain {
-    /// Points in user units of the page, x right, y down; a closed chain does not repeat its
-    /// first point.
+    /// Points in user units of the page, x right, y down. A closed chain does not repeat its first point.
     pub points: Vec<Point>,
-    /// One a point.
+    /// One per point.
     pub samples: Vec<Sample>,
     /// Whether the last point joins the first.
     pub closed: bool,
-    /// What line it is.
+    /// Kind of line.
     pub kind: LineKind,
-    /// Whether there is background on one side of it.
+    /// Whether one side of the line is background.
     pub silhouette: bool,
-    /// Number of surfaces that hide it; 0 = visible. Hidden pieces of different number join, and
+    /// Number of surfaces in front of it; 0 = visible. Hidden pieces with different numbers are joined, and
     /// the chain has the smallest.
     pub invisibility: u16,
-    /// Whether it is seen through a material that is not opaque, and only so.
+    /// Whether all of it is seen through a material that is not opaque.
     pub veiled: bool,
-    /// Whether both surfaces that meet in it face the eye.
+    /// Whether both surfaces that meet in it face the camera.
     pub both_seen: bool,
-    /// Part it belongs to.
+    /// Part that it belongs to.
     pub part: PartId,
-    /// Material beside it.
+    /// Material of the nearer surface.
     pub material: MaterialId,
     /// Whether it lies on a smooth surface.
     pub smooth: bool,
-    /// Whether a surface covers the line at its first and last point, so that it ends in the drawing, but
-    /// not on the surface.
+    /// Whether a surface covers the line at its first and last point. There the line ends in the drawing, but
+    /// continues on the surface.
     pub covered: [bool; 2],
-    /// Smallest number of the feature segments that it has pieces of.
+    /// Smallest number of its feature segments.
     pub segment: u32,
-    /// What it is known by from frame to frame; 0 where nobody asked.
+    /// Number that stays the same from frame to frame; 0 if not computed.
     pub identity: u64,
-    /// Where on the model at rest it runs, as numbers of cells, in rising order; empty where nobody asked.
+    /// Cells of the rest pose that it passes, as ascending numbers; empty if not computed.
     pub places: Arc<[u64]>,
-    /// The curve that is drawn: fitted Béziers, or the polyline of `points`.
+    /// Path to draw: fitted Béziers, or the polyline of `points`.
     pub path: BezPath,
 }
 
-/// How far the rounding of the file moves the corners of each part on the page, user units. Only parallel views have it.
+/// How far the rounding of the file moves corners on the page, user units, one per part. Known for parallel
+/// views only.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Rounding<'a>(pub Option<&'a [f64]>);
 
 impl Rounding<'_> {
-    /// How near the corners of a line are to circles.
+    /// Tolerances of arcs for the parts of a line.
     fn nearness(self, line: &Line, unit: Unit) -> Option<Nearness> {
         let of_part = self.0?;
         let own = line.part.iter().map(|part| of_part.get(part.index()).copied().unwrap_or_default());
@@ -95,27 +95,26 @@ impl Rounding<'_> {
     }
 }
 
-/// By how much the radius of an arc may be uncertain, mm on the page.
+/// Largest error of an arc's radius, mm on the page.
 const MAX_UNCERTAIN_MM: f64 = 0.02;
 
-/// Length over which directions are measured at junctions, px.
+/// Window for measuring directions at junctions, px.
 const DIRECTION_PX: f64 = 3.0;
 
-/// Joins the view edges end to end and makes drawn lines of them; hidden ones only if `hidden` has
-/// them drawn.
+/// Joins view edges end to end into chains, with hidden ones only if `hidden` draws them.
 ///
-/// Visible and hidden edges, kinds, bodies and materials never join. Lines that go on from part to part of a body are cut there
-/// once they are finished. With every option off each
-/// edge longer than nothing is in exactly one chain and no point is moved; points between pieces
-/// of one straight line are left out. Chains come in the order of the feature segments they begin
-/// with.
+/// - Visible and hidden edges, different kinds, bodies and materials are never joined.
+/// - A line that passes several parts of a body is cut between them after it is finished.
+/// - With every option off, each edge of non-zero length is in exactly one chain and no point moves. Points
+///   inside a straight line are left out.
+/// - Chains are in the order of their feature segments.
 #[must_use]
 pub fn link(map: &ViewMap, options: &ChainOptions, unit: Unit, hidden: HiddenLines) -> Vec<Chain> {
     link_with(map, (options, Rounding::default()), unit, hidden, None, &mut Bin::default())
 }
 
-/// Chains as [`link::routes`] makes them, but that tidying draws no line across what hides it, however thin, if
-/// that is another surface than the line's own.
+/// Joins chains as [`link::routes`] does, but tidying draws no line across another surface that hides it, however
+/// thin.
 #[must_use]
 pub fn link_behind(
     ahead: &Ahead,
@@ -127,7 +126,8 @@ pub fn link_behind(
     link_rounded(ahead, map, (options, Rounding::default()), unit, hidden)
 }
 
-/// Chains as [`link_behind`] makes them, with circles where the options ask for them and the rounding of corners is known.
+/// Joins chains as [`link_behind`] does, with circular arcs where the options and the rounding of corners
+/// allow.
 #[must_use]
 pub fn link_rounded(
     ahead: &Ahead,
@@ -139,7 +139,7 @@ pub fn link_rounded(
     link_with(map, (options, rounding), unit, hidden, Some(ahead), &mut Bin::default())
 }
 
-/// Chains as [`link_behind`] makes them, and what tidying left out, in the order in which it went.
+/// Joins chains as [`link_behind`] does, and returns the lines that tidying dropped, in that order.
 #[must_use]
 pub fn link_and_keep(
     ahead: Option<&Ahead>,
@@ -183,9 +183,10 @@ fn link_with(
         .collect()
 }
 
-/// The curve through a line that is drawn like chains are: smooth and fitted where `soft` says that
-/// the piece after a point lies on a smooth surface, exact elsewhere. It begins and ends in the
-/// line's ends; points nearer than `merge` to the line between their neighbours are passed over.
+/// Fits a curve through a line, as for chains.
+///
+/// The curve is smooth where `soft` is set for the side after a point, and exact elsewhere. It keeps the
+/// line's ends. Points nearer than `merge` to the line between their neighbours are left out first.
 pub(crate) fn curve(
     points: &[Point],
     soft: &[bool],
@@ -213,18 +214,17 @@ pub(crate) fn curve(
     finish(fit::douglas_peucker::simplify(&line, merge), t).1
 }
 
-/// Lines inside lie where noise puts them, more than contours do: smoothing may move them this many
-/// times farther.
+/// Factor on the smoothing of interior lines, which noise displaces more than contours.
 const INSIDE_SMOOTH: f64 = 3.0;
 
-/// Trails are where they are: smoothing may move them less by this factor, and only makes them round; curves keep nearer to them.
+/// Factors on the smoothing and on the fit tolerance of motion trails, which are exact.
 const MOTION_SMOOTH: f64 = 0.04;
 const MOTION_FIT: f64 = 0.25;
 
-/// Lines found in the image were pulled taut: smoothing may move them this many times farther.
+/// Factor on the smoothing of lines found in the image, which are shortest curves already.
 const IMAGE_SMOOTH: f64 = 0.5;
 
-/// The chains of a line: one for each part of the body along it.
+/// Finishes a line as chains, one for each part of the body along it.
 fn chains(raw: Raw, mut t: Tolerances) -> Vec<Chain> {
     if raw.class.kind.is_inside() {
         t.smooth *= INSIDE_SMOOTH;

@@ -1,43 +1,45 @@
-//! How lines are linked, tidied, smoothed and fitted: the `[chain]` table of a style sheet.
+//! [`ChainOptions`]: how lines are linked, tidied, smoothed and fitted (the `[chain]` table of a style
+//! sheet).
 
 use serde::{Deserialize, Serialize};
 
 use crate::drawing::{Length, Unit};
 
-/// How lines are linked, tidied, smoothed and fitted. A length of 0 turns its step off; with all
-/// steps off a chain is exactly the projected mesh edges.
+/// How lines are linked, tidied, smoothed and fitted. A length of 0 turns its step off. With all steps off, a
+/// chain is exactly the projected mesh edges.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ChainOptions {
     /// How far smoothing may move a point of a line on a smooth surface. Default: 0.5 px.
     pub smooth: Length,
-    /// How far a simplified line may lie from the points left out. Default: 0.05 px.
+    /// How far a simplified line may lie from the points that are left out. Default: 0.05 px.
     pub simplify: Length,
-    /// Loose pieces shorter than this are left out. Default: 4 px.
+    /// Isolated lines shorter than this are dropped. Default: 4 px.
     pub tidy: Length,
     /// Whether lines on smooth surfaces become Bézier curves. Default: true.
     pub fit: bool,
     /// How far a fitted curve may lie from the smoothed line. Default: 0.15 px.
     pub fit_tolerance: Length,
-    /// Whether corners on one circle, within the rounding of the file, become that circle or arc, in parallel views. Default: false.
+    /// Whether corners on one circle become that circle or arc, within the rounding of the file. Applies to
+    /// parallel views. Default: false.
     pub circles: bool,
 }
 
-/// How far leaving out points and fitting may move a point on a page to scale, mm. With the lines and arcs of DXF these are less than 0.02 mm
-/// together.
+/// How far simplifying and fitting may move a point on a page to scale, mm. Together with the lines and arcs
+/// of DXF, the error stays below 0.02 mm.
 const SIMPLIFY_MM: f64 = 0.002;
 const FIT_MM: f64 = 0.008;
 
 impl ChainOptions {
-    /// The same for a page to scale or a DXF file, on which no point of the model is to move by more than 0.02 mm, and corners on one circle become
-    /// it.
+    /// Options for a page to scale or a DXF file: no point moves by more than 0.02 mm, and corners on one
+    /// circle become arcs.
     #[must_use]
     pub fn to_scale(self) -> Self {
         let within = |length: Length, most: f64| {
             if length.in_unit(Unit::Mm) > most { Length { value: most, unit: Unit::Mm } } else { length }
         };
         Self {
-            // Smoothing cuts corners by more than it is asked to move points.
+            // Smoothing cuts corners by more than its tolerance.
             smooth: within(self.smooth, 0.0),
             simplify: within(self.simplify, SIMPLIFY_MM),
             fit_tolerance: within(self.fit_tolerance, FIT_MM),

@@ -1,47 +1,45 @@
-//! [`Sample`]: what a chain knows of the world at one of its points.
+//! [`Sample`]: depth, light, surroundings and anchor at one point of a chain.
 
 use crate::colour::srgb::Colour;
 
-/// What a chain knows of the world at one of its points; travels with the chain so that strokes
-/// never look back into the scene.
+/// Properties of the scene at one point of a chain. Strokes read these and need no access to the scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sample {
-    /// Distance from the eye along the optical axis, world units.
+    /// Distance from the camera along the optical axis, world units.
     pub depth: f64,
-    /// How strong the line is here, 0 to 1. Only suggestive contours, ridges and valleys are ever
-    /// weaker than 1.
+    /// Strength of the line, 0 to 1. Only suggestive contours, ridges and valleys are weaker than 1.
     pub strength: f64,
-    /// The diffuse light on the surface beside the line, 0 to 1; 1 where nobody asked.
+    /// Diffuse light on the surface next to the line, 0 to 1; 1 if not computed.
     pub light: f64,
-    /// How far what lies behind the line is from it, 0 to 1; 1 before background, and where nobody
-    /// asked.
+    /// Distance from the line to the surface behind it, 0 to 1; 1 against the background, and if not
+    /// computed.
     pub gap: f64,
-    /// On which side of the line, as it runs, the nearer surface lies: 1 on the left, -1 on the right, 0
-    /// where both are as near, and where nobody asked.
+    /// Side of the nearer surface, seen along the line: 1 left, -1 right; 0 if both are equally near, and if
+    /// not computed.
     pub side: f64,
-    /// What is seen beside the line.
+    /// Colours next to the line.
     pub under: Under,
-    /// Where on the model this is.
+    /// Position on the model.
     pub anchor: Anchor,
 }
 
-/// Where on a model a point of a line is, the same however the model is posed and seen; where anybody asked.
+/// Position on the model that does not depend on pose and view. Known only if computed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Anchor {
-    /// A place in the part as it rests: in diagonals of its box, from its middle.
+    /// Position in the part's rest pose, in diagonals of its bounding box, relative to its centre.
     pub place: [f32; 3],
-    /// User units of the page in such a diagonal, as it is seen here; 0 where nothing is known.
+    /// Length of one such diagonal on the page at this point, user units; 0 if unknown.
     pub scale: f32,
 }
 
 impl Anchor {
-    /// Whether anybody asked.
+    /// Whether the anchor was computed.
     #[must_use]
     pub fn is_known(&self) -> bool {
         self.scale > 0.0
     }
 
-    /// Between two anchors, at part `t` of the way.
+    /// Linear interpolation between two anchors at parameter `t`.
     #[must_use]
     pub fn lerp(self, to: Self, t: f64) -> Self {
         if !(self.is_known() && to.is_known()) {
@@ -53,17 +51,17 @@ impl Anchor {
     }
 }
 
-/// What is seen beside a line at one of its points, where anybody asked.
+/// Colours next to a line at one of its points. Known only if computed.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Under {
-    /// The colour of the surface that the line belongs to, as it is without light.
+    /// Unlit colour of the surface that the line belongs to.
     pub colour: Option<Colour>,
-    /// How far to both sides of the line there is nothing but spot blacks, user units.
+    /// Distance to both sides of the line that is covered by spot blacks only, user units.
     pub black: f64,
 }
 
 impl Sample {
-    /// A sample of which only depth and strength are known.
+    /// A sample with known depth and strength, and defaults for the rest.
     #[must_use]
     pub const fn new(depth: f64, strength: f64) -> Self {
         Self {
@@ -77,7 +75,7 @@ impl Sample {
         }
     }
 
-    /// What lies between two points of a line, at part `t` of the way.
+    /// Linear interpolation between two samples at parameter `t`.
     #[must_use]
     pub fn lerp(self, to: Self, t: f64) -> Self {
         let mix = |from: f64, to: f64| from + (to - from) * t;
@@ -87,7 +85,7 @@ impl Sample {
             light: mix(self.light, to.light),
             gap: mix(self.gap, to.gap),
             side: mix(self.side, to.side),
-            // Colours of surfaces do not mix.
+            // Surface colours are not interpolated.
             under: if t < 0.5 { self.under } else { to.under },
             anchor: self.anchor.lerp(to.anchor, t),
         }

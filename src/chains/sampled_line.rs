@@ -1,4 +1,4 @@
-//! [`Line`]: the polyline of a route, on its way to becoming a chain.
+//! [`Line`]: the polyline of a route, with samples and per-side properties, on its way to becoming a chain.
 
 use kurbo::Point;
 
@@ -8,25 +8,24 @@ use crate::geometry::plane::planar_distance::length;
 use crate::mesh::PartId;
 use crate::visibility::{ViewMap, ViewVertex};
 
-/// A polyline in user units. A closed one does not repeat its first point.
+/// Polyline in user units. A closed one does not repeat its first point.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Line {
     pub points: Vec<Point>,
-    /// One a point.
+    /// One per point.
     pub samples: Vec<Sample>,
-    /// Whether the piece that follows each point lies on a smooth surface; one a point (the last
-    /// of an open line repeats the one before).
+    /// Whether the side after each point lies on a smooth surface; one per point. The last entry of an open
+    /// line repeats the one before.
     pub soft: Vec<bool>,
-    /// Whether the piece that follows each point has background behind it; likewise.
+    /// Whether the side after each point has background behind it; one per point, as in `soft`.
     pub silhouette: Vec<bool>,
-    /// The part of the piece that follows each point; likewise.
+    /// Part of the side after each point; one per point, as in `soft`.
     pub part: Vec<PartId>,
     pub closed: bool,
 }
 
 impl Line {
-    /// The points of a route, points that coincide once; if `noisy`, all of it counts as lying on a
-    /// smooth surface.
+    /// Polyline of a route, without repeated points. If `noisy`, all of it counts as smooth.
     pub fn of_route(map: &ViewMap, steps: &[Step], closed: bool, noisy: bool) -> Self {
         let mut line = Self { closed, ..Self::with_capacity(steps.len() + 1) };
         for step in steps {
@@ -56,12 +55,12 @@ impl Line {
         }
     }
 
-    /// Adds a point of a line of the first part, or renews the last one if it lies there already.
+    /// Appends a point of the default part, or updates the last point if it has the same position.
     pub fn push(&mut self, point: Point, sample: Sample, soft: bool, silhouette: bool) {
         self.push_of(point, sample, soft, silhouette, PartId::default());
     }
 
-    /// Adds a point, or renews the last one if it lies there already.
+    /// Appends a point, or updates the last point if it has the same position.
     pub fn push_of(&mut self, point: Point, sample: Sample, soft: bool, silhouette: bool, part: PartId) {
         if self.points.last() == Some(&point) {
             if let (Some(was_soft), Some(was)) = (self.soft.last_mut(), self.silhouette.last_mut()) {
@@ -80,7 +79,7 @@ impl Line {
         self.part.push(part);
     }
 
-    /// Takes the last point away.
+    /// Removes the last point.
     pub fn pop(&mut self) {
         self.points.pop();
         self.samples.pop();
@@ -93,12 +92,12 @@ impl Line {
         self.points.len()
     }
 
-    /// Whether any of it lies on a smooth surface.
+    /// Whether any side lies on a smooth surface.
     pub fn is_soft(&self) -> bool {
         self.soft.iter().any(|soft| *soft)
     }
 
-    /// Its length, each part weighted by its strength.
+    /// Length weighted by strength.
     pub fn strength(&self) -> f64 {
         let n = self.len();
         let sides = if self.closed { n } else { n.saturating_sub(1) };
@@ -110,12 +109,12 @@ impl Line {
         (0..sides).map(side).sum()
     }
 
-    /// Its greatest strength.
+    /// Greatest strength.
     pub fn peak(&self) -> f64 {
         self.samples.iter().map(|sample| sample.strength).fold(0.0, f64::max)
     }
 
-    /// The line cut open at point `start`, which is repeated at the end.
+    /// The line opened at point `start`, which is repeated at the end.
     pub fn opened_at(&self, start: usize) -> Self {
         let n = self.len();
         let index = (0..=n).map(|i| (start + i) % n.max(1));
@@ -135,7 +134,7 @@ impl Line {
         }
     }
 
-    /// The points at these indices, in this order.
+    /// The points at the given indices, in that order.
     pub fn pick(&self, index: &[usize]) -> Self {
         Self {
             points: index.iter().map(|i| self.points[*i]).collect(),

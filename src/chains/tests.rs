@@ -1,4 +1,4 @@
-//! Laws of the whole stage on small view maps.
+//! Tests of the whole stage on small view maps.
 
 mod random_walks;
 
@@ -10,11 +10,10 @@ use crate::geometry::plane::planar_distance::distance2;
 use crate::surface::Origin;
 use crate::visibility::{ViewEdge, ViewVertex, ViewVertexId, ViewVertexKind};
 
-/// Points, what line they make, and whether it lies on a smooth surface.
+/// Points, kind of line, and whether it lies on a smooth surface.
 type Polyline = (Vec<(f64, f64)>, LineKind, bool);
 
-/// A view map of polylines: each a list of points and whether it closes; points of equal
-/// coordinates are one vertex.
+/// A view map of polylines. Points with equal coordinates share a vertex.
 fn map_of(lines: &[Polyline]) -> ViewMap {
     let mut map = ViewMap::default();
     for (points, kind, smooth) in lines {
@@ -55,7 +54,7 @@ fn map_of(lines: &[Polyline]) -> ViewMap {
     map
 }
 
-/// The chains with hidden lines, in px.
+/// Chains including hidden lines, in px.
 fn linked(map: &ViewMap, options: &ChainOptions, unit: Unit) -> Vec<Chain> {
     link(map, options, unit, HiddenLines::Solid)
 }
@@ -65,7 +64,7 @@ fn off() -> ChainOptions {
     ChainOptions { smooth: none, simplify: none, tidy: none, fit: false, ..ChainOptions::default() }
 }
 
-/// A circle with the zigzag that the edges of a mesh would give it.
+/// A circle with the zigzag of a mesh contour.
 fn jagged_circle(radius: f64, count: usize, zigzag: f64) -> Vec<(f64, f64)> {
     let mut points: Vec<(f64, f64)> = (0..count)
         .map(|k| {
@@ -140,7 +139,7 @@ fn a_jagged_circle_becomes_a_round_one_of_few_cubics() {
         let r = p.distance(Point::new(300.0, 300.0));
         assert!((r - 120.0).abs() < 0.25, "radius {r}");
     }
-    // No corner anywhere, the seam included.
+    // There is no corner anywhere, including the seam.
     let segments: Vec<PathSeg> = chains[0].path.segments().collect();
     for (a, b) in segments.iter().zip(segments.iter().cycle().skip(1)) {
         let (a, b) = (a.to_cubic(), b.to_cubic());
@@ -221,7 +220,7 @@ fn a_corner_of_a_smooth_line_is_kept() {
 
 #[test]
 fn contours_that_face_each_other_across_a_gap_are_one_line() {
-    // A silhouette, 5 px of nothing, an inner contour that goes on in line.
+    // A silhouette, a gap of 5 px, and an inner contour that continues it.
     let wave = |k: i32| (f64::from(k), 50.0 + 5.0 * sin(f64::from(k) / 20.0));
     let lines = [
         ((0..100).map(wave).collect(), LineKind::Contour, true),
@@ -240,7 +239,7 @@ fn a_long_side_beside_a_seam_keeps_its_silhouette() {
     let wave = |k: i32| (f64::from(k), 50.0 + 5.0 * sin(f64::from(k) / 20.0));
     let outline: Vec<(f64, f64)> = (0..=100).map(wave).collect();
     let (x, y) = wave(103);
-    // One side of the outline, and a bit with surface on both sides that is too short to be drawn.
+    // One side is silhouette, followed by a short non-silhouette stretch that is not drawn separately.
     let short = vec![(x, y), (x + 60.0, y - 20.0), (x + 60.1, y - 20.05)];
     for (turn_first, turn_second) in [(false, false), (false, true), (true, false), (true, true)] {
         let turned = |line: &[(f64, f64)], turn: bool| {
@@ -325,7 +324,7 @@ fn a_line_ends_at_its_t_junctions_whatever_is_done_to_it() {
     }
 }
 
-/// The largest distance from points to a polyline.
+/// Largest distance from the points to the polyline.
 fn farthest(points: &[Point], line: &[Point]) -> f64 {
     let to_line = |p: &Point| {
         let sides = line.windows(2).map(|s| distance2(*p, s[0], s[1]));
@@ -352,7 +351,7 @@ fn smoothing_and_fitting_keep_their_tolerances_both_ways() {
     let drawn: Vec<Point> = path.segments().flat_map(dense).collect();
     let (out, back) = (farthest(&drawn, &smoothed), farthest(&smoothed, &drawn));
     assert!(back <= 0.15 + 1e-3, "{back}");
-    // Between the points, where the line is a chord of the curve, it may be a little more.
+    // Between the points, where the line is a chord of the curve, the error may be slightly larger.
     assert!(out <= 0.15 + 0.02, "{out}");
     assert!(path.elements().len() < 40, "{} elements", path.elements().len());
 }
@@ -368,7 +367,7 @@ fn what_of_a_double_runs_by_itself_is_drawn() {
         chains.iter().flat_map(|chain| &chain.points).map(|p| p.y).fold(0.0, f64::max)
     };
     assert!((drawn(30.0) - 130.8).abs() < 0.5, "{}", drawn(30.0));
-    // A little of it is none.
+    // A short uncovered stretch is not drawn.
     assert!((drawn(5.0) - 100.0).abs() < 0.5, "{}", drawn(5.0));
 }
 

@@ -1,4 +1,4 @@
-//! [`Factor`]: what a colour is multiplied with, channel by channel.
+//! [`Factor`]: a multiplier for each channel of a colour.
 
 use std::fmt;
 
@@ -8,16 +8,17 @@ use serde::{Deserialize, Deserializer};
 
 use super::srgb::Colour;
 
-/// Factors of red, green and blue as written (sRGB).
+/// Multipliers of red, green and blue in sRGB.
 ///
-/// Written as one number for all three, 0 to 2, as three numbers, or as a colour, whose channels count from 0 to 1.
+/// Style sheets write one number for all three (0 to 2), a list of three numbers, or a colour whose channels
+/// count from 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Factor(pub [f64; 3]);
 
 impl Factor {
-    /// Nothing is left of a colour.
+    /// Multiplies every channel by 0: the result is black.
     pub const NONE: Self = Self([0.0; 3]);
-    /// Colours stay as they are.
+    /// Leaves colours unchanged.
     pub const ALL: Self = Self([1.0; 3]);
 }
 
@@ -33,7 +34,7 @@ impl<'de> Deserialize<'de> for Factor {
     }
 }
 
-/// Reads either form by what it meets, so that errors keep their place in the sheet.
+/// Accepts all three notations in one visitor, so that errors keep their position in the style sheet.
 struct FactorVisitor;
 
 impl<'de> Visitor<'de> for FactorVisitor {

@@ -1,6 +1,6 @@
-//! The names that CSS has for colours.
+//! Colour names of CSS.
 
-/// Red, green and blue of a name in CSS, in capitals or not.
+/// Red, green and blue of a CSS colour name, in any letter case.
 #[must_use]
 pub fn named(name: &str) -> Option<[u8; 3]> {
     let name = name.to_ascii_lowercase();
@@ -9,7 +9,7 @@ pub fn named(name: &str) -> Option<[u8; 3]> {
     Some([r, g, b])
 }
 
-/// In alphabetical order: names, and red, green and blue.
+/// Names in alphabetical order, with their colour as `0xrrggbb`.
 ///
 /// Source: CSS Color Module Level 4, 6.1 Named Colors.
 const NAMES: [(&str, u32); 149] = [

@@ -1,4 +1,4 @@
-//! [`Shades`]: how dark a picture is, and the outlines of its dark parts.
+//! [`Shades`]: darkness of a picture as a summed-area table, and outlines of its dark parts.
 
 use glam::DVec2;
 use kurbo::Point;
@@ -7,40 +7,40 @@ use super::pixel_picture::Picture;
 use crate::geometry::plane::marching_squares::level_lines;
 use crate::geometry::plane::planar_distance::distance2;
 
-/// Outlines may be off by this part of a pixel before they are simplified.
+/// Maximum deviation of traced outlines, as a fraction of a segment, before they are simplified.
 const STRAIGHT: f64 = 0.05;
 
-/// Pictures with more points on their outlines than this have none.
+/// Maximum number of points on the outlines of a picture. With more, no outlines are traced.
 const MOST_CROSSINGS: usize = 1 << 20;
 
-/// How dark a picture is on white paper, 0 to 1, in rectangles of it.
+/// Darkness of a picture on white paper, 0 to 1, averaged over any rectangle.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shades {
-    /// Pixels in a row, at least 1.
+    /// Width in pixels, at least 1.
     pub width: usize,
-    /// Rows, at least 1.
+    /// Height in pixels, at least 1.
     pub height: usize,
-    /// The sum of all that is above and to the left of each corner of pixels.
+    /// Summed-area table: for each pixel corner, the sum of all pixels above and to the left of it.
     sums: Vec<f64>,
 }
 
-/// How outlines are traced.
+/// Options for tracing outlines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tracing {
-    /// Pixels darker than this are in.
+    /// Pixels darker than this are inside, 0 to 1.
     pub level: f64,
-    /// How large a pixel will be, in both directions.
+    /// Size of a pixel in the result, along x and y.
     pub scale: [f64; 2],
-    /// How far outlines may be off, by that scale.
+    /// Maximum deviation of outlines, in the scaled units.
     pub tolerance: f64,
-    /// Outlines around less than this area, by that scale, are left out.
+    /// Minimum enclosed area, in the scaled units. Smaller outlines are dropped.
     pub speck: f64,
-    /// Whether the picture goes on beyond its frame with the other side of it.
+    /// Whether the picture repeats outside its frame.
     pub repeats: bool,
 }
 
 impl Shades {
-    /// How dark the pixels of a picture are.
+    /// Darkness of the pixels of a picture.
     #[must_use]
     pub fn of(picture: &Picture) -> Self {
         Self::of_values(picture.width, picture.height, |column, row| {
@@ -50,7 +50,7 @@ impl Shades {
         })
     }
 
-    /// From the shade of each pixel.
+    /// Builds the table from the darkness of each pixel.
     #[must_use]
     pub fn of_values(width: usize, height: usize, value: impl Fn(usize, usize) -> f64) -> Self {
         let stride = width + 1;
@@ -65,7 +65,7 @@ impl Shades {
         Self { width, height, sums }
     }
 
-    /// The sum of all above and to the left of a point.
+    /// Sum of everything above and to the left of a point, interpolated within pixels.
     fn sum(&self, x: f64, y: f64) -> f64 {
         let (i, j) = ((x as usize).min(self.width - 1), (y as usize).min(self.height - 1));
         let (s, t) = (x - i as f64, y - j as f64);
@@ -74,14 +74,14 @@ impl Shades {
         row(j) + (row(j + 1) - row(j)) * t
     }
 
-    /// The mean of a rectangle within the picture.
+    /// Mean darkness of a rectangle within the picture.
     #[must_use]
     pub fn mean(&self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2]) -> f64 {
         let sum = self.sum(x1, y1) - self.sum(x0, y1) - self.sum(x1, y0) + self.sum(x0, y0);
         sum / ((x1 - x0) * (y1 - y0)).max(f64::MIN_POSITIVE)
     }
 
-    /// The same picture in no more pixels than this in both directions.
+    /// Downsamples to at most `columns` by `rows` pixels.
     #[must_use]
     pub fn at_most(&self, columns: usize, rows: usize) -> Self {
         let (width, height) = (columns.clamp(1, self.width), rows.clamp(1, self.height));
@@ -92,21 +92,23 @@ impl Shades {
         })
     }
 
-    /// The outlines of what is dark, in pixels from the upper left corner: closed, without their first point again, with
-    /// what is dark on one side of all of them, so that holes turn the other way than islands do. None if there are too many.
+    /// Outlines of the dark parts, in pixels from the upper left corner.
+    ///
+    /// Outlines are closed and do not repeat their first point. Dark is always on the same side, so holes
+    /// turn the other way than islands. Returns `None` if there are too many points.
     #[must_use]
     pub fn outlines(&self, tracing: &Tracing) -> Option<Vec<Vec<Point>>> {
         let (width, height) = (self.width as i64, self.height as i64);
         let inner =
             |i: i64, count: i64| if tracing.repeats { i.rem_euclid(count) } else { i.clamp(0, count - 1) };
-        // The picture, a ring of pixels that goes on with it, and a ring that closes all outlines, which then lose what
-        // is beyond the frame.
+        // Surround the picture by one ring of pixels that continues it, and by another that closes all
+        // outlines. Clipping to the frame later removes the closing parts.
         let value = |i: i64, j: i64| {
             let (i, j) = (i - 2, j - 2);
             let (column, row) = (inner(i, width), inner(j, height));
             let [x, y] = [column as f64, row as f64];
             let own = self.mean([x, y], [x + 1.0, y + 1.0]) - tracing.level;
-            // No pixel lies upon the level.
+            // No value is exactly on the level.
             let own = if own == 0.0 { f64::MIN_POSITIVE } else { own };
             if (-1..=width).contains(&i) && (-1..=height).contains(&j) { own } else { -own.abs() }
         };
@@ -123,14 +125,14 @@ impl Shades {
     }
 }
 
-/// The area within a ring, by its sign the way it turns.
+/// Signed area of a ring.
 fn area(ring: &[Point]) -> f64 {
     let next = |k: usize| ring[(k + 1) % ring.len()];
     (0..ring.len()).map(|k| ring[k].to_vec2().cross(next(k).to_vec2())).sum::<f64>() / 2.0
 }
 
-/// What a frame leaves of a closed line, whose first point is its last: crossings with the frame are made points, and what is
-/// beyond is laid on it.
+/// Clips a closed line, whose first point is its last, to the frame. Adds points where it crosses the frame
+/// and moves points outside onto the frame.
 fn framed(line: &[Point], [width, height]: [f64; 2]) -> Vec<Point> {
     let mut ring: Vec<Point> = Vec::with_capacity(line.len());
     let mut push = |p: Point| {
@@ -153,7 +155,7 @@ fn framed(line: &[Point], [width, height]: [f64; 2]) -> Vec<Point> {
     while ring.len() > 1 && ring.first() == ring.last() {
         ring.pop();
     }
-    // Along a side of the frame it goes straight from where it came to it to where it leaves it.
+    // Drop points between two others on the same side of the frame.
     let sides = |p: &Point| [p.x == 0.0, p.x == width, p.y == 0.0, p.y == height];
     let is_between = |a: &Point, b: &Point, c: &Point| {
         let [a, b, c] = [a, b, c].map(sides);
@@ -177,7 +179,7 @@ fn framed(line: &[Point], [width, height]: [f64; 2]) -> Vec<Point> {
     kept
 }
 
-/// A ring without points that it can do without; where it comes to the frame and leaves it, it stays.
+/// Simplifies a ring (Douglas-Peucker). Points where it reaches or leaves the frame are kept.
 fn simplified(ring: &[Point], [width, height]: [f64; 2], tracing: &Tracing) -> Vec<Point> {
     let n = ring.len();
     if n < 4 {
@@ -193,7 +195,7 @@ fn simplified(ring: &[Point], [width, height]: [f64; 2], tracing: &Tracing) -> V
     };
     let mut fixed: Vec<usize> = (0..n).filter(|k| is_fixed(*k)).collect();
     if fixed.len() < 2 {
-        // Any point, and the one farthest from it.
+        // Split a free ring at any point and at the point farthest from it.
         let first = fixed.first().copied().unwrap_or(0);
         let away = |k: &usize| (scaled[*k] - scaled[first]).hypot2();
         let far = (0..n).max_by(|a, b| away(a).total_cmp(&away(b)).then(b.cmp(a))).unwrap_or(0);
@@ -225,7 +227,7 @@ mod tests {
     const TRACING: Tracing =
         Tracing { level: 0.5, scale: [1.0; 2], tolerance: 0.05, speck: 0.0, repeats: false };
 
-    /// A ring between two radii, softened over a pixel.
+    /// Ring between two radii, with an edge one pixel soft.
     fn annulus(size: usize, [inner, outer]: [f64; 2]) -> Shades {
         Shades::of_values(size, size, |column, row| {
             let middle = size as f64 / 2.0;
@@ -248,10 +250,10 @@ mod tests {
             assert!((area(ring).abs() / (std::f64::consts::PI * radius * radius) - 1.0).abs() < 0.01);
             assert!(ring.len() < 120, "{}", ring.len());
         }
-        // Less of it: the hole is a speck.
+        // With a larger speck size the hole disappears.
         let coarse = Tracing { speck: 300.0, ..TRACING };
         assert_eq!(annulus(64, [9.3, 25.8]).outlines(&coarse).unwrap().len(), 1);
-        // In fewer pixels the ring is the same.
+        // Downsampled, the ring keeps its area.
         let small = annulus(64, [9.3, 25.8]).at_most(32, 64).outlines(&TRACING).unwrap();
         let whole: f64 = small.iter().map(|ring| area(ring)).sum::<f64>() * 2.0;
         let right = std::f64::consts::PI * (25.8_f64.powi(2) - 9.3_f64.powi(2));
@@ -270,7 +272,7 @@ mod tests {
 
     #[test]
     fn what_repeats_meets_itself_over_the_frame() {
-        // A slanted band that leaves on the right where it comes in on the left.
+        // Slanted band that leaves on the right where it enters on the left.
         let band = Shades::of_values(32, 32, |column, row| {
             let way = (column as f64 + row as f64).rem_euclid(32.0) - 16.0;
             (8.5 - way.abs()).clamp(0.0, 1.0)

@@ -1,4 +1,4 @@
-//! [`Oklab`]: colours in a space in which equal steps look equal.
+//! [`Oklab`]: a perceptually uniform colour space.
 //!
 //! Source: Ottosson, "A perceptual color space for image processing", 2020.
 
@@ -8,7 +8,7 @@ use crate::geometry::numbers::portable_math;
 /// Lightness, green to red, blue to yellow.
 pub type Oklab = [f32; 3];
 
-/// The coordinates of a colour of linear light, each channel 0 to 1.
+/// Converts linear light, each channel 0 to 1.
 #[must_use]
 pub fn of_linear([r, g, b]: [f32; 3]) -> Oklab {
     let [r, g, b] = [r, g, b].map(f64::from);
@@ -23,19 +23,19 @@ pub fn of_linear([r, g, b]: [f32; 3]) -> Oklab {
     lab.map(|c| c as f32)
 }
 
-/// The linear light of each channel as written, 0 to 255.
+/// Table from an sRGB channel, 0 to 255, to linear light.
 #[must_use]
 pub fn linear_table() -> [f32; 256] {
     std::array::from_fn(|c| linear(c as f32 / 255.0))
 }
 
-/// The coordinates of a colour.
+/// Converts an sRGB colour; opacity is ignored.
 #[must_use]
 pub fn of(colour: Colour) -> Oklab {
     of_linear([colour.r, colour.g, colour.b].map(|c| linear(f32::from(c) / 255.0)))
 }
 
-/// The square of the distance of two colours.
+/// Squared distance between two colours.
 #[inline]
 #[must_use]
 pub fn distance2(a: Oklab, b: Oklab) -> f32 {

@@ -1,4 +1,4 @@
-//! [`Picture`]: the pixels of a PNG, JPEG or WebP file.
+//! [`Picture`]: decoded pixels of a PNG, JPEG or WebP file.
 
 use std::io::Cursor;
 
@@ -9,28 +9,28 @@ use zune_jpeg::zune_core::options::DecoderOptions;
 
 use super::srgb::Colour;
 
-/// No picture that is read has more pixels on a side.
+/// Maximum width and height of a picture, px. Larger files are refused.
 pub const GREATEST_SIDE: u32 = 16_384;
 
-/// Memory that decoding a picture may take, bytes.
+/// Maximum memory for decoding a picture, bytes.
 const GREATEST_MEMORY: usize = 1 << 30;
 
-/// The pixels of a picture, row by row from the top, sRGB.
+/// Pixels of a picture, row by row from the top, in sRGB.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Picture {
-    /// Pixels in a row, at least 1.
+    /// Width in pixels, at least 1.
     pub width: usize,
-    /// Rows, at least 1.
+    /// Height in pixels, at least 1.
     pub height: usize,
-    /// `width * height` colours.
+    /// Colours, `width * height` of them.
     pub pixels: Vec<Colour>,
 }
 
 impl Picture {
-    /// Reads a PNG, JPEG or WebP file's bytes, whichever they are; of one that moves, the first picture.
+    /// Decodes the bytes of a PNG, JPEG or WebP file. Of an animation, only the first frame is read.
     ///
     /// # Errors
-    /// Says in a few words what is wrong with the bytes.
+    /// Describes briefly why the bytes cannot be decoded.
     pub fn decode(bytes: &[u8]) -> Result<Self, String> {
         let decoded = if bytes.starts_with(&PNG) {
             decode_png(bytes)
@@ -48,7 +48,7 @@ impl Picture {
         Ok(picture)
     }
 
-    /// From samples of 8 bits, so many a pixel: grey, grey and alpha, RGB, or RGBA.
+    /// Converts 8-bit samples with `channels` per pixel: grey, grey and alpha, RGB, or RGBA.
     fn of_samples(width: usize, height: usize, samples: &[u8], channels: usize) -> Result<Self, String> {
         let pixels: Vec<Colour> = samples
             .chunks_exact(channels.max(1))
@@ -66,14 +66,14 @@ impl Picture {
         Ok(Self { width, height, pixels })
     }
 
-    /// The pixel of a column and a row; those beyond the border repeat the border.
+    /// Pixel at a column and a row, both clamped to the picture.
     #[must_use]
     pub fn at(&self, column: usize, row: usize) -> Colour {
         let (column, row) = (column.min(self.width - 1), row.min(self.height - 1));
         self.pixels.get(row * self.width + column).copied().unwrap_or(Colour::BLACK)
     }
 
-    /// The same picture with fewer pixels, if it has more than so many: the means of squares of them.
+    /// Downsamples the picture to at most `most` pixels, by the mean of square blocks.
     #[must_use]
     pub fn at_most(self, most: usize) -> Self {
         let smaller = |times: usize| [self.width, self.height].map(|count| (count / times).max(1));
@@ -96,7 +96,7 @@ impl Picture {
         Self { width, height, pixels: (0..width * height).map(mean).collect() }
     }
 
-    /// The colours of a row.
+    /// Colours of a row.
     #[must_use]
     pub fn row(&self, row: usize) -> &[Colour] {
         let start = row.min(self.height - 1) * self.width;
@@ -104,7 +104,7 @@ impl Picture {
     }
 }
 
-/// How files begin.
+/// First bytes of the file formats.
 const PNG: [u8; 4] = *b"\x89PNG";
 const JPEG: [u8; 3] = [0xff, 0xd8, 0xff];
 
@@ -187,7 +187,7 @@ mod tests {
         assert_eq!(picture.at_most(7), Picture { width: 2, height: 1, pixels: vec![grey(100), grey(7)] });
     }
 
-    /// JPEG files in base 64: one pixel block of each colour, and a grey one.
+    /// JPEG files in base 64: one with blocks of several colours, and a grey one.
     const RED_AND_BLUE: &str = "\
         /9j/4AAQSkZJRgABAQAAAQABAAD/2wBDAAMCAgMCAgMDAwMEAwMEBQgFBQQEBQoHBwYIDAoMDAsKCwsNDhIQDQ4RDgsLEBYQERMU\
         FRUVDA8XGBYUGBIUFRT/2wBDAQMEBAUEBQkFBQkUDQsNFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQUFBQU\

@@ -1,8 +1,8 @@
-//! Colours as they are written: sRGB, eight bits a channel, with an opacity.
+//! [`Colour`]: an sRGB colour of eight bits a channel, with opacity.
 
 use serde::{Deserialize, Serialize};
 
-/// An sRGB colour with alpha, each 0 to 255.
+/// sRGB colour with opacity, each channel 0 to 255.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Colour {
@@ -28,7 +28,7 @@ impl Colour {
         Self { r, g, b, a: 255 }
     }
 
-    /// From linear-light channels 0 to 1, as glTF stores them.
+    /// Converts linear-light channels, 0 to 1, as glTF stores them.
     #[must_use]
     pub fn from_linear([r, g, b, a]: [f32; 4]) -> Self {
         let encode = |c: f32| {
@@ -43,27 +43,27 @@ impl Colour {
         Self { r: encode(r), g: encode(g), b: encode(b), a: (a.clamp(0.0, 1.0) * 255.0).round() as u8 }
     }
 
-    /// A darker shade of the same hue: the channels scaled by `factor` (0 = black, 1 = unchanged).
+    /// Returns a darker shade of the same hue: the channels times `factor` (0 = black, 1 = unchanged).
     #[must_use]
     pub fn darker(self, factor: f64) -> Self {
         let scale = |c: u8| (f64::from(c) * factor.clamp(0.0, 1.0)).round() as u8;
         Self { r: scale(self.r), g: scale(self.g), b: scale(self.b), a: self.a }
     }
 
-    /// Red, green and blue as written (sRGB), each 0 to 1.
+    /// Red, green and blue in sRGB, each 0 to 1.
     #[must_use]
     pub fn channels(self) -> [f64; 3] {
         [self.r, self.g, self.b].map(|c| f64::from(c) / 255.0)
     }
 
-    /// The opaque colour of channels as written (sRGB); below 0 counts as 0 and above 1 as 1.
+    /// Opaque colour of sRGB channels, clamped to 0..=1.
     #[must_use]
     pub fn from_channels(channels: [f64; 3]) -> Self {
         let [r, g, b] = channels.map(|c| (c.clamp(0.0, 1.0) * 255.0).round() as u8);
         Self::rgb(r, g, b)
     }
 
-    /// The colour on the way from this one to another, 0 = this, 1 = the other; opacity too.
+    /// Linear interpolation to another colour, opacity included: 0 returns this one, 1 the other.
     #[must_use]
     pub fn mix(self, other: Self, share: f64) -> Self {
         let share = share.clamp(0.0, 1.0);
@@ -76,15 +76,16 @@ impl Colour {
         }
     }
 
-    /// How light the colour looks, 0 to 1: the weighted sum of its channels as written (luma of
-    /// Rec. 709).
+    /// Luma, 0 to 1: the weighted sum of the sRGB channels (Rec. 709).
     #[must_use]
     pub fn luma(self) -> f64 {
         let [r, g, b] = self.channels();
         g + 0.2126 * (r - g) + 0.0722 * (b - g)
     }
 
-    /// `#rgb`, `#rgba`, `#rrggbb` or `#rrggbbaa`, or a name of CSS such as `teal`; `transparent`, and `none`, is not a colour.
+    /// Parses `#rgb`, `#rgba`, `#rrggbb`, `#rrggbbaa` or a CSS name such as `teal`.
+    ///
+    /// `transparent` and `none` are not colours.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let text = text.trim();
@@ -105,14 +106,14 @@ impl Colour {
         }
     }
 
-    /// `#rrggbb`, without the opacity.
+    /// Formats the colour as `#rrggbb`, without the opacity.
     #[must_use]
     pub fn hex(self) -> String {
         format!("#{:02x}{:02x}{:02x}", self.r, self.g, self.b)
     }
 }
 
-/// The linear-light value, 0 to 1, of an sRGB channel 0 to 1.
+/// Converts an sRGB channel, 0 to 1, to linear light, 0 to 1.
 #[must_use]
 pub fn linear(channel: f32) -> f32 {
     let c = f64::from(channel.clamp(0.0, 1.0));

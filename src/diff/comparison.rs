@@ -1,4 +1,4 @@
-//! From two pictures to a [`Diff`].
+//! Comparison of two pictures, from shapes to a [`Diff`].
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -37,10 +37,10 @@ use crate::diff::shapes::picture::{Picture, ShapeKind};
 use crate::diff::shapes::tolerances::{Tolerances, default_px};
 use crate::drawing::{Length, Unit};
 
-/// Room for the recursion of the renderer over nested elements.
+/// Stack size for the renderer's recursion over nested elements.
 const STACK_BYTES: usize = 64 << 20;
 
-/// Compares two pictures, see [`super::compare`].
+/// Compares two pictures; see [`super::compare`].
 pub(crate) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) -> Diff {
     let mut diff = Diff {
         findings: Vec::new(),
@@ -74,7 +74,7 @@ pub(crate) fn compare(before: &Picture, after: &Picture, options: &DiffOptions) 
     diff
 }
 
-/// A picture without what does not count.
+/// A picture without ignored shapes.
 fn left(picture: &Picture, ignore: Ignore) -> Picture {
     match picture.shapes.iter().any(|shape| ignore.leaves_out(shape)) {
         true => {
@@ -85,10 +85,10 @@ fn left(picture: &Picture, ignore: Ignore) -> Picture {
     }
 }
 
-/// Finds what differs, and what it follows from.
+/// Finds the changes of two pictures and their causes.
 fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     let [before, after] = pictures;
-    // Where the one drawing has lost all its labels, no mark can be told from another by them.
+    // If one drawing lost all labels, labels cannot identify marks.
     let lost = missing_labels::lost(pictures).filter(|_| !options.ignore.labels);
     let mut ignore = options.ignore;
     ignore.labels |= lost.is_some();
@@ -123,7 +123,7 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
         Decision::Differs(more) => more,
         Decision::Unknown => Vec::new(),
     };
-    // Where each mark was found to go the same way, that is what happened.
+    // All marks moved alike: report one motion of the whole drawing.
     let together =
         whole_motion::together(&mut compared.findings, before, &compared.rest[0], diff.tolerance_px);
     if let Some(motion) = together {
@@ -151,7 +151,7 @@ fn judge(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) {
     settle(diff, pictures, [page.into_iter().chain(names).collect(), seen], compared, causes, lost);
 }
 
-/// Settles drawings of one size that are seen from two sides; false for all others.
+/// Reports a change of camera in one finding; returns `false` for all other changes.
 fn settled_in_brief(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOptions) -> bool {
     let groups = Groups::new(pictures, &options.tolerances, options.ignore);
     let parted = equal_shapes::part(pictures[0], pictures[1], &groups);
@@ -167,7 +167,8 @@ fn settled_in_brief(diff: &mut Diff, pictures: [&Picture; 2], options: &DiffOpti
     true
 }
 
-/// Compares the pictures. The renderer follows nested references on a large stack, and may give up.
+/// Compares the pixels of two pictures. The renderer needs a large stack for nested references, and it may
+/// panic.
 fn look(pictures: [&Picture; 2], findings: &[Finding], options: &DiffOptions, ignore: Ignore) -> Decision {
     let groups = Groups::new(pictures, &options.tolerances, ignore);
     let pool = rayon_core::ThreadPoolBuilder::new().num_threads(2).stack_size(STACK_BYTES).build();
@@ -176,7 +177,7 @@ fn look(pictures: [&Picture; 2], findings: &[Finding], options: &DiffOptions, ig
     decided.ok().and_then(Result::ok).unwrap_or(Decision::Unknown)
 }
 
-/// Puts together what was found.
+/// Combines findings, causes and totals into the result.
 fn settle(
     diff: &mut Diff,
     pictures: [&Picture; 2],
@@ -194,7 +195,7 @@ fn settle(
         diff.findings.extend(findings);
     }
     sort(&mut diff.findings);
-    // Which findings follow from the whole is known by their verdict, now that they have their places.
+    // Findings have their final indexes now, so causes can refer to them.
     for cause in &mut causes {
         let follows = |finding: &Finding| match cause.verdict {
             Verdict::Relabelled => finding.verdict == Verdict::Relabelled,
@@ -215,7 +216,7 @@ fn settle(
     }
 }
 
-/// The gravest first, then by part, class and place.
+/// Sorts findings: the most serious first, then by part, class and place.
 fn sort(findings: &mut [Finding]) {
     findings.sort_by(|a, b| {
         (a.verdict, &a.label)
@@ -226,7 +227,8 @@ fn sort(findings: &mut [Finding]) {
     });
 }
 
-/// What a motion of the whole leaves, and that motion in words; nothing where it explains little.
+/// Findings that remain after a motion of the whole drawing, and its cause; `None` if the motion explains
+/// less than three quarters.
 fn of_whole(
     diff: &Diff,
     whole: &whole_motion::Whole,
@@ -254,12 +256,12 @@ fn of_whole(
     Some((left.into_iter().chain(carried).collect(), cause))
 }
 
-/// The motion of the whole in words; its findings are found later.
+/// The motion of the whole drawing as a cause, without its findings.
 fn sentence(diff: &Diff, motion: &Motion, pictures: [&Picture; 2], count: usize, reach: f64) -> Cause {
     let unit = diff.unit();
     let place = Rect::new(0.0, 0.0, pictures[0].width, pictures[0].height);
     let mut words = cause_sentences::motion(motion, place, unit);
-    // What grows from the page's corner with the page goes nowhere.
+    // A drawing scaled from the page's corner does not move.
     if motion.of(Point::ORIGIN).hypot() <= reach
         && let Some((grown, _)) = words.split_once(", its middle")
     {
@@ -274,17 +276,18 @@ fn sentence(diff: &Diff, motion: &Motion, pictures: [&Picture; 2], count: usize,
     Cause { verdict: Verdict::Moved, sentence, findings: Vec::new() }
 }
 
-/// What differs mark by mark.
+/// Result of comparing all marks.
 struct Compared {
     findings: Vec<Finding>,
-    /// The shapes without an equal.
+    /// Shapes of each picture without an equal.
     rest: [Vec<usize>; 2],
     /// Parts that moved as a whole.
     movers: Vec<Mover>,
-    /// Whether findings were left out because both drawings look the same.
+    /// Whether findings were dropped because the drawings look the same.
     is_one_picture: bool,
 }
 
+/// Compares all marks of two pictures.
 fn one(pictures: [&Picture; 2], tolerances: &Tolerances, ignore: Ignore) -> Compared {
     let [before, after] = pictures;
     let groups = Groups::new(pictures, tolerances, ignore);
@@ -298,7 +301,7 @@ fn one(pictures: [&Picture; 2], tolerances: &Tolerances, ignore: Ignore) -> Comp
     Compared { findings, rest, movers, is_one_picture: false }
 }
 
-/// What became of the shapes that have no equal; those that lie where they lay are added to what stayed.
+/// Changes of the shapes without an equal. Shapes that did not move are added to `stayed`.
 fn unequal(
     [before, after]: [&Picture; 2],
     rest: &[Vec<usize>; 2],
@@ -346,7 +349,7 @@ fn unequal(
     (findings, movers)
 }
 
-/// The page, if it has another size.
+/// A finding if the page has another size.
 fn page(before: &Picture, after: &Picture) -> Option<Finding> {
     let size = |picture: &Picture| format!("{} x {} px", trimmed(picture.width), trimmed(picture.height));
     let tolerance = default_px(before, after);

@@ -17,21 +17,21 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 //!
-//! 1. [`read`] turns a file into shapes in px, each with ink and label. It refuses files that would take
+//! 1. `read` turns a file into shapes in px, each with ink and label. It refuses files that would take
 //!    unbounded time.
-//! 2. [`matching`] sets equal shapes aside. The others become chains: polylines, joined where they were
+//! 2. `matching` sets equal shapes aside. The others become chains: polylines, joined where they were
 //!    split.
-//! 3. [`matching`] computes the intervals of each chain within tolerance of the other drawing. This is the
+//! 3. `matching` computes the intervals of each chain within tolerance of the other drawing. This is the
 //!    directed Hausdorff distance, cut off at the tolerance. Chains with uncovered intervals are paired.
-//! 4. [`changes`] turns the events of chains into one finding per mark.
-//! 5. [`raster_check`] rasterises both drawings. If they look the same, findings about their look are
+//! 4. `changes` turns the events of chains into one finding per mark.
+//! 5. `raster_check` rasterises both drawings. If they look the same, findings about their look are
 //!    dropped. If they look different and geometry found nothing, the place becomes a finding.
-//! 6. [`causes`] explains many findings by one sentence, such as a moved part.
+//! 6. `causes` explains many findings by one sentence, such as a moved part.
 //!
-//! Folders, in reading order: [`shapes`] the data compared; [`markup`] XML and CSS in bounded time; [`read`]
-//! SVG to shapes; [`curves`] chains, distances, indexes; [`findings`] the result; [`matching`], [`changes`],
-//! [`raster_check`], [`causes`] as above; [`report`] text, JSON, Markdown and overlay; [`canonical`] one form
-//! for any SVG file. [`comparison`] runs the steps.
+//! Folders, in reading order: `shapes` the data compared; `markup` XML and CSS in bounded time; `read`
+//! SVG to shapes; `curves` chains, distances, indexes; `findings` the result; `matching`, `changes`,
+//! `raster_check`, `causes` as above; `report` text, JSON, Markdown and overlay; `canonical` one form
+//! for any SVG file. `comparison` runs the steps.
 
 mod canonical;
 mod causes;
@@ -57,41 +57,41 @@ pub use shapes::label::Label;
 pub use shapes::picture::{Picture, Shape, ShapeKind};
 pub use shapes::tolerances::Tolerances;
 
-/// How two drawings are compared.
+/// Options of a comparison.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct DiffOptions {
-    /// How far ink may lie from where it lay. Default: twice the written precision.
+    /// Largest distance between marks that count as equal. Default: twice the written precision.
     pub tolerances: Tolerances,
-    /// Whether the pixels that differ are counted as well, at one pixel to a px. Default: no.
+    /// Whether to count the pixels that differ as well, at one pixel per px. Default: no.
     pub pixels: bool,
-    /// What does not count. Default: everything counts.
+    /// Aspects to ignore. Default: none.
     pub ignore: Ignore,
-    /// Whether one finding may stand for all marks of a large drawing that is seen from another side, which takes a tenth of the time:
-    /// see [`Diff::is_brief`]. Default: no.
+    /// Whether one finding may stand for all marks of a large drawing whose camera changed. This takes a
+    /// tenth of the time; see [`Diff::is_brief`]. Default: no.
     pub brief: bool,
 }
 
 impl DiffOptions {
-    /// With these tolerances.
+    /// Sets the tolerances.
     #[must_use]
     pub fn within(self, tolerances: Tolerances) -> Self {
         Self { tolerances, ..self }
     }
 
-    /// Without what does not count.
+    /// Sets the aspects to ignore.
     #[must_use]
     pub fn ignoring(self, ignore: Ignore) -> Self {
         Self { ignore, ..self }
     }
 
-    /// With one finding for all marks of a large drawing that is seen from another side.
+    /// Allows one finding for all marks of a large drawing whose camera changed.
     #[must_use]
     pub fn in_brief(self) -> Self {
         Self { brief: true, ..self }
     }
 
-    /// With a comparison of pixels as well.
+    /// Also compares pixels.
     #[must_use]
     pub fn with_pixels(self) -> Self {
         Self { pixels: true, ..self }

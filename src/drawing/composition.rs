@@ -1,4 +1,4 @@
-//! [`Composition`]: several drawings on one page, each in its place and within its frame.
+//! [`Composition`]: several drawings on one page, each placed and clipped.
 //!
 //! ```
 //! use ligne::drawing::composition::{Composition, Item};
@@ -20,22 +20,22 @@ use super::{Drawing, Page};
 /// A drawing on a page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Item {
-    /// What it is called: the id of its group in SVG, its layer in PDF. No two of a page are called alike.
+    /// Unique name on the page: group id in SVG, layer name in PDF.
     pub name: String,
-    /// The drawing, in units of its own page.
+    /// The drawing, in user units of its page.
     pub drawing: Drawing,
-    /// From units of its own page to those of the page it is put on.
+    /// Transform from its own page to the page of the composition.
     pub place: Affine,
-    /// What is shown of it, in units of the page it is put on; all if none.
+    /// Clip path in user units of the composition; `None` shows everything.
     pub clip: Option<BezPath>,
 }
 
-/// Where a printed page is cut, and how far what is printed reaches beyond; in units of the page, y down.
+/// The trim and bleed of a printed page, in user units, y down.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Boxes {
-    /// What is left of the page when it is cut.
+    /// The page after trimming.
     pub trim: Rect,
-    /// What is printed, within the page and around `trim`.
+    /// The printed area, inside the page and around `trim`.
     pub bleed: Rect,
 }
 
@@ -43,18 +43,18 @@ pub struct Boxes {
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Composition {
-    /// Title, shown by viewers.
+    /// Title shown by viewers.
     pub title: String,
-    /// Size and unit of all of it, what is cut off included.
+    /// Size and unit of the whole page, including the area that is trimmed off.
     pub page: Page,
-    /// Where it is cut; none for pages that are not.
+    /// Trim and bleed; `None` for pages that are not trimmed.
     pub boxes: Option<Boxes>,
     /// The drawings, painted first to last.
     pub items: Vec<Item>,
 }
 
 impl Composition {
-    /// A page that is not cut.
+    /// A page without trim and bleed.
     #[must_use]
     pub fn new(title: impl Into<String>, page: Page, items: Vec<Item>) -> Self {
         Self { title: title.into(), page, boxes: None, items }

@@ -1,4 +1,8 @@
-//! A page of several drawings as one: for files that know no frames, such as DXF.
+//! A composition as a single drawing, for formats without clip paths such as DXF.
+//!
+//! 1. Each mark is transformed to the page.
+//! 2. It is clipped to the clip path of its drawing, if there is one.
+//! 3. The marks of all drawings are collected in layers by kind.
 
 use std::collections::BTreeMap;
 
@@ -7,15 +11,16 @@ use kurbo::BezPath;
 use super::region_clip::Region;
 use super::{Composition, Drawing, Item, Layer, LayerKind, Mark, Paint, Unit};
 
-/// How far polygons may be from curves that are cut off at a frame.
+/// Tolerance of curves that are clipped, in px and in mm.
 const TOLERANCE_PX: f64 = 0.05;
 const TOLERANCE_MM: f64 = 0.01;
 
 impl Composition {
-    /// The page as one drawing: the marks of all drawings, each in its place, cut off at its frame, in the layers of their kinds.
+    /// The composition as one drawing. The marks of all drawings are placed, clipped, and grouped in layers
+    /// by kind.
     ///
-    /// Areas are cut at frames without hollows only, pictures nowhere. What lies on other drawings does not hide them, but for what is
-    /// painted.
+    /// Areas are clipped at convex clip paths only, pictures never. Drawings hide what is below them only
+    /// where they paint.
     #[must_use]
     pub fn flattened(&self) -> Drawing {
         let tolerance = match self.page.unit {
@@ -45,7 +50,8 @@ impl Composition {
 }
 
 impl Drawing {
-    /// Leaves the inside of a border without hollows: lines and areas end there. Dashes become lines where theirs is cut.
+    /// Clips lines and areas to the inside of a convex border. A dashed line that is clipped becomes separate
+    /// dashes.
     #[cfg(feature = "page")]
     pub(crate) fn cut(&mut self, border: &BezPath, tolerance: f64) {
         let region = Region::new(border, tolerance);
@@ -71,7 +77,7 @@ impl Drawing {
     }
 }
 
-/// What a region shows of a mark.
+/// The part of a mark inside a region; `None` if nothing is left.
 fn cut(mut mark: Mark, region: &Region, tolerance: f64) -> Option<Mark> {
     let is_there = |path: &BezPath| path.elements().len() > 1;
     match &mut mark.paint {

@@ -1,14 +1,14 @@
-//! [`Hotspot`]: where one sees a part, so that it can be clicked.
+//! [`Hotspot`]: the visible area of a part, for clicks.
 
 use std::sync::Arc;
 
 use kurbo::BezPath;
 
-/// Where a part is seen.
+/// The visible area of a part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hotspot {
     /// The name of the part.
     pub part: Arc<str>,
-    /// Closed paths around all of it that is seen, in user units; holes run the other way round.
+    /// Closed paths around the visible area, in user units; holes run in the opposite direction.
     pub outline: BezPath,
 }

@@ -7,11 +7,10 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Unit;
 
-/// Millimetres in a px: CSS's 96 px an inch.
+/// Millimetres per px (CSS: 96 px per inch).
 pub const MM_PER_PX: f64 = 25.4 / 96.0;
 
-/// A length on the page, at least 0 in style sheets. Written as a number (px) or as a string with
-/// a unit (`"0.35mm"`).
+/// A length on the page, at least 0 in style sheets: a number of px, or a string with a unit (`"0.35mm"`).
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub struct Length {
     /// The number.
@@ -33,7 +32,7 @@ impl Length {
         Self { value, unit: Unit::Mm }
     }
 
-    /// The length in user units of a drawing whose unit is `unit`.
+    /// The length in user units of a drawing with the given unit.
     #[must_use]
     pub fn in_unit(self, unit: Unit) -> f64 {
         match (self.unit, unit) {
@@ -43,7 +42,7 @@ impl Length {
         }
     }
 
-    /// Reads `1.5`, `1.5px`, `0.35mm`, `1cm`, `0.1in` or `1pt`.
+    /// Parses `1.5`, `1.5px`, `0.35mm`, `1cm`, `0.1in` or `1pt`.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let text = text.trim();
@@ -77,7 +76,7 @@ impl<'de> Deserialize<'de> for Length {
     }
 }
 
-/// Reads either form by what it meets, so that errors keep their place in the file.
+/// Dispatches on the type of the value, which keeps the position of errors in the file.
 struct LengthVisitor;
 
 impl Visitor<'_> for LengthVisitor {
@@ -109,7 +108,7 @@ impl Visitor<'_> for LengthVisitor {
     }
 }
 
-/// The length, if it is finite and not negative.
+/// Returns the length if it is finite and not negative.
 fn in_range<E: Error>(length: Length, text: &str) -> Result<Length, E> {
     if length.value.is_finite() && length.value >= 0.0 {
         Ok(length)

@@ -1,4 +1,7 @@
 //! [`Mark`]: one painted path.
+//!
+//! A mark has a path, a [`Paint`] (stroke, fill, gradient, line of varying width or picture) and a
+//! [`Provenance`], its origin in the model.
 
 use std::sync::Arc;
 
@@ -9,7 +12,7 @@ use super::TextRun;
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
 
-/// How a line ends.
+/// Shape of line ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Cap {
@@ -18,11 +21,11 @@ pub enum Cap {
     /// A half circle round the end point.
     #[default]
     Round,
-    /// Half a width beyond the end point.
+    /// Extended by half a width.
     Square,
 }
 
-/// How a line turns a corner.
+/// Shape of line corners.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Join {
@@ -31,87 +34,89 @@ pub enum Join {
     /// Rounded.
     #[default]
     Round,
-    /// Cut off.
+    /// Cut off at the corner.
     Bevel,
 }
 
-/// Ink of a stroked path; lengths in user units.
+/// Paint of a stroked path; lengths in user units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StrokePaint {
     /// Width.
     pub width: f64,
     /// Colour and opacity.
     pub colour: Colour,
-    /// Ends.
+    /// Shape of the ends.
     pub cap: Cap,
-    /// Corners.
+    /// Shape of the corners.
     pub join: Join,
-    /// Lengths of dashes and gaps in turn; empty = solid.
+    /// Lengths of dashes and gaps in turn; empty for a solid line.
     pub dash: Vec<f64>,
-    /// Where in the dash pattern the path starts.
+    /// Offset of the path's start in the dash pattern.
     pub dash_offset: f64,
 }
 
-/// Ink of a line of varying width, whose outline is the mark's path; lengths in user units.
+/// Paint of a line with varying width; the mark's path is its outline. Lengths in user units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OutlinePaint {
     /// Colour and opacity.
     pub colour: Colour,
-    /// The middle of the line.
+    /// Centre line.
     pub axis: BezPath,
     /// Mean width.
     pub width: f64,
-    /// Width where the line is strongest: that of its pen.
+    /// Largest width, that of the pen.
     pub pen_width: f64,
 }
 
-/// A picture in pieces, of which that is seen which lies inside the mark's path. Pieces may cover each other: the last one is seen.
+/// A picture in pieces, clipped to the mark's path. Where pieces overlap, the last one is visible.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImagePaint {
-    /// The pixels that all pieces show. A drawing holds a picture once, whatever the number of its marks.
+    /// Pixels of all pieces. Marks share a picture, so a drawing stores it once.
     pub picture: Arc<Picture>,
     /// The pieces, painted first to last.
     pub pieces: Vec<ImagePiece>,
 }
 
-/// A piece of the page, and what of a picture it shows.
+/// A piece of the page, and its part of a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ImagePiece {
     /// Its outline in user units.
     pub outline: BezPath,
-    /// What it shows.
+    /// Content of the piece.
     pub shows: Shows,
 }
 
-/// What a piece of the page shows of a picture.
+/// Content of a piece of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Shows {
-    /// The picture, whose pixels lie where this brings them: the first one covers the square from (0, 0) to (1, 1).
+    /// The picture under this transform; pixel (0, 0) covers the square from (0, 0) to (1, 1) before it.
     Pixels(Affine),
     /// One colour.
     Colour(Colour),
 }
 
-/// Colours that change along a line, and are the same across it.
+/// A linear gradient.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Gradient {
-    /// Where the first stop is.
+    /// Position of the first stop.
     pub start: Point,
-    /// Where the last stop is.
+    /// Position of the last stop.
     pub end: Point,
-    /// Places from 0 at the start to 1 at the end, rising, and their colours, between which channels as written are linear. All are
-    /// as opaque as the first; beyond the ends the colour stays.
+    /// Offsets from 0 to 1 in rising order, and their colours.
+    ///
+    /// Colours are interpolated linearly in sRGB. All have the opacity of the first one. Outside the ends the
+    /// colour is constant.
     pub stops: Vec<(f64, Colour)>,
 }
 
 impl Gradient {
-    /// The colour in its middle.
+    /// The colour at offset 0.5.
     #[must_use]
     pub fn middle(&self) -> Colour {
         self.at(0.5)
     }
 
-    /// The colour at a place from 0 to 1.
+    /// The colour at an offset from 0 to 1.
     #[must_use]
     pub fn at(&self, place: f64) -> Colour {
         let after = self.stops.partition_point(|(at, _)| *at <= place);
@@ -124,14 +129,14 @@ impl Gradient {
     }
 }
 
-/// How a mark is painted.
+/// Paint of a mark.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Paint {
     /// A line of constant width.
     Stroke(StrokePaint),
     /// A filled outline.
     Fill(Colour),
-    /// A filled outline whose colour changes along a line.
+    /// A filled outline with a linear gradient.
     Gradient(Gradient),
     /// A line of varying width: the filled outline of a line.
     Outline(OutlinePaint),
@@ -139,38 +144,37 @@ pub enum Paint {
     Image(ImagePaint),
 }
 
-/// Where a mark comes from, as plain text: becomes classes and `data-` attributes in SVG, and is
-/// what drawings are compared by.
+/// The origin of a mark: classes and `data-` attributes in SVG, and the basis for comparing drawings.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Provenance {
     /// Classes: the line kind first, then `silhouette`.
     pub classes: Vec<&'static str>,
-    /// The tone of a region, 0 the darkest.
+    /// Tone of a region; 0 is the darkest.
     pub tone: Option<u16>,
-    /// Name of the part of the model.
+    /// Name of the part.
     pub part: Option<Arc<str>>,
     /// Name of the material.
     pub material: Option<Arc<str>>,
-    /// How many surfaces hide the line; 0 for visible ones.
+    /// Number of surfaces in front of the line; 0 if it is visible.
     pub invisibility: u16,
-    /// What the line is known by in all frames of an animation; 0 for none.
+    /// Identity of the line, equal in all frames of an animation; 0 for none.
     pub identity: u64,
-    /// Where on the model at rest the line runs, as numbers of cells, in rising order; empty where nobody knows.
+    /// The cells of the rest-pose model that the line passes, as numbers in rising order; empty if unknown.
     pub places: Arc<[u64]>,
-    /// What there is to say of the mark: its title in SVG, which viewers show beside it.
+    /// A note about the mark, its title in SVG.
     pub note: Option<Arc<str>>,
-    /// The words whose letters the mark is the filled outline of. PDF sets them in their font; other files hold the outline, and SVG
-    /// the words beside it.
+    /// The text whose letters the mark outlines. PDF sets it in its font. Other formats keep the outline, and
+    /// SVG adds the words.
     pub text: Option<TextRun>,
 }
 
 /// One painted path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mark {
-    /// Geometry in user units, x right, y down.
+    /// Path in user units, x right, y down.
     pub path: BezPath,
-    /// How it is painted.
+    /// Its paint.
     pub paint: Paint,
-    /// Where it comes from.
+    /// Its origin.
     pub provenance: Provenance,
 }

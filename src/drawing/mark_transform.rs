@@ -1,11 +1,11 @@
-//! Marks elsewhere on a page, or on another one.
+//! Transforms of marks.
 
 use kurbo::{Affine, Vec2};
 
 use super::{Mark, Paint, Shows};
 
 impl Mark {
-    /// The mark on a page to whose units `place` leads: lengths of its pen go with it.
+    /// The mark transformed by `place`. Line widths and dashes are scaled with it.
     #[must_use]
     pub fn placed(mut self, place: Affine) -> Self {
         let scale = place.determinant().abs().sqrt();
@@ -41,7 +41,7 @@ impl Mark {
         self
     }
 
-    /// The mark, so far from where it was.
+    /// The mark moved by a vector.
     #[must_use]
     pub fn moved(self, by: Vec2) -> Self {
         self.placed(Affine::translate(by))

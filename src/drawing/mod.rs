@@ -36,7 +36,7 @@ pub use mark::{
 pub use page::{Page, Unit};
 pub use text_run::{FontFile, SetGlyph, TextRun};
 
-/// The layers of a drawing, back to front.
+/// Kinds of layers, back to front.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum LayerKind {
     /// The paper and its texture.
@@ -53,14 +53,14 @@ pub enum LayerKind {
     HiddenLines,
     /// Visible lines.
     Lines,
-    /// What shows of the paper through all that is drawn on it.
+    /// The grain of the paper, which shows through all layers below.
     Tooth,
     /// Call-outs.
     Callouts,
 }
 
 impl LayerKind {
-    /// The group's id in SVG.
+    /// Id of the layer's group in SVG.
     #[must_use]
     pub const fn id(self) -> &'static str {
         match self {
@@ -77,33 +77,33 @@ impl LayerKind {
     }
 }
 
-/// One layer: marks painted in order.
+/// A layer: marks that are painted in order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
-    /// Which layer it is.
+    /// Kind of the layer.
     pub kind: LayerKind,
-    /// Which pen draws it, where the drawing has one layer a pen: `1 0.35 mm #1a1a1a`.
+    /// Its pen, if the drawing has one layer per pen: `1 0.35 mm #1a1a1a`.
     pub pen: Option<String>,
-    /// Whether its marks have an order and directions that matter, such as a short way for a pen; others may be
-    /// exchanged and turned round where that changes nothing of what is seen.
+    /// Whether order and direction of the marks matter, for example for a short pen path. Otherwise marks may
+    /// be reordered and reversed if that does not change the picture.
     pub ordered: bool,
-    /// Its marks, painted first to last.
+    /// Its marks in painting order.
     pub marks: Vec<Mark>,
 }
 
-/// A 2-D document: a page and layers of marks, back to front; empty layers are absent.
+/// A 2-D document: a page with layers of marks, back to front. Empty layers are absent.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Drawing {
-    /// Title, shown by viewers: the model's name.
+    /// Title shown by viewers: the name of the model.
     pub title: String,
     /// Size and unit.
     pub page: Page,
     /// Layers, back to front.
     pub layers: Vec<Layer>,
-    /// Where parts are seen, for web pages to answer clicks; only SVG has them.
+    /// Visible areas of parts, for clicks on web pages; SVG only.
     pub hotspots: Vec<Hotspot>,
-    /// What of the model could not be drawn as it is, in words; no file holds them.
+    /// Warnings: features of the model that could not be drawn. They are not written to files.
     pub warnings: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! The page: its size and the unit that all coordinates are in.
+//! [`Page`]: size, unit and background of a drawing.
 
 use serde::{Deserialize, Serialize};
 
@@ -33,8 +33,8 @@ pub struct Page {
     pub width: f64,
     /// Height in user units.
     pub height: f64,
-    /// What a user unit is.
+    /// Unit of all coordinates.
     pub unit: Unit,
-    /// Colour of the paper; `None` leaves it transparent.
+    /// Background colour; `None` for transparent.
     pub background: Option<Colour>,
 }

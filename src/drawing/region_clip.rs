@@ -1,19 +1,23 @@
-//! Lines and areas cut off at the border of a region.
+//! Clips lines and areas to a region of the page.
+//!
+//! Lines are cut at their exact intersections with the border, and curves stay curves. Areas are flattened
+//! and clipped by the Sutherland-Hodgman algorithm, for convex regions only.
 
 use kurbo::{BezPath, Line, ParamCurve, PathEl, PathSeg, Point, Rect, Shape};
 
-/// What is shown of a page: the inside of a path, whose curves are flattened.
+/// A region of the page: the inside of a path with flattened curves.
 #[derive(Debug, Clone)]
 pub(crate) struct Region {
     path: BezPath,
     sides: Vec<Line>,
     bounds: Rect,
-    /// The corners, running so that its inside lies to the same side of all; none where it has hollows or holes.
+    /// The corners, in the direction with the inside at non-negative `cross`; `None` unless the region is a
+    /// single convex polygon.
     convex: Option<Vec<Point>>,
 }
 
 impl Region {
-    /// The inside of a path; its curves may be off by `tolerance`.
+    /// The inside of a path, flattened with a tolerance.
     pub fn new(path: &BezPath, tolerance: f64) -> Self {
         let mut flat = BezPath::new();
         kurbo::flatten(path, tolerance, |element| flat.push(element));
@@ -40,7 +44,7 @@ impl Region {
             || bounds.y1 < self.bounds.y0
     }
 
-    /// What of a line lies inside.
+    /// The part of a line inside the region.
     pub fn line(&self, path: &BezPath) -> BezPath {
         let mut kept = BezPath::new();
         if self.misses(path.bounding_box()) {
@@ -59,7 +63,7 @@ impl Region {
             kept.extend(run.path.iter().copied());
             return;
         }
-        // A closed line goes on over its seam: it is begun where it comes in.
+        // A closed line continues over its seam, so it starts where it enters the region.
         let begin = if run.closed { pieces.iter().position(|(_, inside)| !inside).unwrap_or(0) } else { 0 };
         let mut is_open = false;
         for (piece, inside) in pieces.iter().cycle().skip(begin).take(pieces.len()) {
@@ -73,7 +77,7 @@ impl Region {
         }
     }
 
-    /// A segment cut where it crosses the border, and whether each piece is inside.
+    /// The pieces of a segment between its crossings with the border, and whether each is inside.
     fn pieces(&self, segment: PathSeg) -> Vec<(PathSeg, bool)> {
         let bounds = segment.bounding_box();
         let near = self.sides.iter().filter(|side| {
@@ -93,8 +97,8 @@ impl Region {
         cuts.array_windows().map(piece).collect()
     }
 
-    /// What of an area lies inside, for a region without hollows; others leave areas that they touch as they are. Curves of areas that are
-    /// cut become polygons that are off by `tolerance`.
+    /// The part of an area inside a convex region. Its curves become polygons within `tolerance`. If the
+    /// region is not convex, an area that touches it is returned unchanged.
     pub fn area(&self, path: &BezPath, tolerance: f64) -> BezPath {
         let bounds = path.bounding_box();
         if self.misses(bounds) {
@@ -125,7 +129,7 @@ impl Region {
     }
 }
 
-/// One line of a path that may have several.
+/// One subpath of a path.
 struct Run {
     path: Vec<PathEl>,
     segments: Vec<PathSeg>,
@@ -148,7 +152,8 @@ fn runs(path: &BezPath) -> Vec<Run> {
     starts.array_windows().map(run).collect()
 }
 
-/// The corners of a polygon that turns one way all around, its inside where `cross` is not negative.
+/// The corners of a convex polygon, in the direction with the inside at non-negative `cross`; `None` if it is
+/// not convex.
 fn convex(sides: &[Line]) -> Option<Vec<Point>> {
     let turn = |a: &Line, b: &Line| (a.p1 - a.p0).cross(b.p1 - b.p0);
     let next = sides.iter().cycle().skip(1);
@@ -170,7 +175,7 @@ fn convex_holds(corners: &[Point], p: Point) -> bool {
     sides_of(corners).all(|[a, b]| (b - a).cross(p - a) >= 0.0)
 }
 
-/// What of a polygon lies on the inner side of a line.
+/// The part of a polygon on the inner side of a line.
 ///
 /// Source: I. Sutherland and G. Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974.
 fn beyond(ring: &[Point], [a, b]: [Point; 2]) -> Vec<Point> {
@@ -204,7 +209,7 @@ mod tests {
         assert_eq!(region.line(&path("M-5 5H15")).to_svg(), "M0,5 L10,5");
         assert_eq!(region.line(&path("M1 1H9V9")).to_svg(), "M1,1 L9,1 L9,9");
         assert!(region.line(&path("M11 1H19")).elements().is_empty());
-        // A closed one that begins inside comes out as one piece.
+        // A closed line that starts inside stays in one piece.
         assert_eq!(region.line(&path("M5 5H15V8H5Z")).to_svg(), "M10,8 L5,8 L5,5 L10,5");
         let both = region.line(&path("M-5 2H5V-5M20 20H30"));
         assert_eq!(both.to_svg(), "M0,2 L5,2 L5,0");
@@ -225,7 +230,7 @@ mod tests {
         let region = Region::new(&Circle::new((0.0, 0.0), 5.0).to_path(1e-4), 1e-4);
         let half = region.area(&path("M0 -20H20V20H0Z"), 1e-4);
         assert!((half.area().abs() - std::f64::consts::PI * 12.5).abs() < 1e-2, "{}", half.area());
-        // A hole stays one.
+        // A hole stays a hole.
         let ring = region.area(&path("M-9 -9H9V9H-9ZM-1 -1V1H1V-1Z"), 1e-4);
         assert!((ring.area().abs() - (std::f64::consts::PI * 25.0 - 4.0)).abs() < 1e-2, "{}", ring.area());
         assert!(region.area(&path("M8 8H9V9H8Z"), 1e-4).elements().is_empty());

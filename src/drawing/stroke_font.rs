@@ -1,17 +1,19 @@
-//! Words as lines of one pen, the same in SVG, PDF and PNG and for plotters, whatever fonts there are.
+//! Single-stroke letters: text that looks the same in SVG, PDF, PNG and on plotters, without fonts.
+//!
+//! A table holds the strokes of each character as SVG path data. Texts are scaled to the requested x-height.
 
 use kurbo::{Affine, BezPath, Point};
 
-/// Space between letters, where small letters are 4 high.
+/// Gap between letters, in units of [`LETTERS`].
 const GAP: f64 = 1.3;
 
-/// The height of small letters in which [`LETTERS`] are drawn.
+/// Height of small letters (x-height) in [`LETTERS`].
 const HEIGHT: f64 = 4.0;
 
-/// The bowl that many letters share.
+/// The bowl that many letters have.
 const BOWL: &str = "M0-2C0-3.1.67-4 1.5-4S3-3.1 3-2 2.33 0 1.5 0 0-.9 0-2Z";
 
-/// Letters, how wide they are, whether they have a bowl, and their other lines: x right, y down, 0 on the line of writing.
+/// Letters: character, width, whether it has a bowl, and its other strokes. x right, y down, baseline at 0.
 const LETTERS: [(char, f64, bool, &str); 43] = [
     (' ', 1.0, false, ""),
     ('-', 1.8, false, "M0-2H1.8"),
@@ -83,8 +85,9 @@ const LETTERS: [(char, f64, bool, &str); 43] = [
     ('z', 2.5, false, "M0-4H2.5L0 0H2.5"),
 ];
 
-/// A text in small letters of the height `height`, without the upper ends of tall ones. The middle of its baseline is at `middle`.
-/// Capitals are written as small letters. Characters that [`LETTERS`] lacks are left out.
+/// A text in small letters with x-height `height`, its baseline centred at `middle`.
+///
+/// Capitals become small letters. Characters that [`LETTERS`] lacks are omitted.
 pub(crate) fn lettered(text: &str, height: f64, middle: Point) -> BezPath {
     let letters = text
         .chars()
@@ -94,7 +97,7 @@ pub(crate) fn lettered(text: &str, height: f64, middle: Point) -> BezPath {
     let mut at = 0.0;
     for (_, width, has_bowl, strokes) in letters {
         for strokes in [if *has_bowl { BOWL } else { "" }, strokes] {
-            // All of them can be read: a test does.
+            // All strokes are valid path data; a test parses them.
             let strokes = BezPath::from_svg(strokes).unwrap_or_default();
             line.extend(Affine::translate((at, 0.0)) * strokes);
         }

@@ -1,4 +1,4 @@
-//! [`TextRun`]: the words that a mark's outline shows, for files that keep letters with their font.
+//! [`TextRun`]: the text that a mark outlines, for formats that embed fonts.
 
 use std::fmt;
 use std::ops::Range;
@@ -6,24 +6,24 @@ use std::sync::Arc;
 
 use kurbo::{Affine, Rect};
 
-/// A font as a file holds it, and what one must know of it to put it into a document. Lengths are in ems, y up.
+/// A font file and the metrics that a document needs to embed it. Lengths in ems, y up.
 #[derive(Clone)]
 pub struct FontFile {
-    /// The bytes of the file.
+    /// Bytes of the file.
     pub data: Arc<[u8]>,
-    /// The font's PostScript name, such as `ComicNeue-Bold`.
+    /// PostScript name, such as `ComicNeue-Bold`.
     pub name: String,
-    /// Around all letters.
+    /// Bounding box of all glyphs.
     pub bounds: Rect,
-    /// How far letters reach above the line of writing.
+    /// Height above the baseline.
     pub ascent: f64,
-    /// How far they reach below it, negative.
+    /// Depth below the baseline, negative.
     pub descent: f64,
     /// Height of capitals.
     pub cap_height: f64,
-    /// How far the letters lean, degrees, negative to the right.
+    /// Italic angle in degrees, negative if letters lean to the right.
     pub italic_deg: f64,
-    /// Whether the licence that the font tells of lets documents hold parts of it; others show outlines.
+    /// Whether the font's licence flags allow embedding a subset. Otherwise documents contain outlines.
     pub embeddable: bool,
 }
 
@@ -39,30 +39,30 @@ impl PartialEq for FontFile {
     }
 }
 
-/// A letter of a run: a glyph of its font. Lengths are in ems of the font, y up.
+/// A positioned glyph of a run. Lengths in ems of the font, y up.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SetGlyph {
-    /// Its number in the font.
+    /// Glyph id in the font.
     pub id: u16,
-    /// Where it stands, from the start of the run.
+    /// Position from the start of the run.
     pub x: f64,
-    /// How far above the line of writing.
+    /// Height above the baseline.
     pub y: f64,
-    /// How far the font itself goes on after it.
+    /// Advance width in the font.
     pub advance: f64,
-    /// The bytes of the words it shows; empty if the glyph before shows them as well.
+    /// The bytes of the words that it shows; empty if the glyph before it shows them too.
     pub shows: Range<usize>,
 }
 
-/// Letters of one font on one line, from left to right as they are seen.
+/// Glyphs of one font on one line, from left to right.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextRun {
-    /// What they say, in reading order.
+    /// The text in reading order.
     pub words: Arc<str>,
-    /// Their font.
+    /// The font.
     pub font: Arc<FontFile>,
-    /// The letters.
+    /// The glyphs.
     pub glyphs: Arc<[SetGlyph]>,
-    /// From ems, y up, the start of the run at (0, 0), to user units.
+    /// Transform from ems (y up, origin at the start of the run) to user units.
     pub place: Affine,
 }

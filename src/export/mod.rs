@@ -12,8 +12,8 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 //!
-//! Folders, in reading order: [`encoding`] numbers, XML text, embedded pictures; [`paths`] canonical path
-//! data; [`svg`]; `pdf`; [`dxf`]; `raster` PNG from the SVG text; `film` animations. PDF, PNG and animations
+//! Folders, in reading order: `encoding` numbers, XML text, embedded pictures; `paths` canonical path
+//! data; `svg`; `pdf`; `dxf`; `raster` PNG from the SVG text; `film` animations. PDF, PNG and animations
 //! build on SVG, never the other way round.
 
 pub mod dxf;

@@ -1,4 +1,4 @@
-//! How layers of hatching share the paper that a tone asks to be covered.
+//! Division of a tone's coverage among the layers of hatching.
 
 use rustc_hash::FxHashMap;
 
@@ -10,18 +10,18 @@ use crate::drawing::Unit;
 use crate::geometry::numbers::portable_math::{pow, tan};
 use crate::regions::Ground;
 
-/// How dense a layer is in each cell of a ground.
+/// Coverage and density of a layer in each cell of a ground.
 pub(crate) struct Shares {
-    /// The part of the paper that the layer covers.
+    /// Share of the paper that the layer covers.
     pub covered: Vec<f64>,
-    /// The covered part as a part of what the layer covers at most.
+    /// Share of the layer's strokes that are drawn.
     pub density: Vec<f64>,
 }
 
-/// The part of the paper that a layer covers where `density` of its strokes are drawn.
+/// Share of the paper that a layer covers when `density` of its strokes are drawn.
 ///
-/// Strokes that stray from their lines fall on each other, the more the denser they are: what strokes laid
-/// down by chance would cover is 1 - exp(-x) for x times the paper of ink (Poisson).
+/// Strokes that stray from their lines overlap, more so the denser they are. Strokes at random positions
+/// cover 1 - exp(-x) for ink of x times the paper's area (Poisson).
 fn covers(layer: &HatchLayer, unit: Unit, density: f64) -> f64 {
     if layer.kind != Kind::Lines || layer.swell {
         return density * MOST_COVERED;
@@ -35,21 +35,21 @@ fn covers(layer: &HatchLayer, unit: Unit, density: f64) -> f64 {
     (ink - astray * (ink - (1.0 - pow(std::f64::consts::E, -ink)))).min(MOST_COVERED)
 }
 
-/// Strokes that stray by all of their distance on average lie as by chance.
+/// Randomness per unit of stray. Strokes that stray by their spacing on average count as 90 % random.
 const STRAYS: f64 = 0.9;
 
-/// The part of the paper that a layer covers at most.
+/// The greatest share of the paper that a layer covers.
 pub(crate) fn fullest(layer: &HatchLayer, unit: Unit) -> f64 {
     covers(layer, unit, 1.0).max(f64::MIN_POSITIVE)
 }
 
-/// What all layers of a hatching cover together at most: tables that ask for more do not get it.
+/// The greatest share of the paper that all layers cover together. Coverage tables cannot exceed it.
 #[must_use]
 pub fn most_covered(options: &HatchOptions, unit: Unit) -> f64 {
     1.0 - options.layers.iter().map(|layer| 1.0 - fullest(layer, unit)).product::<f64>()
 }
 
-/// The part of a layer's strokes that covers a part of the paper.
+/// The share of a layer's strokes that covers a given share of the paper.
 fn density(layer: &HatchLayer, unit: Unit, share: f64) -> f64 {
     if share <= 0.0 {
         return 0.0;
@@ -68,10 +68,10 @@ fn density(layer: &HatchLayer, unit: Unit, share: f64) -> f64 {
 /// Bisections that find a density.
 const HALVINGS: usize = 30;
 
-/// Screens leave at least this little of the paper, so that lines stay lines.
+/// Greatest coverage of a screen, so that lines stay separate.
 const MOST_COVERED: f64 = 0.98;
 
-/// How dense a layer is in each cell.
+/// Coverage and density of a layer in each cell.
 pub(crate) fn shares(
     ground: &Ground,
     context: &HatchContext,
@@ -93,7 +93,7 @@ pub(crate) fn shares(
             tone::shares(coverage, &fullest).get(number).copied().unwrap_or_default()
         })
         .collect();
-    // Few cells differ.
+    // Few distinct shares occur, so densities are cached.
     let mut of = |share: f64| {
         *known.entry(share.to_bits()).or_insert_with(|| density(&options.layers[number], context.unit, share))
     };

@@ -2,7 +2,7 @@
 //!
 //! Source: Lake, Marshall, Harris and Blackstein, Stylized rendering techniques for scalable real-time 3D
 //! animation, 2000, section 3.3, with strokes in place of textures.
-//! 1. Each bin of light asks for a share of the paper ([`tone`]), which crossing layers divide
+//! 1. Each bin of light needs a share of the paper ([`tone`]), which crossing layers divide
 //!    ([`layer_shares`]).
 //! 2. A layer of lines lays strokes along ranked guides, so darker tones keep the strokes of lighter ones
 //!    ([`guides`]). A layer of dots places half-tone or stipple dots ([`dots`]).
@@ -52,14 +52,14 @@ use crate::strokes::Ink;
 use guides::streamlines::{Spacing, streamlines};
 use layer_shares::{Shares, shares};
 
-/// Strokes of one layer of hatching, as they lie on the page.
+/// Strokes of one layer of hatching on the page.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Hatched {
     /// The strokes, in the order of their guides.
     pub strokes: Vec<HatchStroke>,
 }
 
-/// The strokes of each layer that is made of lines; none for the others.
+/// The strokes of each layer of lines. Layers of dots have none.
 #[must_use]
 pub fn strokes(ground: &Ground, context: &HatchContext, options: &HatchOptions) -> Vec<Hatched> {
     let layers = options.layers.iter().enumerate();
@@ -83,8 +83,10 @@ pub fn strokes(ground: &Ground, context: &HatchContext, options: &HatchOptions) 
         .collect()
 }
 
-/// The layer `hatching` of a drawing; `None` if nothing is hatched. Spot blacks, given by their outlines and
-/// what is seen there, come first, in the colour of the first layer.
+/// The layer `hatching` of a drawing, or `None` if nothing is hatched.
+///
+/// Spot blacks come first, in the colour of the first layer. They are given by their outlines and the look of
+/// their regions.
 #[must_use]
 pub fn fill(
     ground: &Ground,
@@ -110,7 +112,8 @@ pub fn fill(
     (!marks.is_empty()).then_some(Layer { kind: LayerKind::Hatching, pen: None, ordered: false, marks })
 }
 
-/// The part of the paper that a layer covers at a point of a cell: as the light is there, or the bin.
+/// Share of the paper that a layer covers at a point of a cell. It follows the light there if the layer is
+/// graded, else the bin.
 fn covered_at(ground: &Ground, context: &HatchContext, layer: &HatchLayer, cell: u32, p: Point) -> f64 {
     let own = &ground.cells[cell as usize];
     let Some(tone) = context.tones.get(own.look.paint.index()).or(context.tones.last()) else { return 0.0 };
@@ -121,7 +124,7 @@ fn covered_at(ground: &Ground, context: &HatchContext, layer: &HatchLayer, cell:
     }
 }
 
-/// The marks of a layer of dots: one for each cell.
+/// The marks of a layer of dots, one for each cell.
 fn spots(
     ground: &Ground,
     context: &HatchContext,
@@ -144,7 +147,7 @@ fn spots(
     let seed = hash(context.seed, &[number as u64]);
     let cells = if layer.kind == Kind::Dots {
         let tone_borders = if layer.graded { ToneBorders::Whole } else { ToneBorders::Cut };
-        // The page's y points down, so that angles turn the other way.
+        // The page's y points down, so the angle changes its sign.
         let angle = -layer.angle.to_radians();
         let screen = DotScreen { pitch: long(layer.pitch()), angle, origin: Point::ZERO, tone_borders, px };
         dots(ground, &screen, &coverage)
@@ -161,7 +164,7 @@ fn spots(
     cells.into_iter().map(mark).collect()
 }
 
-/// Rounds of relaxing a stippling: enough to be even, too few to become a lattice.
+/// Relaxation rounds of stippling. Fewer leave it uneven; many more produce a visible lattice.
 const ROUNDS: u32 = 8;
 
 /// Guides in the direction of a layer.
@@ -198,16 +201,16 @@ fn guides(
         }
     };
     if layer.swell {
-        // All lines are there; their width tells the tone.
+        // All lines are drawn; their width carries the tone.
         guides.iter_mut().for_each(|guide| guide.rank = 0.0);
     }
     guides
 }
 
-/// The lightest tones have curved strokes four times as far from each other as the darkest.
+/// Doublings of the spacing. The lightest tones have curved strokes four times as far apart as the darkest.
 const DOUBLINGS: u32 = 2;
 
-/// How a layer's strokes are laid.
+/// Stroke parameters of a layer in page units.
 fn hand(layer: &HatchLayer, context: &HatchContext, number: usize) -> Hand {
     let long = |length: Length| length.in_unit(context.unit);
     Hand {
@@ -228,7 +231,7 @@ fn hand(layer: &HatchLayer, context: &HatchContext, number: usize) -> Hand {
     }
 }
 
-/// The colour of an ink on what looks so.
+/// The colour of an ink on a surface with a given look.
 fn colour(ink: Ink, look: Look, context: &HatchContext) -> Colour {
     match ink {
         Ink::Fixed(colour) => colour,
@@ -240,7 +243,7 @@ fn colour(ink: Ink, look: Look, context: &HatchContext) -> Colour {
     }
 }
 
-/// The class and names of a mark on what looks so.
+/// Classes and names of a mark on a surface with a given look.
 fn provenance(look: Look, context: &HatchContext) -> Provenance {
     let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
     Provenance {

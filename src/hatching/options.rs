@@ -1,4 +1,4 @@
-//! [`HatchOptions`]: how dense surfaces are hatched in each bin of light, and with what: the `[hatching]`
+//! [`HatchOptions`]: coverage for each bin of light, and the layers that supply it. This is the `[hatching]`
 //! table of a style sheet.
 
 use serde::{Deserialize, Deserializer};
@@ -8,28 +8,27 @@ use crate::drawing::{Cap, Length};
 use crate::geometry::names::glob::Glob;
 use crate::strokes::Ink;
 
-/// How surfaces are hatched.
+/// Options of hatching.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HatchOptions {
-    /// Whether they are at all. Default: false.
+    /// Whether surfaces are hatched. Default: false.
     pub enabled: bool,
-    /// The part of the paper that ink covers in each bin, darkest first; spread over the bins if there are
-    /// more or fewer. Default: 0.6, 0.35, 0.15, 0.
+    /// Share of the paper that ink covers in each bin, darkest first. If its length differs from the number
+    /// of bins, it is interpolated. Default: 0.6, 0.35, 0.15, 0.
     pub coverage: Vec<f64>,
-    /// Coverage of their own for some materials, in order.
+    /// Separate coverage for some materials. The last match counts.
     pub materials: Vec<(Glob, Vec<f64>)>,
     /// Whether surfaces cast shadows on each other. Default: false.
     pub cast_shadows: bool,
-    /// How many of the darkest bins are painted solid: spot blacks. Default: 0.
+    /// How many of the darkest bins are painted solid, as spot blacks. Default: 0.
     pub blacks: usize,
-    /// Width of the lines in the colour of the paper that part blacks of different surfaces, in parts of the
-    /// width of the ink that they replace; 0 = none. Default: 0.7.
+    /// Width of the paper-coloured lines between blacks of different surfaces, as a share of the ink width
+    /// that they replace. 0: no such lines. Default: 0.7.
     pub parting: f64,
-    /// Patches of light and shade of less area than a square with this side go to a neighbour. Default:
-    /// 4 px.
+    /// Patches of light or shade with less area than a square of this side are merged into a neighbour.
+    /// Default: 4 px.
     pub crumb: Length,
-    /// What the hatching is made of. Where the first layer is as dense as it gets, the next one takes the
-    /// rest, across it.
+    /// Layers of hatching. When the first layer is at its densest, the next one adds the rest on top of it.
     pub layers: Vec<HatchLayer>,
 }
 
@@ -48,24 +47,24 @@ impl Default for HatchOptions {
     }
 }
 
-/// What a layer of hatching is made of.
+/// Kind of marks in a layer of hatching.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
-    /// Strokes side by side.
+    /// Parallel strokes.
     #[default]
     Lines,
     /// Dots of a half-tone screen, sized by tone.
     Dots,
-    /// Dots of one size, as dense as the tone is dark (Secord, Weighted Voronoi stippling, 2002).
+    /// Dots of one size, denser where the tone is darker (Secord, Weighted Voronoi stippling, 2002).
     Stipple,
 }
 
-/// Which way strokes run.
+/// Direction of strokes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Direction {
-    /// At one angle on the page.
+    /// At one fixed angle on the page.
     #[default]
     Page,
     /// Along the principal curvature of the surface.
@@ -74,7 +73,7 @@ pub enum Direction {
     Light,
     /// Along the texture coordinates of the model.
     Uv,
-    /// Along cuts through the model: fixed to it when it turns.
+    /// Along planes that cut the model. The strokes are fixed to the model when it turns.
     Object,
 }
 
@@ -82,69 +81,70 @@ pub enum Direction {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct HatchLayer {
-    /// What it is made of. Default: lines.
+    /// Kind of marks. Default: lines.
     pub kind: Kind,
-    /// Which way strokes run. Default: page.
+    /// Direction of strokes. Default: page.
     pub direction: Direction,
-    /// Angle from the direction, degrees, counter-clockwise; for `page` from the right. Default: 45.
+    /// Angle from the direction, degrees, counter-clockwise. For `page` it is measured from the right.
+    /// Default: 45.
     pub angle: f64,
-    /// By how much the angle differs between parts at most, degrees. Default: 0.
+    /// Greatest random difference of the angle between parts, degrees. Default: 0.
     pub turn_parts: f64,
-    /// Distance of strokes where they are densest; of dots from row to row. Default: 4 px; of dots that of a
-    /// screen of 60 lines an inch.
+    /// Distance of strokes where they are densest, or of dots from row to row. Default: 4 px, and for dots
+    /// that of a screen of 60 lines per inch.
     #[serde(deserialize_with = "some_above_zero")]
     pub spacing: Option<Length>,
-    /// Dots and lines as a screen of this many lines an inch, in place of `spacing`.
+    /// Screen ruling of dots and lines, lines per inch; replaces `spacing`.
     #[serde(deserialize_with = "lines_per_inch")]
     pub lpi: Option<f64>,
     /// Width of a stroke, diameter of a stippled dot. Default: 1 px.
     #[serde(deserialize_with = "above_zero")]
     pub width: Length,
-    /// Strokes as wide as the tone is dark, in place of more or fewer of them: line screens and
-    /// engravings. Default: false.
+    /// Whether stroke width instead of stroke density follows the tone, as in line screens and engravings.
+    /// Default: false.
     pub swell: bool,
-    /// Whether swelling lines, dots and stippling follow the light evenly, in place of bin by bin. Default:
-    /// true.
+    /// Whether swelling lines, dots and stippling follow the light continuously instead of bin by bin.
+    /// Default: true.
     pub graded: bool,
-    /// Colour; also a darker shade of the material. Default: `#1a1a1a`.
+    /// Colour, or a darker shade of the material. Default: `#1a1a1a`.
     #[serde(alias = "color")]
     pub colour: Ink,
-    /// 0 to 1. Default: 1.
+    /// Opacity, 0 to 1. Default: 1.
     #[serde(deserialize_with = "share")]
     pub opacity: f64,
-    /// Ends of strokes that do not taper. Default: butt.
+    /// Caps of strokes that do not taper. Default: butt.
     pub cap: Cap,
-    /// Length of a stroke; 0: without break. Default: 0.
+    /// Length of a stroke; 0 means unbroken. Default: 0.
     pub length: Length,
-    /// Between the end of a stroke and the next one on its line, on average. Default: 0.
+    /// Mean gap between consecutive strokes of one line. Default: 0.
     pub gap: Length,
-    /// How much strokes differ in length and place, 0 to 1. Default: 0.
+    /// Random variation of stroke length and position, 0 to 1. Default: 0.
     #[serde(deserialize_with = "share")]
     pub uneven: f64,
-    /// How far strokes are from their line, as a part of the spacing. Default: 0.
+    /// Greatest offset of strokes from their line, as a share of the spacing. Default: 0.
     #[serde(deserialize_with = "share")]
     pub stray: f64,
-    /// By how much strokes are turned at most, degrees. Default: 0.
+    /// Greatest random turn of strokes, degrees. Default: 0.
     pub turn: f64,
-    /// How far the middle of a stroke bends away from its ends at most. Default: 0.
+    /// Greatest bow of the middle of a stroke. Default: 0.
     pub bow: Length,
-    /// How far lines tremble to the side. Default: 0.
+    /// Amplitude of sideways tremor. Default: 0.
     pub tremor: Length,
-    /// How much strokes differ in width and opacity, 0 to 1. Default: 0.
+    /// Variation of stroke width and opacity, 0 to 1. Default: 0.
     #[serde(deserialize_with = "share")]
     pub pressure: f64,
-    /// How much of its width a stroke loses at its ends, 0 to 1. Default: 0.
+    /// Share of the width that a stroke loses at its ends, 0 to 1. Default: 0.
     #[serde(deserialize_with = "share")]
     pub taper: f64,
-    /// How far strokes run over the border of what they shade. Default: 0.
+    /// How far strokes run over the border of the shaded area. Default: 0.
     pub overrun: Length,
-    /// How far they fall short of it. Default: 0.
+    /// How far strokes stop short of the border. Default: 0.
     pub short: Length,
-    /// How much their ends there differ. Default: 0.
+    /// Random variation of the ends at the border. Default: 0.
     pub ragged: Length,
-    /// Shorter pieces are left out. Default: 1 px.
+    /// Shorter pieces are dropped. Default: 1 px.
     pub least: Length,
-    /// How much of a stroke the paper's tooth leaves white, 0 to 1. Default: 0.
+    /// Share of a stroke that paper tooth leaves white, 0 to 1. Default: 0.
     #[serde(deserialize_with = "share")]
     pub grain: f64,
 }
@@ -183,7 +183,7 @@ impl Default for HatchLayer {
 }
 
 impl HatchLayer {
-    /// Whether the page must be asked at the points of a lattice for this layer.
+    /// Whether this layer needs light or directions sampled at a lattice of page points.
     #[must_use]
     pub fn samples(&self) -> bool {
         self.kind != Kind::Lines
@@ -191,7 +191,7 @@ impl HatchLayer {
             || matches!(self.direction, Direction::Surface | Direction::Light)
     }
 
-    /// Distance from line to line: the spacing, or that of the screen.
+    /// Distance from line to line: the spacing, or that of the screen ruling.
     #[must_use]
     pub fn pitch(&self) -> Length {
         let screen = |lpi: f64| Length::mm(25.4 / lpi);
@@ -230,8 +230,8 @@ fn lines_per_inch<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f
     )))
 }
 
-/// Lines an inch of the screens that comics are printed with.
+/// Default screen ruling, lines per inch, as used in printed comics.
 const USUAL_SCREEN: f64 = 60.0;
 
-/// Finer hatching than this cannot be seen, and would take for ever.
+/// Least length of hatching, in the unit of the length. Finer hatching would be invisible and very slow.
 const LEAST_LENGTH: f64 = 0.05;

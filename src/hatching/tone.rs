@@ -1,6 +1,6 @@
-//! [`Tone`]: how much of the paper ink covers, by light, and how the layers of hatching share it.
+//! [`Tone`]: ink coverage by light, and its division among the layers of hatching.
 
-/// The bins of light of one material, and how much of the paper ink covers in each.
+/// Light bins of one material, and the coverage of each.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tone {
     /// Rising edges between the bins.
@@ -10,7 +10,8 @@ pub struct Tone {
 }
 
 impl Tone {
-    /// The tone of bins with a table of coverage, which is spread over them if it is longer or shorter.
+    /// The tone of bins with a table of coverage, which is interpolated if its length differs from the number
+    /// of bins.
     #[must_use]
     pub fn new(levels: &[f64], table: &[f64]) -> Self {
         let bins = levels.len() + 1;
@@ -33,8 +34,10 @@ impl Tone {
         self.coverage.get(usize::from(bin)).or(self.coverage.last()).copied().unwrap_or_default()
     }
 
-    /// Coverage that changes evenly with the light: that of the darkest bin in the shadow, and at the edge
-    /// of two bins what lies between theirs; none where a blank bin begins.
+    /// Coverage as a continuous function of light.
+    ///
+    /// In full shadow the darkest bin applies. At the edge of two bins the result is their mean, or 0 if one
+    /// of them is blank.
     #[must_use]
     pub fn of_light(&self, light: f64) -> f64 {
         let bin = self.levels.partition_point(|level| *level <= light);
@@ -54,9 +57,10 @@ impl Tone {
     }
 }
 
-/// How much of the paper each of some crossing layers covers, so that all together cover `coverage`: one is
-/// filled after the other. `fullest` says what each covers at most. Where layers cross, ink falls on
-/// ink: of the paper that the layers before have left, the next one covers its part.
+/// Coverage of each of several crossing layers, which together cover `coverage`.
+///
+/// Layers are filled in order; `fullest` holds the greatest coverage of each. Where layers cross, ink
+/// overlaps: a layer covers its share of the paper that the layers before it left blank.
 #[must_use]
 pub fn shares(coverage: f64, fullest: &[f64]) -> Vec<f64> {
     let mut left = coverage.clamp(0.0, 1.0);
@@ -78,7 +82,7 @@ pub fn shares(coverage: f64, fullest: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// So little is not worth a layer: it would be a stroke here and there.
+/// Least coverage of a layer. A smaller remainder would be a few isolated strokes.
 const LEAST: f64 = 0.012;
 
 #[cfg(test)]

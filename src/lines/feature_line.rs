@@ -1,4 +1,4 @@
-//! [`FeatureSegment`]: one straight piece of a feature line, on one edge or between two faces.
+//! [`FeatureSegment`]: one straight piece of a feature line, on an edge or inside a face.
 
 use std::ops::Range;
 
@@ -11,57 +11,55 @@ use crate::surface::Origin;
 /// In [`FeatureSegment::hosts`]: no face.
 pub const NO_FACE: u32 = u32::MAX;
 
-/// What a feature segment does in the drawing.
+/// Role of a feature segment in the drawing.
 ///
-/// The contour of a rounded surface is two lines: the edges along which its polyhedron turns from the
-/// eye, of which is known exactly what is seen, and the smooth curve beside them that is inked.
+/// The contour of a rounded surface consists of two lines. The mesh contour is the edges where the polyhedron
+/// turns away; its visibility is exact. The smooth contour next to it is the one that is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Role {
-    /// It is drawn where it is seen itself.
+    /// Drawn where it is visible.
     #[default]
     Line,
-    /// An edge along which the polyhedron of a rounded surface turns from the eye: it says what is
-    /// seen of the curve near it, and is drawn itself only where there is none.
+    /// Edge of the mesh contour of a rounded surface. It decides on the visibility of the smooth contour
+    /// nearby, and is drawn itself only where there is none.
     Witness {
-        /// Whether the surface bends away from its outside here.
+        /// Whether the surface is convex here.
         convex: bool,
-        /// Whether the smooth surface does not turn from the eye here, but only a few of its faces do.
+        /// Whether only a few faces turn away here, and the smooth surface does not.
         fold: bool,
     },
-    /// A piece of a smooth contour: it is drawn where witnesses are seen.
+    /// Piece of a smooth contour, drawn where the mesh contour is visible.
     Curve,
 }
 
-/// A straight piece of a feature line.
+/// Straight piece of a feature line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FeatureSegment {
-    /// Its ends: vertices of the mesh, or beyond those, points of [`FeatureLines::points`].
+    /// Ends: vertices of the mesh, or, for higher numbers, points of [`FeatureLines::points`].
     pub ends: [u32; 2],
-    /// Two of the faces that meet in the line, which therefore never hide it ([`NO_FACE`] = none).
-    /// Other faces that have both ends as corners never hide it either.
+    /// Two of the faces that meet in the line and so never hide it ([`NO_FACE`] = none). Other faces with
+    /// both ends as corners never hide it either.
     pub hosts: [u32; 2],
-    /// What line it is.
+    /// Kind of line.
     pub kind: LineKind,
-    /// Whether both surfaces that meet in it turn the same side to the eye.
+    /// Whether both surfaces that meet in it turn the same side to the camera.
     pub both_seen: bool,
-    /// Whether the surface is rounded here, so that the mesh's corners along the line are
-    /// artefacts.
+    /// Whether the surface is rounded here, so that corners along the line are artefacts of the mesh.
     pub smooth: bool,
-    /// How the surface it lies on came about.
+    /// Origin of the surface.
     pub origin: Origin,
-    /// What it does in the drawing.
+    /// Role in the drawing.
     pub role: Role,
-    /// The angle by which the surface turns across the line, degrees; 180 where there is none, and 0
-    /// where it does not turn.
+    /// Turn of the surface across the line, degrees; 180 if not applicable, 0 where it does not turn.
     pub strength: f32,
-    /// The part of the nearer surface.
+    /// Part of the nearer surface.
     pub part: PartId,
-    /// The material of the nearer surface.
+    /// Material of the nearer surface.
     pub material: MaterialId,
 }
 
 impl FeatureSegment {
-    /// A line of the model that belongs to no face.
+    /// Segment of a wire, which belongs to no face.
     #[must_use]
     pub fn of_wire(wire: &Wire) -> Self {
         Self {
@@ -79,7 +77,7 @@ impl FeatureSegment {
     }
 }
 
-/// A piece of a line between two tones or paints.
+/// Segment of a line between two tones or paints.
 pub(crate) fn segment(
     mesh: &Mesh,
     face: u32,
@@ -101,36 +99,35 @@ pub(crate) fn segment(
     }
 }
 
-/// A contour of a rounded surface: a run of feature segments from head to tail, with the facing side
-/// of the surface on their left, seen from outside.
+/// Smooth contour of a rounded surface: a run of feature segments from head to tail. The facing side of the
+/// surface is on their left, seen from outside.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContourCurve {
-    /// Its pieces in [`FeatureLines::segments`].
+    /// Its segments in [`FeatureLines::segments`].
     pub segments: Range<u32>,
-    /// Whether it ends where it begins.
+    /// Whether it is closed.
     pub closed: bool,
-    /// For each piece, positive where the facing side of the surface is the nearer one and negative
-    /// where the averted side is: there the image of the curve runs backward, between one cusp and
-    /// the next. The magnitude, 0 to 1, is how much of the piece says so.
+    /// Sign per segment: positive where the facing side of the surface is the nearer one, negative where the
+    /// averted side is. In the second case the image of the curve runs backward, between two cusps. The
+    /// magnitude, 0 to 1, is the confidence.
     pub advance: Vec<f32>,
 }
 
 /// All feature lines of a view.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct FeatureLines {
-    /// The pieces; those that share an end id are joined there.
+    /// Segments. Those that share an end id are joined there.
     pub segments: Vec<FeatureSegment>,
-    /// Ends that are no vertices of the mesh, in local space.
+    /// Ends that are not mesh vertices, in local space.
     pub points: Vec<DVec3>,
-    /// How strong the lines are at the first of these points, 0 to 1; at all other ends they are as
-    /// strong as can be.
+    /// Strength at the first of these points, 0 to 1; all other ends have strength 1.
     pub strengths: Vec<f32>,
-    /// The contours of rounded surfaces among the pieces, in ascending order.
+    /// Smooth contours among the segments, ascending.
     pub curves: Vec<ContourCurve>,
 }
 
 impl FeatureLines {
-    /// The local position of an end.
+    /// Local position of an end.
     #[inline]
     #[must_use]
     pub fn position(&self, mesh: &Mesh, end: u32) -> DVec3 {
@@ -139,7 +136,7 @@ impl FeatureLines {
         if end < vertices { mesh.positions[end] } else { self.points[end - vertices] }
     }
 
-    /// Adds contours, to lines that have no points of their own yet.
+    /// Adds contours. The lines must not have points or curves yet.
     pub(crate) fn append_contours(&mut self, contours: Self) {
         debug_assert!(self.points.is_empty() && self.curves.is_empty());
         let first = self.segments.len() as u32;
@@ -151,7 +148,7 @@ impl FeatureLines {
         }
     }
 
-    /// How strong the lines are at an end, 0 to 1.
+    /// Strength at an end, 0 to 1.
     #[inline]
     #[must_use]
     pub fn strength(&self, mesh: &Mesh, end: u32) -> f32 {

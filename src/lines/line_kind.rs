@@ -1,38 +1,37 @@
-//! [`LineKind`]: the classes of feature lines, in order of strength.
+//! [`LineKind`]: the kinds of feature lines, from strong to weak.
 
 use serde::{Deserialize, Serialize};
 
-/// What a feature line is. Earlier kinds are stronger: where two lines coincide, the stronger
-/// one is drawn.
+/// Kind of a feature line. Earlier kinds are stronger: where two lines coincide, the stronger one is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum LineKind {
-    /// The surface turns from facing to averted.
+    /// Where the surface turns from facing to averted.
     Contour,
     /// An edge with one face.
     Border,
-    /// An edge whose faces turn by more than an angle.
+    /// An edge where the surface turns by more than an angle.
     Crease,
     /// An edge between two materials.
     Material,
-    /// Two surfaces pass through each other.
+    /// Where two surfaces pass through each other.
     Intersection,
-    /// A contour that would appear from a nearby eye.
+    /// A contour that would appear from a nearby viewpoint.
     Suggestive,
     /// Where the larger curvature has a maximum along its direction.
     Ridge,
     /// Where the smaller curvature has a minimum along its direction.
     Valley,
-    /// Painted colours change.
+    /// Where painted colours change.
     Artist,
-    /// A tone border.
+    /// Where the tone changes.
     Isophote,
     /// Found in the image, not on the surface.
     Image,
     /// A line of the model that belongs to no face.
     Wire,
-    /// Trails of moving vertices.
+    /// Trail of a moving vertex.
     Motion,
 }
 
@@ -54,7 +53,7 @@ impl LineKind {
         Self::Motion,
     ];
 
-    /// Whether lines of this kind lie on a surface that does not turn away there, and may be weak.
+    /// Whether lines of this kind lie inside the surface's contours and may be weak.
     #[must_use]
     pub const fn is_inside(self) -> bool {
         matches!(self, Self::Suggestive | Self::Ridge | Self::Valley)

@@ -1,4 +1,4 @@
-//! Which feature lines are sought and drawn: the `[lines]` table of a style sheet.
+//! Which feature lines are found and drawn: the `[lines]` table of a style sheet.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -6,7 +6,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 use super::{ImageOptions, InsideOptions, LineKind, Source};
 use crate::scene::ArtistTextures;
 
-/// What becomes of lines behind surfaces.
+/// Treatment of hidden lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum HiddenLines {
@@ -19,62 +19,64 @@ pub enum HiddenLines {
     Solid,
 }
 
-/// Where the contour of a surface lies.
+/// Type of contours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Contours {
-    /// Smooth on surfaces that are meant to be round, along edges of the mesh on all others: each
-    /// part and material by itself, from its dihedral angles and the file's normals.
+    /// Smooth on rounded surfaces, along mesh edges on all others. Each part and material is judged on its
+    /// own, by its dihedral angles and the file's normals.
     #[default]
     Auto,
-    /// Smooth everywhere: where the surface of the vertex normals turns away from the eye.
+    /// Smooth everywhere: where the surface of the vertex normals turns away from the camera.
     Smooth,
-    /// Along edges of the mesh everywhere: the exact contour of the polyhedron.
+    /// Along mesh edges everywhere: the exact contour of the polyhedron.
     Mesh,
 }
 
-/// Whose normals a surface has.
+/// Source of a surface's normals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Normals {
-    /// The file's, but for pieces where these leave the surface, and figures that they shade as if
-    /// every face were a plane: these get the normals of their shape.
+    /// The file's normals, with two exceptions that get the normals of their shape: components where the
+    /// file's normals contradict the surface, and figures that it shades face by face.
     #[default]
     Auto,
-    /// The file's wherever it has any.
+    /// The file's normals, where it has any.
     File,
 }
 
-/// Which feature lines are sought and drawn.
+/// Which feature lines are found and drawn.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LineOptions {
     /// Draw lines at all. Default: true.
     pub enabled: bool,
-    /// Where lines are sought: those of `kinds` on the surface, those of kind `image` in maps of normals and depth. Default: object.
+    /// Where lines are found: those of `kinds` on the surface, those of kind `image` in maps of normals and
+    /// depth. Default: object.
     pub source: Source,
     /// Kinds that are drawn. Default: contour, border, crease, material, intersection, wire.
     pub kinds: Vec<LineKind>,
-    /// Where contours lie. Default: auto.
+    /// Type of contours. Default: auto.
     pub contours: Contours,
-    /// Whose normals light falls by, and round surfaces are made from. Default: auto.
+    /// Source of the normals for light and rounded surfaces. Default: auto.
     pub normals: Normals,
-    /// An edge whose faces turn by more than this many degrees is a crease. Default: 40.
+    /// Smallest turn of a crease, degrees. Default: 40.
     #[serde(deserialize_with = "angle")]
     pub crease_deg: f64,
-    /// Painted colours that are nearer to each other than this have no artist line between them: their distance in Oklab, in
-    /// which black and white are 1 apart. Default: 0.05.
+    /// Smallest distance of two painted colours with an artist line between them, in Oklab (black and white
+    /// are 1 apart). Default: 0.05.
     #[serde(deserialize_with = "tolerance")]
     pub artist_tolerance: f64,
-    /// Pictures that lie on the surfaces by their texture coordinates, and are not painted: on their materials `artist` lines run
-    /// where these change their colour, not where the surface does. Default: none.
+    /// Pictures by texture coordinates that are not painted themselves. On their materials `artist` lines run
+    /// where these pictures change colour, and not where the surface does. Default: none.
     pub artist_texture: ArtistTextures,
-    /// How much artist lines in pictures are smoothed, px: what is narrower is lost. Default: 0.7.
+    /// Smoothing of artist lines in pictures, px. Narrower details are lost. Default: 0.7.
     #[serde(deserialize_with = "smoothing")]
     pub artist_smooth: f64,
-    /// What becomes of lines behind surfaces. Default: none.
+    /// Treatment of hidden lines. Default: none.
     pub hidden: HiddenLines,
-    /// Draw the joints of parts of one material: lines where their surfaces continue in one plane. Default: true.
+    /// Draw the joints of parts of one material: lines where their surfaces continue in one plane. Default:
+    /// true.
     pub joints: bool,
     /// How suggestive contours, ridges and valleys are found.
     pub inside: InsideOptions,
@@ -109,7 +111,7 @@ impl Default for LineOptions {
     }
 }
 
-/// A distance of colours.
+/// Reads a colour distance.
 fn tolerance<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let distance = f64::deserialize(deserializer)?;
     if (0.0..=2.0).contains(&distance) {
@@ -119,7 +121,7 @@ fn tolerance<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error
     }
 }
 
-/// A width in px.
+/// Reads a length in px.
 fn smoothing<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let px = f64::deserialize(deserializer)?;
     if (0.0..=100.0).contains(&px) {
@@ -129,7 +131,7 @@ fn smoothing<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error
     }
 }
 
-/// An angle of 0 to 180 degrees.
+/// Reads an angle from 0 to 180 degrees.
 fn angle<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let degrees = f64::deserialize(deserializer)?;
     if (0.0..=180.0).contains(&degrees) {

@@ -44,7 +44,7 @@ use crate::mesh::intersect::intersection_curves::IntersectionCurves;
 use crate::surface::{Origin, Patches};
 use crate::view::View;
 
-/// n·v as contours are traced from it, one per smooth vertex: averaged where it is near zero.
+/// n·v as used for tracing contours, one per smooth vertex; smoothed where it is near zero.
 #[must_use]
 pub fn facing(surface: &Surface, view: &View) -> Vec<f64> {
     let Surface { mesh, smooth, .. } = surface;
@@ -53,22 +53,22 @@ pub fn facing(surface: &Surface, view: &View) -> Vec<f64> {
     facing
 }
 
-/// What was made once for all views of a surface.
+/// Results that are shared by all views of a surface.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Known<'a> {
-    /// A search for lines along edges; one that does not fit the mesh is left alone.
+    /// Search for lines along edges. Ignored if it does not fit the mesh.
     pub search: Option<&'a EdgeSearch>,
-    /// All curves along which the surface passes through itself: [`intersections::intersection_lines::all_curves`].
+    /// All curves where the surface passes through itself: [`intersections::intersection_lines::all_curves`].
     pub intersections: Option<&'a IntersectionCurves>,
 }
 
-/// All feature lines of a view of a surface that the options ask for.
+/// All feature lines of a view, of the kinds in the options.
 #[must_use]
 pub fn extract(surface: &Surface, view: &View, options: &LineOptions) -> FeatureLines {
     extract_with(surface, Known::default(), view, options)
 }
 
-/// All feature lines of a view, found with the help of what was made once for all views of the surface.
+/// All feature lines of a view, using results that are shared by all views of the surface.
 #[must_use]
 pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &LineOptions) -> FeatureLines {
     let mut lines = FeatureLines::default();
@@ -100,7 +100,7 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
     };
     let sought = options.kinds.contains(&LineKind::Intersection) && known.intersections.is_none();
     let curves = || sought.then(|| intersections::intersection_lines::find(mesh, view, options.hidden));
-    // None of them needs another.
+    // These three are independent of each other.
     let ((segments, contours), curves) =
         crate::parallel::join(|| crate::parallel::join(along_edges, contours), curves);
     lines.segments = segments;
@@ -122,7 +122,7 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
         intersections::intersection_lines::add(curves, mesh, view, &mut lines);
     }
     if zero_sets::interior::wanted(options) {
-        // Contours along edges of the mesh need no normals, lines inside always do.
+        // Interior lines always need normals, contours along mesh edges do not.
         let own = smooth
             .is_empty()
             .then(|| prepared_surface::normals(mesh, &Patches::new(mesh, options.crease_deg, false), &[]));
@@ -138,7 +138,7 @@ pub fn extract_with(surface: &Surface, known: Known, view: &View, options: &Line
     lines
 }
 
-/// Tells how the surfaces came about that lines lie on.
+/// Sets the origin of each segment from its faces.
 fn tell_origins(surface: &Surface, lines: &mut FeatureLines) {
     if surface.origins.iter().all(|origin| *origin == Origin::Constructed) {
         return;

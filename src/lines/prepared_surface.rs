@@ -1,4 +1,4 @@
-//! [`Surface`]: a mesh with what its options make of it: which edges are hard, which faces round.
+//! [`Surface`]: a mesh with its hard edges, rounded patches and normals, as the line options define them.
 
 use std::borrow::Cow;
 
@@ -15,42 +15,42 @@ use crate::surface::refine::mesh_splice::{Cuts, Refined, splice};
 use crate::surface::{HardEdges, Origin, Patches, SmoothNormals};
 use crate::view::Frame;
 
-/// Normals of one surface on both sides of an edge differ by no more than this cosine (20 degrees)
-/// where the file has it smooth.
+/// Cosine of the largest angle (20 degrees) between the file's normals at an edge that the file shades
+/// smoothly.
 const SAME_NORMAL_COSINE: f32 = 0.94;
 
-/// A mesh and the surface it stands for. The same for all views, but for [`Surface::finer_for`].
+/// A mesh and the surface that it approximates. The same for all views, except after [`Surface::finer_for`].
 #[derive(Debug, Clone, Default)]
 pub struct Surface {
     /// The faces.
     pub mesh: Mesh,
-    /// Where the surface is creased.
+    /// Creased edges.
     pub hard: HardEdges,
-    /// Sharp edges that are no creases and where the surface is not round either.
+    /// Sharp edges that are neither creases nor inside a rounded surface.
     pub wrinkles: EdgeSet,
-    /// The middle edges of narrow roundings: they are drawn as creases, and the surface goes on over them.
+    /// Middle edges of narrow roundings: drawn as creases, but smooth for normals.
     pub roundings: EdgeSet,
-    /// The normals of its rounded parts, whose contours are smooth; none with
-    /// [`Contours::Mesh`].
+    /// Normals of rounded parts, which have smooth contours; none with [`Contours::Mesh`].
     pub smooth: SmoothNormals,
-    /// How the surface at each face came about.
+    /// Origin of the surface, one per face.
     pub origins: Vec<Origin>,
-    /// Which connected piece each face is of; empty if there is but one, or nobody asked.
+    /// Connected component of each face; empty if there is only one, or if not computed.
     pub pieces: Vec<u32>,
-    /// Whether faces were cut that the model does not have.
+    /// Whether faces were subdivided.
     pub refined: bool,
-    /// A camera for which nothing needs to be cut, if one is known.
+    /// A camera for which no face needs subdivision, if known.
     pub fine_for: Option<Camera>,
 }
 
 impl Surface {
-    /// The surface of a mesh, as the options have it.
+    /// The surface of a mesh for the given options.
     #[must_use]
     pub fn new(mesh: Mesh, options: &LineOptions) -> Self {
         Self::with_patches(mesh, options).0
     }
 
-    /// The surface of a mesh, and its patches where any are round, so that [`Surface::posed`] can follow when it moves.
+    /// The surface of a mesh, and its patches if any are round. [`Surface::posed`] needs them for moving
+    /// meshes.
     #[must_use]
     pub fn with_patches(mut mesh: Mesh, options: &LineOptions) -> (Self, Option<Patches>) {
         if !options.enabled {
@@ -79,10 +79,11 @@ impl Surface {
         (surface, Some(patches))
     }
 
-    /// This surface with its mesh moved: creased and round where it was, which is how it is meant and not how it bends at a moment, and
-    /// creased where the pose folds it, but for figures, whose skin is round however it bends. `patches` are those that it was made with;
-    /// `before` has the mesh as it was at earlier moments, the latest first, and `crease_deg` is that of its options
-    /// ([`bent`]).
+    /// This surface with a moved mesh.
+    ///
+    /// It keeps its creases and rounded parts, and gets new creases where the pose folds it. Figures get
+    /// none, since their skin stays round. `patches` and `crease_deg` are those it was made with. `before`
+    /// yields the mesh at earlier times, latest first (see [`bent`]).
     #[must_use]
     pub fn posed(
         &self,
@@ -114,8 +115,7 @@ impl Surface {
         }
     }
 
-    /// The surface with more triangles where a coarse rounded part would show its corners to the
-    /// camera.
+    /// The surface, subdivided where a coarse rounded part would show corners to the camera.
     #[must_use]
     pub fn finer_for(mut self, camera: &Camera) -> Self {
         let Some(cuts) = self.cuts_for(camera, None) else {
@@ -127,8 +127,8 @@ impl Surface {
         self.of_finer(splice(Cow::Owned(mesh), Cow::Owned(smooth), cuts), &sides).surface
     }
 
-    /// The surface with more triangles where a coarse rounded part would show its corners to the camera; none
-    /// if no part would, or if it has them. With the [`Cones`] of this surface it is the same and made sooner.
+    /// The surface, subdivided where a coarse rounded part would show corners to the camera; none if nothing
+    /// needs it, or if it is subdivided already. The [`Cones`] of this surface only save time.
     #[must_use]
     pub fn refined_for(&self, camera: &Camera, cones: Option<&Cones>) -> Option<Finer> {
         let cuts = self.cuts_for(camera, cones)?;
@@ -143,7 +143,7 @@ impl Surface {
         light::cuts_near_contours(&self.mesh, &self.smooth, cones, &Frame::new(camera, self.mesh.origin))
     }
 
-    /// The surface of a mesh that is finer than this one's, with the [`Self::sides_of_roundings`].
+    /// The surface of a subdivided mesh. `sides` are those of [`Self::sides_of_roundings`].
     fn of_finer(&self, finer: Refined, sides: &[[u32; 2]]) -> Finer {
         let Refined { mesh, smooth, hosts, kept, edges } = finer;
         let surface = Self {
@@ -163,7 +163,7 @@ impl Surface {
         Finer { surface, hosts, kept }
     }
 
-    /// The faces on both sides of each middle edge of a narrow rounding, in order.
+    /// Face pairs at the middle edges of narrow roundings, sorted.
     fn sides_of_roundings(&self) -> Vec<[u32; 2]> {
         let sides = |edge| match self.mesh.edges.faces(edge) {
             EdgeFaces::Two { faces, .. } => Some(ascending(faces)),
@@ -175,13 +175,13 @@ impl Surface {
     }
 }
 
-/// Two numbers in order.
+/// Two numbers in ascending order.
 fn ascending([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
 }
 
-/// The edges of a finer mesh at which pieces of faces meet that were on both sides of an edge: what that edge was cut into. `sides` are
-/// ascending.
+/// Edges of a subdivided mesh that are parts of an original edge, given the face pairs of such edges in
+/// ascending order.
 fn pieces_between(mesh: &Mesh, (hosts, kept): (&[u32], usize), sides: &[[u32; 2]]) -> Vec<usize> {
     if sides.is_empty() {
         return Vec::new();
@@ -195,25 +195,25 @@ fn pieces_between(mesh: &Mesh, (hosts, kept): (&[u32], usize), sides: &[[u32; 2]
     EdgeSet::collect(mesh.edges.len(), is_piece).iter().collect()
 }
 
-/// A surface some of whose faces were cut for a camera.
+/// A surface that was subdivided for a camera.
 #[derive(Debug, Clone)]
 pub struct Finer {
-    /// The surface with the pieces.
+    /// The subdivided surface.
     pub surface: Surface,
-    /// The face of the surface without that each of its faces is, or is part of.
+    /// Original face of each of its faces.
     pub hosts: Vec<u32>,
-    /// How many of its faces are whole: the first ones, whose hosts ascend.
+    /// Number of unchanged faces. They come first, with ascending original faces.
     pub kept: usize,
 }
 
-/// The normals of the patches that are meant to be round, parted at folds as well: edges, ascending.
+/// Normals of the rounded patches. Folds (edges, ascending) separate patches too.
 pub(crate) fn normals(mesh: &Mesh, patches: &Patches, folds: &[usize]) -> SmoothNormals {
     let parted = |edge: usize| parts(mesh, edge, patches) || folds.binary_search(&edge).is_ok();
     SmoothNormals::new(mesh, |face| patches.rounded[face as usize], parted)
 }
 
-/// Whether an edge parts two rounded surfaces: by its angle and what is around it, or where the file's
-/// normals have it creased. Figures are shaded round over edges that by themselves would be creases.
+/// Whether an edge separates two rounded surfaces, by its angle and surroundings or by the file's normals.
+/// Figures are shaded smoothly over edges that would be creases elsewhere.
 fn parts(mesh: &Mesh, edge: usize, patches: &Patches) -> bool {
     if patches.rims.contains(edge) || patches.wrinkles.contains(edge) {
         return true;
@@ -225,7 +225,7 @@ fn parts(mesh: &Mesh, edge: usize, patches: &Patches) -> bool {
     }
 }
 
-/// Whether the file creases the surface at an edge; `None` where it has no normals.
+/// Whether the file's normals are creased at an edge; `None` where it has none.
 fn file_normals_differ(mesh: &Mesh, edge: usize) -> Option<bool> {
     let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return None };
     Some(file_cosines(mesh, edge, faces)?.iter().any(|cosine| *cosine < SAME_NORMAL_COSINE))
@@ -242,7 +242,7 @@ mod tests {
     use crate::mesh::Soup;
     use crate::scene::Projection;
 
-    /// A ball of 16 meridians and so many rings between its poles.
+    /// A sphere with 16 meridians and the given number of rings between the poles.
     fn ball(rings: u32) -> Mesh {
         const AROUND: u32 = 16;
         let mut soup = Soup { positions: vec![DVec3::NEG_Z, DVec3::Z], ..Soup::default() };

@@ -1,6 +1,7 @@
-//! Lines that run through faces: pieces of them become segments that share their ends.
+//! Shared points: pieces of lines inside faces become segments that share their end points.
 //!
-//! Two faces compute the same point of their edge from the same numbers, so its bits name it.
+//! Two faces compute a point on their common edge from the same numbers, so the bits of its coordinates
+//! identify it.
 
 use std::hash::BuildHasher;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -12,10 +13,10 @@ use rustc_hash::{FxBuildHasher, FxHashMap};
 use super::{FeatureLines, FeatureSegment, LineKind};
 use crate::mesh::Mesh;
 
-/// Points are looked up in so many tables, side by side: which, their names say. A power of two.
+/// Number of hash tables that are filled in parallel; a power of two.
 const TABLES: u64 = 16;
 
-/// What names a point: its bits.
+/// Key of a point: the bits of its coordinates.
 type Name = [u64; 3];
 
 fn name(p: DVec3) -> Name {
@@ -23,8 +24,8 @@ fn name(p: DVec3) -> Name {
 }
 
 impl FeatureLines {
-    /// Adds pieces of lines that run through faces, in runs of neighbours, and makes segments of them. Points are numbered in the order
-    /// in which they first come.
+    /// Adds pieces of lines inside faces, given in runs of neighbours, as segments. Points are numbered by
+    /// first occurrence.
     pub(crate) fn append_in_faces<P: Copy + Send + Sync>(
         &mut self,
         mesh: &Mesh,
@@ -32,7 +33,8 @@ impl FeatureLines {
         piece: impl Fn(P) -> (u32, LineKind, [DVec3; 2]) + Sync,
         segment: impl Fn(u32, LineKind, [u32; 2]) -> FeatureSegment + Sync,
     ) {
-        // Most points are of one run alone, whose table is small: only what it knows no more of is looked up among all.
+        // Most points occur in one run only, and a run's table is small. Only points that are new in their
+        // run are looked up globally.
         let own: Vec<(Vec<DVec3>, Vec<[u32; 2]>)> = runs
             .par_iter()
             .with_max_len(1)
@@ -63,7 +65,8 @@ impl FeatureLines {
     }
 }
 
-/// The numbers of all points of some runs, `first` that of the first new one; each is added to `points` once, where it first comes.
+/// Global ids of the points of all runs, starting with `first`. Each distinct point is appended to `points`
+/// once.
 fn numbers(runs: &[Vec<DVec3>], first: u32, points: &mut Vec<DVec3>) -> Vec<Vec<u32>> {
     let table = |p: &DVec3| (FxBuildHasher.hash_one(name(*p)) >> 32) % TABLES;
     let tables: Vec<Vec<u8>> =
@@ -74,7 +77,7 @@ fn numbers(runs: &[Vec<DVec3>], first: u32, points: &mut Vec<DVec3>) -> Vec<Vec<
         total - run.len()
     });
     let starts: Vec<usize> = starts.collect();
-    // Which of all points with the same name comes first.
+    // For each point the first one with the same key.
     let earliest: Vec<AtomicU32> = (0..total as u32).map(AtomicU32::new).collect();
     (0..TABLES as u8).into_par_iter().with_max_len(1).for_each(|own| {
         let mut known: FxHashMap<Name, u32> = FxHashMap::default();
@@ -104,17 +107,17 @@ fn numbers(runs: &[Vec<DVec3>], first: u32, points: &mut Vec<DVec3>) -> Vec<Vec<
     runs.iter().zip(starts).map(|(run, start)| numbers[start..start + run.len()].to_vec()).collect()
 }
 
-/// The numbers of points that lines share, by their names.
+/// Ids of shared points, by key.
 #[derive(Default)]
 pub(crate) struct PointIds(FxHashMap<Name, u32>);
 
 impl PointIds {
-    /// Those of some points, each of which has its own name and the number after that of the one before, from `first` on.
+    /// Ids of distinct points, numbered from `first` on.
     pub fn new(points: &[DVec3], first: u32) -> Self {
         Self(points.iter().map(|p| name(*p)).zip(first..).collect())
     }
 
-    /// The number of a point, which is added to `points` if it is new; the first of these has the number `first`.
+    /// Id of a point, which is appended to `points` if new. `points[0]` has the id `first`.
     pub fn of(&mut self, points: &mut Vec<DVec3>, first: u32, p: DVec3) -> u32 {
         *self.0.entry(name(p)).or_insert_with(|| {
             points.push(p);
@@ -137,13 +140,13 @@ mod tests {
             .collect();
         let (mut points, mut plain) = (vec![DVec3::ZERO; 3], vec![DVec3::ZERO; 3]);
         let found = numbers(&runs, 100, &mut points);
-        // One after the other, in one table.
+        // Reference: one point after another, in one table.
         let mut ids = PointIds::default();
         let of_run =
             |run: &Vec<DVec3>| -> Vec<u32> { run.iter().map(|p| ids.of(&mut plain, 97, *p)).collect() };
         assert_eq!(found, runs.iter().map(of_run).collect::<Vec<_>>());
         assert!(points == plain && points.len() > 500 && points.len() < 3 + found.concat().len());
-        // They go on where they are told to.
+        // Numbering continues after the given points.
         let mut ids = PointIds::new(&points[3..], 100);
         assert_eq!(ids.of(&mut points, 97, runs[1][0]), found[1][0]);
         assert_eq!(ids.of(&mut points, 97, DVec3::ONE * 9.0), 97 + plain.len() as u32);

@@ -1,11 +1,11 @@
-//! The precision of a file's coordinates, measured on the coordinates themselves.
+//! Measures the precision of a file's coordinates from the coordinates themselves.
 //!
-//! A text holds decimals, often six, and many programs compute in single precision before they write. So positions lie on a
-//! lattice whose step is much coarser than double precision. The numbers show it:
+//! A text has decimals, often six, and many programs compute in single precision before they write. Positions
+//! are therefore on a lattice that is much coarser than double precision. Its step is derived as follows:
 //!
-//! - All numbers are single-precision numbers, and some have eight digits or more: single precision.
-//! - Otherwise the step is the unit of the last digit of the numbers with the most digits. Whole numbers and short
-//!   decimals, such as 2.5, are exact: their "step" would be visible in a drawing.
+//! - If all numbers are single-precision numbers, and some have eight digits or more: single precision.
+//! - Otherwise the step is the unit of the last digit of the numbers with the most digits. Whole numbers and
+//!   short decimals, such as 2.5, are exact: rounding to such a coarse step would be visible in a drawing.
 
 use std::fmt::Write;
 
@@ -14,23 +14,23 @@ use glam::DVec3;
 use crate::geometry::numbers::tolerance::VISIBLE_STEP;
 use crate::scene::{Geometry, Scene};
 
-/// The number of positions of a file that are measured, spread evenly.
+/// Maximum number of positions of a file that are measured, evenly spread.
 const MAX_SAMPLES: usize = 1024;
 
-/// Fewer digits than this say nothing about single precision: nearly every number of seven digits is the shortest text of one.
+/// Minimum digits that indicate single precision. Almost every number of seven digits is the shortest text of
+/// some `f32`.
 const SINGLE_DIGITS: i32 = 8;
 
-/// Numbers with as many digits as this are written in double precision.
+/// Minimum digits that indicate double precision.
 const DOUBLE_DIGITS: i32 = 15;
 
-/// A number written with nine digits differs from the single-precision number it stands for by no more than this share: half a unit of
-/// the ninth digit.
+/// Maximum relative error of an `f32` written with nine digits: half a unit of the ninth digit.
 const SINGLE_ERROR: f64 = 5.000_001e-9;
 
-/// Numbers smaller than this share of the largest are noise around zero, whose digits mean nothing.
+/// Numbers below this fraction of the largest are noise around zero and are not measured.
 const NOISE_OF_LARGEST: f64 = 1e-6;
 
-/// Notes in each shape of a scene the precision of its positions.
+/// Stores the measured precision in each geometry of a scene.
 pub(crate) fn measure(scene: &mut Scene) {
     let is_open = |geometry: &Geometry| !geometry.single_precision && geometry.lattice_step == 0.0;
     let count: usize = scene.geometries.iter().filter(|g| is_open(g)).map(|g| g.positions.len()).sum();
@@ -47,14 +47,14 @@ pub(crate) fn measure(scene: &mut Scene) {
     }
 }
 
-/// The precision that the numbers of a file show.
+/// Precision of the numbers of a file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Precision {
     /// Whole numbers, short decimals, or double precision.
     Exact,
-    /// Numbers of single precision.
+    /// Single precision.
     Single,
-    /// Decimals of this unit.
+    /// Decimals with this unit.
     Decimals(f64),
 }
 
@@ -90,17 +90,17 @@ impl Precision {
     }
 }
 
-/// Whether a number stands for one of single precision: it has nine digits or more of it, or the fewest that tell it from its neighbours.
+/// Whether a number represents an `f32`: it has at least nine digits of one, or its shortest unique digits.
 fn is_single(number: f64) -> bool {
     let single = number as f32;
     (number - f64::from(single)).abs() <= SINGLE_ERROR * number.abs()
         || single.to_string().parse() == Ok(number)
 }
 
-/// The digits that a number needs, and the unit of the last one.
+/// Number of digits of a number, and the unit of the last one.
 fn digits(number: f64, text: &mut String) -> (i32, f64) {
     text.clear();
-    // The shortest digits that read back as the number; writing to a string does not fail.
+    // Shortest digits that read back as the number. Writing to a string cannot fail.
     let _ = write!(text, "{:e}", number.abs());
     let (mantissa, exponent) = text.split_once('e').unwrap_or((text.as_str(), "0"));
     let digits = mantissa.bytes().filter(u8::is_ascii_digit).count() as i32;
@@ -128,7 +128,7 @@ mod tests {
     #[test]
     fn the_precision_of_a_file_is_that_of_its_writer() {
         assert_eq!(written(20.0, |x| f64::from(x as f32)), Precision::Single);
-        // C's %.9g, and the shortest digits of a single-precision number.
+        // C's %.9g, and the shortest digits of an `f32`.
         assert_eq!(written(20.0, |x| format!("{:.8e}", x as f32).parse().unwrap()), Precision::Single);
         assert_eq!(written(20.0, |x| (x as f32).to_string().parse().unwrap()), Precision::Single);
         let step = |precision| match precision {
@@ -141,7 +141,7 @@ mod tests {
         }
         let found = step(written(9.0, decimals(6)));
         assert!((found / 1e-6 - 1.0).abs() < 1e-9, "{found}");
-        // Eight digits are as fine as single precision, and may be either.
+        // Eight digits have the precision of an `f32`, so both results are valid.
         assert!(matches!(written(20.0, decimals(6)), Precision::Single | Precision::Decimals(_)));
         // Six digits, C's %g, of numbers up to 20.
         let found = step(written(20.0, |x| format!("{x:.5e}").parse().unwrap()));

@@ -46,7 +46,7 @@ const FORMATS: &str = "ligne reads .obj, .gltf, .glb, .stl and .ply";
 pub enum ModelFormat {
     /// Wavefront OBJ, text.
     Obj,
-    /// glTF 2.0 as JSON or as one binary file (GLB): the bytes tell which.
+    /// glTF 2.0 as JSON or as one binary file (GLB), told apart by the first bytes.
     Gltf,
     /// STL, text or binary.
     Stl,
@@ -55,7 +55,7 @@ pub enum ModelFormat {
 }
 
 impl ModelFormat {
-    /// The format that goes by an ending (without its dot), whatever its case.
+    /// Format of a file ending (without the dot), in any letter case.
     #[must_use]
     pub fn of_ending(ending: &str) -> Option<Self> {
         match ending.to_ascii_lowercase().as_str() {
@@ -69,17 +69,19 @@ impl ModelFormat {
 }
 
 impl Scene {
-    /// Reads a model file; the format is told by its ending.
+    /// Reads a model file; the ending gives the format.
     ///
     /// # Errors
-    /// Names the file, the place in it and the remedy if it cannot be read, if it is broken, or
-    /// if its format is not one of OBJ, glTF, GLB, STL and PLY.
+    /// Names the file, the place in it and the remedy if it cannot be read or is damaged. Also if its format
+    /// is not one of OBJ, glTF, GLB, STL and PLY.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         open(path.as_ref())
     }
 
-    /// Reads a model that is in memory, with no files beside it: libraries of materials and textures that it
-    /// names are left out and told in [`Scene::warnings`]; buffers of glTF must be inside, as those of GLB are.
+    /// Reads a model from memory, without other files.
+    ///
+    /// Material libraries and external textures are left out and listed in [`Scene::warnings`]. Buffers of
+    /// glTF must be embedded, as in GLB.
     ///
     /// ```
     /// use ligne::Scene;
@@ -91,14 +93,14 @@ impl Scene {
     /// ```
     ///
     /// # Errors
-    /// Names the place in the bytes and the remedy if they are broken, or if nothing can be drawn.
+    /// Names the place in the bytes and the remedy if they are damaged, or if nothing can be drawn.
     pub fn from_bytes(bytes: &[u8], format: ModelFormat) -> Result<Self, Error> {
         read_bytes(bytes, format, gltf::read_bytes)
     }
 }
 
 impl Rigged {
-    /// Reads a model file as [`Scene::open`] does, with its animations and what these move, if its format has any.
+    /// Reads a model file like [`Scene::open`], with its animations and rig, if its format has any.
     ///
     /// # Errors
     /// As [`Scene::open`].
@@ -106,7 +108,7 @@ impl Rigged {
         open_with(path.as_ref(), gltf::read_rigged)
     }
 
-    /// Reads a model that is in memory as [`Scene::from_bytes`] does, with its animations and what these move.
+    /// Reads a model from memory like [`Scene::from_bytes`], with its animations and rig.
     ///
     /// # Errors
     /// As [`Scene::from_bytes`].
@@ -115,12 +117,12 @@ impl Rigged {
     }
 }
 
-/// Reads a model with the reader for its ending, whatever its case.
+/// Reads a model with the reader for its ending.
 fn open(path: &Path) -> Result<Scene, Error> {
     open_with(path, gltf::read)
 }
 
-/// The same with a reader of glTF; what the other readers read stands still.
+/// Like [`open`], with a given reader for glTF; models of other formats have no animations.
 fn open_with<T: From<Scene>>(
     path: &Path,
     read_gltf: impl FnOnce(&Path) -> Result<T, Error>,
@@ -140,7 +142,7 @@ fn open_with<T: From<Scene>>(
     scene.map_err(|error| if error.file.is_none() { error.in_file(path) } else { error })
 }
 
-/// Reads a model that has no files beside it.
+/// Reads a model from memory, without other files.
 fn read_bytes<T: From<Scene>>(
     bytes: &[u8],
     format: ModelFormat,
@@ -160,7 +162,7 @@ fn unknown(message: impl Into<String>) -> Error {
     Error::new(message).of_kind(error::ErrorKind::Unsupported).remedy(FORMATS)
 }
 
-/// Reads a file and hands its bytes and the stem of its name to a reader.
+/// Reads a file and passes its bytes and the stem of its name to a reader.
 pub(crate) fn read_with(
     path: &Path,
     reader: impl FnOnce(&[u8], &str) -> Result<Scene, Error>,
@@ -172,7 +174,7 @@ pub(crate) fn read_with(
     Ok(scene)
 }
 
-/// A scene that was read, with the precision of its coordinates.
+/// Adds the precision of the coordinates to a scene.
 fn measured(scene: Result<Scene, Error>) -> Result<Scene, Error> {
     scene.map(|mut scene| {
         coordinate_precision::measure(&mut scene);
@@ -184,7 +186,7 @@ fn cannot_be_read(error: std::io::Error) -> Error {
     Error::io("cannot be read", error)
 }
 
-/// Refuses a file that surely is no model, by its beginning.
+/// Returns an error if the beginning of a file shows that it is not a model.
 fn refuse_strangers(path: &Path) -> Result<(), Error> {
     let mut head = Vec::new();
     let file = fs::File::open(path).map_err(cannot_be_read)?;
@@ -192,7 +194,7 @@ fn refuse_strangers(path: &Path) -> Result<(), Error> {
     refuse_strange_bytes(&head)
 }
 
-/// Refuses what stands in the place of a model when a download went wrong.
+/// Returns an error for the usual results of a failed download.
 fn refuse_strange_bytes(bytes: &[u8]) -> Result<(), Error> {
     let start = bytes.trim_ascii_start();
     let start = start.strip_prefix(b"\xef\xbb\xbf").unwrap_or(start);
@@ -212,7 +214,7 @@ fn refuse_strange_bytes(bytes: &[u8]) -> Result<(), Error> {
     Ok(())
 }
 
-/// How a place in the text is called in errors, with the word found there.
+/// The first 20 bytes of a word, escaped for error messages.
 pub(crate) fn shown(word: &[u8]) -> String {
     let start: Vec<u8> = word.iter().copied().take(20).collect();
     decode(&start).escape_debug().to_string()

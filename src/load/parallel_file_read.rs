@@ -1,7 +1,7 @@
-//! [`read`]: a whole file, by several threads where it is large.
+//! [`read`]: reads a file, on several threads if it is large.
 //!
-//! What is copied from the system lands in memory that nobody has touched, and the system clears each page of it first: of
-//! a file of 400 MB one thread did nothing else for a tenth of the time that its drawing took.
+//! The system clears each new memory page when it is first written. With one thread this takes a tenth of the
+//! total time for a file of 400 MB, so all threads share it.
 
 use std::fs::{self, File};
 use std::io::{self, Read, Seek, SeekFrom};
@@ -10,34 +10,35 @@ use std::sync::{Mutex, PoisonError};
 
 use crate::parallel::prelude::*;
 
-/// Smaller files are read in less time than it takes to share them out.
+/// Minimum size for parallel reading, bytes. Distributing smaller files takes longer than reading them.
 const LEAST: u64 = 8 << 20;
 
-/// What is read at once.
+/// Bytes per read call.
 const BLOCK: usize = 64 << 10;
 
-/// Blocks that are read as one piece of work.
+/// Blocks per parallel task.
 const CHUNK: usize = 16;
 
-/// All bytes of a file.
+/// Reads all bytes of a file.
 pub(crate) fn read(path: &Path) -> io::Result<Vec<u8>> {
     read_from(path, LEAST)
 }
 
-/// As [`read`], by several threads from so many bytes on.
+/// As [`read`], parallel from a size of `least` bytes on.
 fn read_from(path: &Path, least: u64) -> io::Result<Vec<u8>> {
     let about = fs::metadata(path)?;
     let room = usize::try_from(about.len()).ok().filter(|_| about.is_file() && about.len() >= least);
-    // Whether there is room is asked first, since to be given none when it is needed ends the program.
+    // Test the allocation first, because a failed allocation would abort the program.
     match room.filter(|size| Vec::<u8>::new().try_reserve_exact(*size).is_ok()) {
-        // What cannot be read so, as a file that becomes shorter meanwhile, is read from its beginning to wherever it ends.
+        // A file that cannot be read in blocks, for example because it has become shorter, is read
+        // sequentially.
         Some(size) => in_blocks(path, size).or_else(|_| fs::read(path)),
         None => fs::read(path),
     }
 }
 
-/// A file of so many bytes, block by block. Blocks are told by their values, so that the memory they land in is touched first by
-/// whoever reads them: asked to be empty before, one thread would write all of it.
+/// Reads a file block by block. Blocks are values, so each thread is the first to touch the memory of its
+/// blocks; a zeroed vector would be touched by one thread.
 fn in_blocks(path: &Path, size: usize) -> io::Result<Vec<u8>> {
     let failed = Mutex::new(None);
     let read = |file: &mut io::Result<File>, k: usize| -> io::Result<[u8; BLOCK]> {
@@ -80,7 +81,7 @@ mod tests {
             let bytes: Vec<u8> = (0..size).map(|k| ((k * 31) % 251) as u8).collect();
             fs::write(&path, &bytes).expect("a file");
             assert!(read_from(&path, 1).expect("its bytes") == bytes, "{size}");
-            // What has become shorter is an error here, and is then read in one go.
+            // A file that has become shorter gives an error here, and is then read sequentially.
             assert!(in_blocks(&path, size + 1).is_err());
         }
         fs::remove_file(&path).expect("the file goes");

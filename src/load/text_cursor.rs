@@ -1,20 +1,20 @@
-//! [`Cursor`]: numbers, words and lines out of the bytes of a text format, without copies.
+//! [`Cursor`]: reads numbers, words and lines from the bytes of a text format, without copying.
 
 use std::borrow::Cow;
 
-/// Powers of ten that an `f64` holds exactly.
+/// Powers of ten that an `f64` represents exactly.
 const EXACT_POWERS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
     1e19, 1e20, 1e21, 1e22,
 ];
 
-/// Powers of ten by which up to eight digits shift a number.
+/// Powers of ten that shift a number by up to eight digits.
 const SHIFTS: [u64; 9] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000];
 
-/// Whole numbers below this are exact in an `f64`.
+/// Integers below this are exact in an `f64`.
 const EXACT_MANTISSA: u64 = 1 << 53;
 
-/// A place in some text. Beyond the end it reads newlines, so that every line ends.
+/// Position in a text. After the end it reads newlines, so that every line ends.
 #[derive(Clone)]
 pub(crate) struct Cursor<'a> {
     /// The whole text.
@@ -24,13 +24,13 @@ pub(crate) struct Cursor<'a> {
 }
 
 impl<'a> Cursor<'a> {
-    /// The start of the text, after a byte-order mark if there is one.
+    /// Starts at the beginning of a text, after a byte-order mark if there is one.
     pub fn new(bytes: &'a [u8]) -> Self {
         let at = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
         Self { bytes, at }
     }
 
-    /// Whether all was read.
+    /// Whether the end of the text is reached.
     #[inline]
     pub fn at_end(&self) -> bool {
         self.at >= self.bytes.len()
@@ -48,7 +48,7 @@ impl<'a> Cursor<'a> {
         self.bytes.get(self.at + n).copied().unwrap_or(b'\n')
     }
 
-    /// Passes blanks and tabs, and a backslash that continues the line.
+    /// Skips blanks and tabs, and a backslash that continues the line.
     #[inline]
     pub fn skip_blanks(&mut self) {
         loop {
@@ -72,7 +72,7 @@ impl<'a> Cursor<'a> {
         true
     }
 
-    /// Passes blanks, tabs and line ends.
+    /// Skips blanks, tabs and line ends.
     #[inline]
     pub fn skip_space(&mut self) {
         while !self.at_end() && self.peek().is_ascii_whitespace() {
@@ -92,7 +92,7 @@ impl<'a> Cursor<'a> {
         matches!(self.peek(), b' ' | b'\t' | b'\n' | b'\r' | b'#' | b'\\')
     }
 
-    /// Goes to the end of the line and gives what was left of it, without blanks around.
+    /// Moves to the end of the line and returns the rest of it, trimmed.
     pub fn rest_of_line(&mut self) -> &'a [u8] {
         let rest = self.bytes.get(self.at..).unwrap_or_default();
         let length = memchr::memchr2(b'\n', b'\r', rest).unwrap_or(rest.len());
@@ -100,7 +100,7 @@ impl<'a> Cursor<'a> {
         rest.get(..length).unwrap_or_default().trim_ascii()
     }
 
-    /// Passes what is left of a word, and one byte at least, so that whoever does not understand a line gets on.
+    /// Skips the rest of a word, at least one byte, so that parsing always advances.
     pub fn skip_word(&mut self) {
         self.at += 1;
         while !self.at_word_end() {
@@ -108,7 +108,7 @@ impl<'a> Cursor<'a> {
         }
     }
 
-    /// The next word of printing characters; empty at the end of a line.
+    /// Next word of printing characters; empty at the end of a line.
     pub fn word(&mut self) -> &'a [u8] {
         let start = self.at;
         while !self.at_end() && !self.peek().is_ascii_whitespace() {
@@ -117,7 +117,7 @@ impl<'a> Cursor<'a> {
         self.bytes.get(start..self.at).unwrap_or_default()
     }
 
-    /// The line that `at` is on, counted from 1. Takes time in proportion to the text before it.
+    /// Line number of `at`, counted from 1. Takes time in proportion to the text before it.
     pub fn line(&self) -> usize {
         let before = self.bytes.get(..self.at).unwrap_or(self.bytes);
         let newlines = memchr::memchr_iter(b'\n', before).count();
@@ -126,7 +126,8 @@ impl<'a> Cursor<'a> {
         1 + newlines + lone
     }
 
-    /// A number, correctly rounded; also `nan` and `inf`. None, and no move, if there is none.
+    /// Reads a number, correctly rounded; also `nan` and `inf`. If there is none, returns `None` and does not
+    /// move.
     #[inline]
     pub fn number(&mut self) -> Option<f64> {
         if let Some((value, at)) = plain_number(self.bytes, self.at) {
@@ -136,7 +137,7 @@ impl<'a> Cursor<'a> {
         self.any_number()
     }
 
-    /// Numbers with exponents, long mantissas and words.
+    /// Reads numbers with exponents or long mantissas, and words.
     #[inline(never)]
     fn any_number(&mut self) -> Option<f64> {
         let start = self.at;
@@ -151,7 +152,7 @@ impl<'a> Cursor<'a> {
         self.number_with_exponent(start, negative, mantissa, whole + fraction, fraction)
     }
 
-    /// The rest of [`Cursor::number`]: exponents, long mantissas and words.
+    /// Rest of [`Cursor::number`]: exponents, long mantissas and words.
     fn number_with_exponent(
         &mut self,
         start: usize,
@@ -184,7 +185,7 @@ impl<'a> Cursor<'a> {
         Some(if negative { -value } else { value })
     }
 
-    /// Passes a sign; whether it was a minus.
+    /// Skips a sign; returns whether it was a minus.
     #[inline]
     fn sign(&mut self) -> bool {
         let c = self.peek();
@@ -192,7 +193,7 @@ impl<'a> Cursor<'a> {
         c == b'-'
     }
 
-    /// Passes digits and appends them to `value` (which wraps: count them); how many there were.
+    /// Reads digits and appends them to `value`, which wraps; returns their number.
     #[inline]
     pub fn digits(&mut self, value: &mut u64) -> usize {
         let start = self.at;
@@ -200,7 +201,7 @@ impl<'a> Cursor<'a> {
         self.at - start
     }
 
-    /// A whole number; those beyond the range are its ends. None, and no move, if there is none.
+    /// Reads an integer, saturated to the range of `i64`. If there is none, returns `None` and does not move.
     #[inline]
     pub fn integer(&mut self) -> Option<i64> {
         let start = self.at;
@@ -216,17 +217,17 @@ impl<'a> Cursor<'a> {
     }
 }
 
-/// How many of eight bytes are digits before the first that is not, and their number, all at once:
-/// where a number ends cannot be foretold, and a branch on it would cost more than the digits.
+/// Number of leading digits in eight bytes, and their value, without branches. The length of a number is
+/// unpredictable, and a mispredicted branch would cost more than the digits.
 ///
 /// Source: Lemire, *Number Parsing at a Gigabyte per Second*, 2021, section 6.
 #[inline(always)]
 fn leading_digits(bytes: [u8; 8]) -> (usize, u64) {
     let values = u64::from_le_bytes(bytes) ^ 0x3030_3030_3030_3030;
-    // The high bit of each byte above 9; carries only reach bytes behind the first such.
+    // High bit of each byte above 9; carries only reach bytes after the first such byte.
     let others = (values.wrapping_add(0x7676_7676_7676_7676) | values) & 0x8080_8080_8080_8080;
     let count = others.trailing_zeros() / 8;
-    // Zeros take the place before the digits, that of the least byte.
+    // Shift the digits to the end; zeros take the place before them, in the least bytes.
     let digits = values.checked_shl(64 - 8 * count).unwrap_or(0);
     let pairs = digits.wrapping_mul(10).wrapping_add(digits >> 8);
     let high = (pairs & 0x0000_00ff_0000_00ff).wrapping_mul(0x000f_4240_0000_0064);
@@ -234,7 +235,7 @@ fn leading_digits(bytes: [u8; 8]) -> (usize, u64) {
     (count as usize, high.wrapping_add(low) >> 32)
 }
 
-/// The number that the digits at some place append to another (it wraps), and where they end.
+/// Appends the digits at a position to `value`, which wraps; returns the result and the end.
 #[inline(always)]
 fn digits(bytes: &[u8], mut at: usize, mut value: u64) -> (u64, usize) {
     while let Some(eight) = bytes.get(at..).and_then(|b| b.first_chunk()) {
@@ -252,7 +253,7 @@ fn digits(bytes: &[u8], mut at: usize, mut value: u64) -> (u64, usize) {
     (value, at)
 }
 
-/// A number without exponent and of few digits, and where it ends; else none.
+/// Number without exponent and with few digits, and its end; `None` for other notations.
 #[inline(always)]
 pub(crate) fn plain_number(bytes: &[u8], start: usize) -> Option<(f64, usize)> {
     let negative = *bytes.get(start)? == b'-';
@@ -266,7 +267,7 @@ pub(crate) fn plain_number(bytes: &[u8], start: usize) -> Option<(f64, usize)> {
         fraction = at - point;
         count += fraction;
     }
-    // One division of two exact numbers rounds once: the result is right.
+    // One division of two exact numbers is rounded once, so the result is correct.
     let exact = count.wrapping_sub(1) < 19 && mantissa < EXACT_MANTISSA;
     if !exact || matches!(bytes.get(at), Some(b'e' | b'E')) {
         return None;
@@ -275,13 +276,13 @@ pub(crate) fn plain_number(bytes: &[u8], start: usize) -> Option<(f64, usize)> {
     Some((if negative { -value } else { value }, at))
 }
 
-/// The number of the digits at some place, 0 where there are none, and where they end; more than 18 wrap.
+/// Value of the digits at a position (0 if there are none), and their end; wraps for more than 18 digits.
 #[inline(always)]
 pub(crate) fn plain_digits(bytes: &[u8], start: usize) -> (u64, usize) {
     digits(bytes, start, 0)
 }
 
-/// A word of some digits, and where it ends, after one blank or several.
+/// Digits after one or more blanks: their value, and their end.
 #[inline(always)]
 pub(crate) fn plain_index(bytes: &[u8], mut start: usize) -> Option<(u64, usize)> {
     while *bytes.get(start)? == b' ' {
@@ -291,9 +292,9 @@ pub(crate) fn plain_index(bytes: &[u8], mut start: usize) -> Option<(u64, usize)
     ((at - start).wrapping_sub(1) < 18).then_some((value, at))
 }
 
-/// The bytes of a text in UTF-8: those that begin with the byte-order mark of UTF-16 are turned into it.
+/// Converts text to UTF-8 if it begins with the byte-order mark of UTF-16.
 ///
-/// Half a character becomes U+FFFD, half a unit at the end is passed over.
+/// Unpaired surrogates become U+FFFD; half a unit at the end is ignored.
 pub(crate) fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
     let unit = match bytes {
         [0xff, 0xfe, ..] => u16::from_le_bytes,
@@ -305,7 +306,7 @@ pub(crate) fn utf8(bytes: &[u8]) -> Cow<'_, [u8]> {
     Cow::Owned(characters.collect::<String>().into_bytes())
 }
 
-/// Text in UTF-8, or else in Latin-1.
+/// Decodes text as UTF-8, or else as Latin-1.
 pub(crate) fn decode(bytes: &[u8]) -> Cow<'_, str> {
     match std::str::from_utf8(bytes) {
         Ok(text) => Cow::Borrowed(text),

@@ -1,22 +1,24 @@
-//! Colours that a file gives to its triangles, as PLY and STL do: they become materials, or paint where they are many.
+//! Colours of single triangles, as in PLY and STL: they become materials, or vertex colours if there are
+//! many.
 
 use rustc_hash::FxHashMap;
 
 use crate::colour::srgb::{Colour, linear};
 use crate::scene::{Geometry, Material};
 
-/// Most colours that become materials: those that a picture with a palette may have (PNG specification, third edition, 11.2.2).
-/// A file with more of them is painted, as scans are, and a boundary between any two of its colours would cover it with lines.
+/// Maximum number of colours that become materials: the maximum of a palette in a picture (PNG specification,
+/// third edition, 11.2.2). With more, as in scans, material boundaries would cover the drawing with lines.
 const MAX_MATERIALS: usize = 256;
 
-/// Gives the triangles of a geometry their colours. A triangle without one, or beyond the end of `colours`, has none.
+/// Colours the triangles of a geometry. Triangles with `None`, or without an entry in `colours`, have no
+/// colour.
 ///
-/// Each colour becomes a material, in the order of the colours, so that the order of the faces does not matter; triangles without
-/// a colour get a default material after those. More than [`MAX_MATERIALS`] colours become the colours of vertices, which are split
-/// where colours meet: fills show them, and lines do not.
+/// Each colour becomes a material, sorted by colour so that the order of the faces does not matter. Triangles
+/// without a colour get a default material after those. More than [`MAX_MATERIALS`] colours become vertex
+/// colours, with vertices split between colours: these affect fills but not lines.
 pub(crate) fn paint(geometry: &mut Geometry, colours: &[Option<Colour>], materials: &mut Vec<Material>) {
     let mut distinct: Vec<Colour> = colours.iter().copied().flatten().collect();
-    // Neighbours mostly have one colour.
+    // Neighbours mostly have the same colour.
     distinct.dedup();
     distinct.sort_unstable();
     distinct.dedup();
@@ -24,7 +26,7 @@ pub(crate) fn paint(geometry: &mut Geometry, colours: &[Option<Colour>], materia
         split_vertices(geometry, colours);
         return;
     }
-    // If all alpha is 0, it was not set: an invisible model has no use.
+    // If all alpha is 0, it was not set: an invisible model makes no sense.
     let is_clear = distinct.iter().all(|colour| colour.a == 0);
     let first = materials.len();
     materials.extend(distinct.iter().map(|&colour| {
@@ -53,9 +55,9 @@ pub(crate) fn paint(geometry: &mut Geometry, colours: &[Option<Colour>], materia
     }
 }
 
-/// Gives each vertex the colour of its triangles, and splits those whose triangles have several.
+/// Colours each vertex like its triangles, and splits vertices whose triangles have several colours.
 fn split_vertices(geometry: &mut Geometry, colours: &[Option<Colour>]) {
-    // Most colours come several times, and decoding a channel takes long.
+    // Table of channels, as converting each one would be slow.
     let light: Vec<f32> = (0..=255_u8).map(|channel| linear(f32::from(channel) / 255.0)).collect();
     let light = |channel: u8| light.get(usize::from(channel)).copied().unwrap_or(1.0);
     let plain = Material::default().colour;

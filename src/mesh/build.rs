@@ -1,4 +1,11 @@
-//! From [`Soup`] to [`Mesh`]: origin, order, welding, cleaning, topology, face normals.
+//! Builds a [`Mesh`] from a [`Soup`].
+//!
+//! 1. Sort vertices and faces by position, and move the origin.
+//! 2. Turn closed surfaces outward.
+//! 3. Join parts to bodies and measure them.
+//! 4. Weld nearby vertices, drop duplicate faces, and sew seams.
+//! 5. Turn open surfaces.
+//! 6. Compute face normals and the stacking order of coplanar surfaces.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -6,7 +13,7 @@ use glam::DVec3;
 use super::order::canonical_order;
 use super::seams::open_edges;
 use super::weld::nearby_vertices;
-use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, part_extents};
+use super::{Cleaning, EdgeFaces, Edges, Extents, Mesh, Soup, part_metrics};
 use crate::mesh::components::bodies::bodies;
 use crate::mesh::components::orientation::{Surfaces, Triangles, TurnedFaces, turn_faces};
 use crate::mesh::normals::face_normals::normals_and_narrow;
@@ -20,12 +27,14 @@ use crate::parallel::task_size::GRAIN;
 impl Mesh {
     /// Builds the mesh of a flattened scene.
     ///
-    /// Vertices at the same place are joined (see [`nearby_vertices`]), faces with repeated corners and
-    /// faces that stand twice in one part are dropped, open edges that lie along each other are sewn (see
-    /// `seams`), everything is counted in [`Mesh::cleaning`]. Faces that are wound inward or against their neighbours
-    /// are turned (see `orientation`) and counted in [`Mesh::turned`]. However the soup numbers its vertices, whatever the order of its faces
-    /// and whichever corner they begin with, the mesh is the same; only parts and materials keep
-    /// their order.
+    /// - Vertices at the same position are joined (see [`nearby_vertices`]).
+    /// - Faces with repeated corners, and duplicate faces of one part, are dropped.
+    /// - Open edges that lie along each other are sewn (see `seams`).
+    /// - Faces wound inward or against their neighbours are turned (see `orientation`).
+    ///
+    /// [`Mesh::cleaning`] and [`Mesh::turned`] count the changes. The result does not depend on the numbering
+    /// of vertices, the order of faces, or the first corner of a face. Only parts and materials keep their
+    /// order.
     #[must_use]
     pub fn build(mut soup: Soup) -> Self {
         let mut cleaning = Cleaning::default();
@@ -33,21 +42,21 @@ impl Mesh {
             cleaning.short_wires = soup.wires.len() as u64;
             return Self { cleaning, ..Self::default() };
         };
-        // Faces without area do not count in the place and the size of the model.
+        // Faces without area do not affect the position and size of the model.
         let has_flat_faces = may_have_flat_faces(&soup.positions, &soup.triangles, (low, high));
         let counted = if has_flat_faces { bounds(&soup, has_own_area) } else { None };
-        // The sum makes zeros positive.
+        // Adding zero turns -0 into +0.
         soup.positions.par_iter_mut().for_each(|p| *p += DVec3::ZERO);
         cleaning.welded = canonical_order::by_place(&mut soup, low.abs().max(high.abs()).max_element());
         let (counted_low, counted_high) = counted.unwrap_or((low, high));
-        let origin = part_extents::origin(counted_low, counted_high);
+        let origin = part_metrics::origin(counted_low, counted_high);
         if origin != DVec3::ZERO {
             soup.positions.par_iter_mut().for_each(|p| *p -= origin);
         }
         drop_collapsed(&mut soup, &mut cleaning);
         let mut edges = Edges::build(soup.positions.len(), &soup.triangles);
         let mut turned = Vec::new();
-        // Closed surfaces come first, so that all that follows is as if the file had wound them right.
+        // Closed surfaces come first, so that later steps see them wound correctly.
         let mut surfaces = surfaces(&soup, &edges);
         let mut is_final = !surfaces.has_open();
         let turned_of_open = surfaces.turn_closed_only();
@@ -161,7 +170,7 @@ fn surfaces(soup: &Soup, edges: &Edges) -> Surfaces {
     Surfaces::new(&Triangles { positions, triangles, parts, edges })
 }
 
-/// Turns and counts the faces that must be turned; false if there are none.
+/// Turns and counts the faces that must be turned. Returns false if there are none.
 fn turn(soup: &mut Soup, surfaces: &Surfaces, counts: &mut Vec<TurnedFaces>) -> bool {
     let any = !surfaces.turned.is_empty();
     if any {
@@ -171,7 +180,7 @@ fn turn(soup: &mut Soup, surfaces: &Surfaces, counts: &mut Vec<TurnedFaces>) -> 
     any
 }
 
-/// The box around all vertices of faces for which `counts` holds and of wires that have a length.
+/// Box around all vertices of faces with `counts` and of wires with a length.
 fn bounds(soup: &Soup, counts: impl Fn([DVec3; 3]) -> bool + Sync) -> Option<(DVec3, DVec3)> {
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let grow = |(low, high): (DVec3, DVec3), v: u32| {
@@ -193,7 +202,7 @@ fn bounds(soup: &Soup, counts: impl Fn([DVec3; 3]) -> bool + Sync) -> Option<(DV
     (all.0.x <= all.1.x).then_some(all)
 }
 
-/// The faces with a corner of which `moves` holds, ascending.
+/// Faces with a corner that satisfies `moves`, ascending.
 fn faces_of(soup: &Soup, moves: impl Fn(u32) -> bool + Sync) -> Vec<u32> {
     let faces = (0..soup.triangles.len() as u32).into_par_iter().with_min_len(GRAIN);
     faces.filter(|face| soup.triangles[*face as usize].iter().any(|v| moves(*v))).collect()
@@ -219,7 +228,7 @@ fn drop_collapsed(soup: &mut Soup, cleaning: &mut Cleaning) {
     cleaning.short_wires += (wires - soup.wires.len()) as u64;
 }
 
-/// The vertices on open edges, and how near to each others are the same vertex: by the largest of its parts.
+/// Vertices on open edges, ascending, with their weld tolerance: the largest of their parts.
 fn border_vertices(soup: &Soup, edges: &Edges, extents: &Extents) -> (Vec<u32>, Vec<f64>) {
     let part = |face: u32| soup.triangle_part.get(face as usize).copied().unwrap_or_default();
     let open = |e: usize| match edges.faces(e) {
@@ -272,7 +281,7 @@ mod tests {
         ));
         let c = mesh.cleaning;
         assert_eq!((c.doubled, c.collapsed, c.degenerate), (1, 1, 1));
-        // The flat face goes on in the one that runs the other way along its side.
+        // The flat face continues in the face that runs along its side in the other direction.
         assert_eq!(mesh.triangles, [[0, 1, 3], [0, 2, 1]]);
     }
 

@@ -1,4 +1,4 @@
-//! Typed ids, so that mixing a vertex and an edge does not compile.
+//! Typed ids, so that the compiler rejects a vertex id where an edge id is expected.
 
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {
@@ -8,7 +8,7 @@ macro_rules! id {
         pub struct $name(pub u32);
 
         impl $name {
-            /// The id as an index into the arrays of its kind.
+            /// The id as an index into the arrays of its type.
             #[inline]
             #[must_use]
             pub const fn index(self) -> usize {

@@ -8,7 +8,7 @@
 //! 5. `normals` computes face normals and dihedral angles; `overlaps` stacks coplanar surfaces of different
 //!    colours.
 //!
-//! Files, in reading order: [`ids`], [`soup`], [`build`] (the steps above), [`part_extents`] (sizes and
+//! Files, in reading order: [`ids`], [`soup`], [`build`] (the steps above), [`part_metrics`] (sizes and
 //! tolerances of parts), [`vertex_sources`] (moves a mesh with a pose). Other folders: [`lattice`] undoes
 //! the quantization of compressed files, [`bvh`] answers box, ray and nearest-point queries, [`intersect`]
 //! finds where triangles cross.
@@ -23,7 +23,7 @@ pub mod lattice;
 pub mod normals;
 pub(crate) mod order;
 mod overlaps;
-pub mod part_extents;
+pub mod part_metrics;
 mod seams;
 pub mod soup;
 pub mod vertex_sources;
@@ -35,75 +35,77 @@ pub use components::disjoint_sets::{Groups, Numbered};
 pub use components::orientation::TurnedFaces;
 pub use edges::edge_set::EdgeSet;
 pub use edges::edge_table::{EdgeFaces, Edges};
-pub(crate) use edges::vertex_blocks::{Share, share_count, shares};
 pub(crate) use edges::vertex_edges::FirstEdges;
+pub(crate) use edges::vertex_ranges::{Share, share_count, shares};
 pub use ids::{EdgeId, FaceId, MaterialId, PaintId, PartId, VertexId};
 pub use normals::dihedral::Dihedral;
 pub use normals::dihedral_cosines::Turns;
 pub use overlaps::overlay_order::Overlay;
-pub use part_extents::{Extent, Extents};
+pub use part_metrics::{Extent, Extents};
 pub use soup::{EdgeMark, Soup, Wire};
 pub use vertex_sources::Sources;
 pub use weld::duplicate_faces::Cleaning;
 
-/// A welded triangle mesh.
+/// A welded triangle mesh, built by [`Mesh::build`].
 ///
-/// Non-manifold and open meshes are fine; every face has three different vertices and no face
-/// stands twice in one part. Vertices and faces stand in an order that rests on their places, not on the
-/// file's. Built by [`Mesh::build`].
+/// Meshes may be open and non-manifold. Every face has three different vertices, and no face occurs twice in
+/// one part. The order of vertices and faces depends on positions, not on the file.
 #[derive(Debug, Clone, Default)]
 pub struct Mesh {
-    /// The world point that is the zero of `positions`: zero itself, or for models far from it a round point
-    /// near them, so that they keep their digits.
+    /// World position of the origin of `positions`. It is zero, or for models far from zero a round point
+    /// near them, which preserves precision.
     pub origin: DVec3,
-    /// How large each part is; every tolerance is a fraction of that.
+    /// Size of each part. Every tolerance is a fraction of it.
     pub extents: Extents,
-    /// Vertices, world units relative to `origin`.
+    /// Vertex positions, world units relative to `origin`.
     pub positions: Vec<DVec3>,
-    /// Vertex ids of each face, counter-clockwise seen from outside; in surfaces without an outside, such as flat sheets, as the
-    /// file winds them.
+    /// Vertex ids of each face, counter-clockwise seen from outside. Surfaces without an outside, such as
+    /// flat sheets, keep the winding of the file.
     pub triangles: Vec<[u32; 3]>,
     /// Unit normal of each face; zero for degenerate faces.
     pub face_normals: Vec<[f32; 3]>,
-    /// Narrow faces, ascending, each with a wider face in the same plane that knows the normal better: see [`normals::normal_carriers`].
+    /// Narrow faces, ascending, each with a wider coplanar face whose normal is more accurate; see
+    /// [`normals::normal_carriers`].
     pub carriers: Vec<[u32; 2]>,
-    /// From this face on, faces are pieces of others, cut so that they bend with a rounded surface; `None` if there are none.
+    /// First face that is a piece of another face, created by subdivision; `None` if there are none. Pieces
+    /// come last.
     pub first_piece: Option<u32>,
     /// Part of each face.
     pub face_part: Vec<PartId>,
-    /// For each part the first of the parts whose surfaces continue in each other; empty if each part is a body of its own. See
-    /// [`Mesh::body`].
+    /// For each part, the first part of its body: parts whose surfaces continue in each other. Empty if every
+    /// part is a separate body. See [`Mesh::body`].
     pub bodies: Vec<PartId>,
     /// Material of each face.
     pub face_material: Vec<MaterialId>,
-    /// Paint of each face, or empty where each has that of its material: see [`Mesh::paint`].
+    /// Paint of each face, or empty if each has the paint of its material; see [`Mesh::paint`].
     pub face_paint: Vec<PaintId>,
-    /// Unit normals to which `corner_normals` points.
+    /// Unit normals, indexed by `corner_normals`.
     pub normals: Vec<[f32; 3]>,
-    /// Normals of the corners of each face (`u32::MAX` = none), or empty.
+    /// Normal of each corner of each face (`u32::MAX` = none), or empty.
     pub corner_normals: Vec<[u32; 3]>,
-    /// Texture coordinates to which `corner_uvs` points.
+    /// Texture coordinates, indexed by `corner_uvs`.
     pub uvs: Vec<[f32; 2]>,
-    /// Texture coordinates of the corners of each face (`u32::MAX` = none), or empty.
+    /// Texture coordinates of each corner of each face (`u32::MAX` = none), or empty.
     pub corner_uvs: Vec<[u32; 3]>,
-    /// The linear light of the colours of the corners of each face, or empty where none varies within a face.
+    /// Linear colour of each corner of each face, or empty if no colour varies within a face.
     pub corner_colours: Vec<[[f32; 3]; 3]>,
-    /// What the file says about the sides 0-1, 1-2, 2-0 of each face, or empty.
+    /// Edge marks of the sides 0-1, 1-2, 2-0 of each face, from the file, or empty.
     pub edge_marks: Vec<[EdgeMark; 3]>,
-    /// The place of each face among surfaces of unlike colours that overlap in one plane; empty if none do.
+    /// Stacking position of each face among coplanar surfaces of different colours; empty if none overlap.
     pub overlays: Vec<Overlay>,
-    /// Which faces meet at which edge.
+    /// Edges, and the faces that meet at each of them.
     pub edges: Edges,
-    /// Lines without faces; their vertices are vertices of the mesh.
+    /// Lines without faces. Their vertices are vertices of the mesh.
     pub wires: Vec<Wire>,
-    /// What was mended.
+    /// Counts of repaired and remaining defects.
     pub cleaning: Cleaning,
-    /// Faces that the file winds inward or against their neighbours: one entry for each part that has any, in the order of parts.
+    /// Faces that the file winds inward or against their neighbours: one entry for each part that has any, in
+    /// part order.
     pub turned: Vec<TurnedFaces>,
 }
 
 impl Mesh {
-    /// Whether a face has no area to speak of: it hides nothing.
+    /// Whether a face has no area. Such a face hides nothing.
     #[inline]
     #[must_use]
     pub fn is_degenerate(&self, face: FaceId) -> bool {
@@ -117,7 +119,7 @@ impl Mesh {
         self.face_paint.get(face.index()).copied().unwrap_or(self.face_material[face.index()].into())
     }
 
-    /// The same mesh, but that some faces count as degenerate, and hide nothing.
+    /// A copy where the faces that satisfy `clear` are degenerate, so that they hide nothing.
     #[must_use]
     pub fn seen_through(&self, clear: impl Fn(FaceId) -> bool) -> Self {
         let mut mesh = self.clone();
@@ -129,7 +131,7 @@ impl Mesh {
         mesh
     }
 
-    /// Leaves out the file's normals of some faces.
+    /// Removes the file normals of the faces that satisfy `wrong`.
     pub fn forget_normals(&mut self, wrong: impl Fn(u32) -> bool) {
         for (face, corners) in self.corner_normals.iter_mut().enumerate() {
             if wrong(face as u32) {
@@ -138,8 +140,8 @@ impl Mesh {
         }
     }
 
-    /// The barycentric weights of a point in the plane of a face; those of the first corner for a face
-    /// without area.
+    /// Barycentric coordinates of a point in the plane of a face. For a face without area, those of the first
+    /// corner.
     #[must_use]
     pub fn weights(&self, face: FaceId, at: DVec3) -> [f64; 3] {
         let [a, b, c] = self.corners(face);

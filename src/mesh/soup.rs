@@ -1,14 +1,14 @@
-//! [`Soup`]: the triangles of a flattened scene, before welding.
+//! [`Soup`]: triangles of a flattened scene before welding.
 
 use glam::DVec3;
 
 use super::{MaterialId, PaintId, PartId};
 
-/// What a file (EXT_mesh_primitive_edge_visibility) or a section says about one side of a triangle.
+/// Mark of one side of a triangle, from the file (EXT_mesh_primitive_edge_visibility) or from a section cut.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(u8)]
 pub enum EdgeMark {
-    /// Nothing: the dihedral angle decides.
+    /// Unmarked: the dihedral angle decides.
     #[default]
     Unmarked = 0,
     /// Never a crease.
@@ -17,16 +17,16 @@ pub enum EdgeMark {
     Contour = 2,
     /// Always a crease.
     Hard = 3,
-    /// No line of any kind, also where the surface ends: what lies along a plane of section within another part.
+    /// No line of any kind, even at a border. Used along a section plane inside another part.
     Covered = 4,
-    /// Always a crease, which belongs to this triangle: where a face ends along which a section is cut.
+    /// Always a crease, owned by this triangle. Used where a face ends at a section cut.
     Cut = 5,
-    /// A diagonal that the reader added inside a polygon of the file: no crease unless the polygon is folded there by more than
-    /// [`tolerance::FOLDED_POLYGON_DEG`](crate::geometry::numbers::tolerance::FOLDED_POLYGON_DEG).
+    /// Diagonal that the reader added inside a polygon of the file. No crease, unless the polygon is folded
+    /// there by more than [`tolerance::FOLDED_POLYGON_DEG`](crate::geometry::numbers::tolerance::FOLDED_POLYGON_DEG).
     Diagonal = 6,
 }
 
-/// A line of the model that belongs to no face: OBJ `l`, glTF line primitives.
+/// Line of the model without faces: OBJ `l`, glTF line primitives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Wire {
     /// Its two vertices.
@@ -39,7 +39,7 @@ pub struct Wire {
 
 /// All triangles and wires of a scene in world space, as the files have them.
 ///
-/// Arrays "per triangle" are as long as `triangles`, or empty where nothing is known.
+/// Arrays "per triangle" have the length of `triangles`, or are empty where nothing is known.
 #[derive(Debug, Clone, Default)]
 pub struct Soup {
     /// World positions, finite.
@@ -50,25 +50,26 @@ pub struct Soup {
     pub triangle_part: Vec<PartId>,
     /// Material of each triangle.
     pub triangle_material: Vec<MaterialId>,
-    /// Paint of each triangle; empty: that of its material.
+    /// Paint of each triangle; empty if each has the paint of its material.
     pub triangle_paint: Vec<PaintId>,
-    /// Unit normals in world space, to which `corner_normals` points.
+    /// Unit normals in world space, indexed by `corner_normals`.
     pub normals: Vec<[f32; 3]>,
-    /// For each triangle the normals of its corners (`u32::MAX` = none), or empty.
+    /// Normals of the corners of each triangle (`u32::MAX` = none), or empty.
     pub corner_normals: Vec<[u32; 3]>,
-    /// Texture coordinates, to which `corner_uvs` points.
+    /// Texture coordinates, indexed by `corner_uvs`.
     pub uvs: Vec<[f32; 2]>,
-    /// For each triangle the texture coordinates of its corners (`u32::MAX` = none), or empty.
+    /// Texture coordinates of the corners of each triangle (`u32::MAX` = none), or empty.
     pub corner_uvs: Vec<[u32; 3]>,
-    /// For each triangle the linear light of the colours of its corners, or empty where none varies within a triangle.
+    /// Linear colours of the corners of each triangle, or empty if no colour varies within a triangle.
     pub corner_colours: Vec<[[f32; 3]; 3]>,
-    /// For each triangle the marks of its sides 0-1, 1-2, 2-0, or empty.
+    /// Marks of the sides 0-1, 1-2, 2-0 of each triangle, or empty.
     pub edge_marks: Vec<[EdgeMark; 3]>,
     /// Lines without faces.
     pub wires: Vec<Wire>,
-    /// Whether the file stored single-precision positions, so that corners that belong together
-    /// may differ in the last bits of an `f32`.
+    /// Whether the file stored single-precision positions, so that coincident corners may differ in the last
+    /// bits of an `f32`.
     pub single_precision: bool,
-    /// The step of the coordinates of each part as the file wrote them, world units; parts beyond the list are exact.
+    /// Step of the coordinates of each part as written in the file, world units. Parts not in the list are
+    /// exact.
     pub steps: Vec<f64>,
 }

@@ -1,7 +1,7 @@
-//! [`Sources`]: from which vertices of a soup those of its mesh came, so that the mesh can follow when they move.
+//! [`Sources`]: source vertices of a mesh in its soup, so that the mesh can follow a pose.
 //!
-//! What a mesh is joined of, which faces meet at which edge and what is drawn of it as round or creased does not change
-//! when a figure moves; only places and normals do.
+//! A pose changes positions and normals only. Welding, edges, creases and patches stay those of the rest
+//! pose.
 
 use std::cmp::Ordering;
 
@@ -14,22 +14,24 @@ use crate::mesh::normals::face_normals::normals_and_narrow;
 use crate::mesh::normals::normal_carriers::{Faces, take_over};
 use crate::mesh::overlaps::overlay_order::overlays;
 
-/// Vertices that are one at rest are one in a pose if they are no farther apart than this part of all: what rounding of joints does.
+/// Maximum distance, as a share of the model, between vertices of a pose that are welded at rest. It covers
+/// the rounding of joints.
 const TOGETHER: f64 = 1e-6;
 
-/// From which vertices of a soup those of its mesh came.
+/// Mapping between the vertices of a soup and of its mesh.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sources {
-    /// One a vertex of the soup: the vertex of the mesh that is at its place.
+    /// For each vertex of the soup, the vertex of the mesh at its position.
     vertices: Vec<u32>,
-    /// One a vertex of the mesh: the first vertex of the soup at its place.
+    /// For each vertex of the mesh, the first vertex of the soup at its position.
     first: Vec<u32>,
     triangles: usize,
     normals: usize,
 }
 
 impl Sources {
-    /// Of a mesh and the soup that it was built of; none if places of the one are not in the other.
+    /// Maps a mesh and the soup that it was built from. `None` if some position of one is missing in the
+    /// other.
     #[must_use]
     pub fn of(mesh: &Mesh, soup: &Soup) -> Option<Self> {
         let places = mesh.positions.iter().zip(0..).map(|(p, vertex)| (bits(*p), vertex));
@@ -53,9 +55,10 @@ impl Sources {
 }
 
 impl Mesh {
-    /// This mesh with its vertices where `soup` has them: the same soup as that of `sources`, but that all has moved.
+    /// This mesh with the vertex positions of `soup`, which must be the soup of `sources` in another pose.
     ///
-    /// None if it is another soup, or if vertices have parted that are one in the mesh: then it must be built anew.
+    /// `None` if it is a different soup, or if welded vertices have separated. The mesh must then be built
+    /// again.
     #[must_use]
     pub fn posed(&self, sources: &Sources, soup: &Soup) -> Option<Self> {
         let Sources { vertices, first, triangles, normals } = sources;
@@ -108,7 +111,8 @@ impl Mesh {
     }
 }
 
-/// A place relative to the origin of a mesh, as building it computes it: the sum makes zeros positive.
+/// Position relative to the origin of a mesh, with the same operations as in [`Mesh::build`]; adding zero
+/// turns -0 into +0.
 fn local(p: DVec3, origin: DVec3) -> DVec3 {
     let p = p + DVec3::ZERO;
     if origin == DVec3::ZERO { p } else { p - origin }
@@ -140,7 +144,7 @@ mod tests {
         let sources = Sources::of(&rest, &soup(0.0, 0.0)).unwrap();
         let moved = rest.posed(&sources, &soup(3.0, 0.0)).unwrap();
         let built = Mesh::build(soup(3.0, 0.0));
-        // The order is that of the rest.
+        // Sorted, because the moved mesh keeps the order of the rest pose.
         let faces = |mesh: &Mesh| {
             let corner =
                 |vertex: u32| (mesh.positions[vertex as usize] + mesh.origin).to_array().map(f64::to_bits);

@@ -1,4 +1,4 @@
-//! [`Starts`]: the vertices at which the lines of a body begin, the same at all times of a clip.
+//! [`Starts`]: the vertices where the lines of a body start, the same throughout a clip.
 
 use glam::DVec3;
 use rustc_hash::FxHashSet;
@@ -9,41 +9,42 @@ use crate::animation::{Moment, Rigged};
 use crate::geometry::numbers::noise::hash;
 use crate::scene::Geometry;
 
-/// Of so many vertices that chance gives, the one farthest from all others is taken, so that lines do not crowd where the mesh
-/// is fine. (Mitchell 1991: the best of several candidates.)
+/// Number of random candidates per line. The candidate farthest from all chosen vertices is taken, so that
+/// lines do not crowd where the mesh is fine (best-candidate sampling, Mitchell 1991).
 const CANDIDATES: usize = 6;
 
-/// So many vertices tell where the middle of a body is.
+/// Number of vertices that define the centre of a body.
 const ANCHORS: usize = 64;
 
-/// A line of a body.
+/// Motion line of a body.
 pub(crate) struct Start {
-    /// Which one it is.
+    /// Index of the line.
     pub number: usize,
-    /// The vertex of the part at which it begins.
+    /// Vertex of the part where it starts.
     pub vertex: usize,
-    /// Whether the style says so.
+    /// Whether the style names the vertex.
     pub named: bool,
-    /// How long it is.
+    /// Length in segments.
     pub segments: usize,
-    /// The entry of the style's list that is for it.
+    /// Entry of the style's list that applies to it.
     pub rule: Option<usize>,
     pub visible: bool,
 }
 
-/// Where the lines of a body begin.
+/// Starts of the lines of a body.
 pub(crate) struct Starts {
     pub lines: Vec<Start>,
     /// Vertices spread over the body.
     pub anchors: Vec<usize>,
-    /// The material at the first line.
+    /// Material at the first line.
     pub material: Option<u32>,
-    /// Vertices that the style names and the part does not have.
+    /// Vertices that the style names, but the part lacks.
     pub missing: Vec<u32>,
 }
 
 impl Starts {
-    /// Chooses vertices of a body by chance: by where they rest, whatever their numbers, or as the style names them.
+    /// Chooses vertices of a body at random by their rest positions, independent of their numbers, or as the
+    /// style names them.
     pub fn new(rigged: &Rigged, body: &Body, options: &MotionOptions, seed: u64) -> Self {
         let mut own = Self { lines: Vec::new(), anchors: Vec::new(), material: None, missing: Vec::new() };
         let Some(part) = rigged.scene.parts.get(body.part) else { return own };
@@ -83,7 +84,7 @@ impl Starts {
         own
     }
 
-    /// How fast the vertices are that lines begin at, world units a second: their mean over a step.
+    /// Mean speed over a step of the vertices where lines start, world units per second.
     pub fn speed(&self, part: usize, [now, before]: [&Moment; 2], step: f64) -> f64 {
         let way =
             |line: &Start| Some(now.place(part, line.vertex)?.distance(before.place(part, line.vertex)?));
@@ -92,7 +93,7 @@ impl Starts {
     }
 }
 
-/// The vertices of a body that something is drawn with, one at each place, in an order by chance that rests on their places.
+/// The drawn vertices of a body, one per position, in a random order that depends only on positions.
 fn shuffled(geometry: &Geometry, body: &Body, seed: u64) -> Vec<usize> {
     let corners = geometry.triangles.as_flattened().iter().chain(geometry.wires.as_flattened());
     let mut met: FxHashSet<[u64; 3]> = FxHashSet::default();
@@ -108,7 +109,7 @@ fn shuffled(geometry: &Geometry, body: &Body, seed: u64) -> Vec<usize> {
     keyed.into_iter().map(|(_, vertex)| vertex).collect()
 }
 
-/// Takes vertices one by one, each far from those before it.
+/// Takes vertices one by one, each far from the earlier ones.
 struct Spread<'a> {
     geometry: &'a Geometry,
     left: Vec<usize>,
@@ -129,7 +130,7 @@ impl Spread<'_> {
                 best = Some((k, gap));
             }
         }
-        // A place that has a line already needs no second one.
+        // A position with a line needs no second one.
         best.filter(|(_, gap)| *gap > 0.0).map(|(k, _)| self.left.remove(k))
     }
 }

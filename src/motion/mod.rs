@@ -40,11 +40,11 @@ use moving_bodies::{Body, Choice, bodies};
 
 pub use options::{FadeBy, LineChange, MotionOptions, Path, Speed};
 
-/// Points of a trail for each of its segments: what bends is drawn as a curve, however long a segment is.
+/// Points of a trail per segment. Long segments of bent trails are therefore drawn as curves.
 pub const POINTS_A_SEGMENT: usize = 4;
 
-/// The scene while clips play, as [`Rigged::posed`] has it, with all in it that may leave motion lines if the options have them
-/// drawn. `seed` chooses the vertices at which lines begin.
+/// The scene while clips play, as [`Rigged::posed`] gives it. If the options enable motion lines, it includes
+/// the bodies that may leave them. `seed` selects the vertices where lines start.
 ///
 /// # Errors
 /// As [`Rigged::posed`].
@@ -61,7 +61,7 @@ pub fn posed(
     Ok(scene)
 }
 
-/// The bodies that move at a moment and may leave lines, and the ways of their vertices.
+/// The bodies that move at a moment and may leave lines, with the trails of their vertices.
 fn movers(
     rigged: &Rigged,
     playing: &[Playing],
@@ -71,7 +71,7 @@ fn movers(
 ) -> Vec<Mover> {
     let (choice, step) = (Choice::new(rigged, options), 1.0 / options.rate);
     let (now, before) = (rigged.at(playing), rigged.at(&earlier(playing, step)));
-    // Where each part of the file stands among those that are shown.
+    // Index of each part of the file among the visible parts.
     let mut places = 0..;
     let places: Vec<Option<usize>> = (0..rigged.scene.parts.len())
         .map(|part| now.is_shown(part).then(|| places.next()).flatten())
@@ -121,7 +121,7 @@ fn movers(
         .collect()
 }
 
-/// Of the joint of a body, the place of the next one that it hangs on among those of the same part.
+/// For the joint of a body, the index of its closest ancestor among the bodies of the same part.
 fn above(rigged: &Rigged, body: &Body, all: &[(usize, Body, Starts, bool)]) -> Option<usize> {
     let mut node = body.node;
     loop {
@@ -134,12 +134,12 @@ fn above(rigged: &Rigged, body: &Body, all: &[(usize, Body, Starts, bool)]) -> O
     }
 }
 
-/// The same clips some seconds before.
+/// The same clips at an earlier time.
 pub(crate) fn earlier(playing: &[Playing], seconds: f64) -> Vec<Playing> {
     playing.iter().map(|own| Playing { time: own.time - seconds, ..*own }).collect()
 }
 
-/// The ways of the vertices that lines begin at.
+/// The trails of the vertices where lines start.
 fn trails(part: usize, starts: &Starts, options: &MotionOptions, buffer: &[Moment]) -> Vec<Trail> {
     let middle = |moment: &Moment| {
         let places: Vec<DVec3> =
@@ -150,7 +150,7 @@ fn trails(part: usize, starts: &Starts, options: &MotionOptions, buffer: &[Momen
         Path::Vertex => Vec::new(),
         Path::Body => buffer.iter().map(middle).collect(),
     };
-    // A body that was scaled to zero comes out of nothing: its way begins where it has a size.
+    // A body scaled to zero appears from nothing. Its trail starts where it has a size.
     let places = |moment: &Moment| {
         let places = starts.anchors.iter().filter_map(|vertex| moment.place(part, *vertex));
         places.collect::<Vec<DVec3>>()
@@ -173,7 +173,7 @@ fn trails(part: usize, starts: &Starts, options: &MotionOptions, buffer: &[Momen
         .collect()
 }
 
-/// Leaves out of a way what lies before the place where it ran elsewhere than now by more than so many degrees.
+/// Cuts a trail where its direction first differs from the latest one by more than `degrees`.
 fn end_at_turn(points: &mut Vec<DVec3>, degrees: f64) {
     if degrees >= 180.0 {
         return;
@@ -189,7 +189,7 @@ fn end_at_turn(points: &mut Vec<DVec3>, degrees: f64) {
     }
 }
 
-/// Why no body leaves lines at a moment, in words; `None` if one does.
+/// A sentence that explains why no body leaves lines at a moment; `None` if one does.
 #[must_use]
 pub fn why_none(
     rigged: &Rigged,
@@ -222,11 +222,14 @@ pub fn why_none(
     Some(format!("no motion lines: {reason}"))
 }
 
-/// A triangle whose height is below this part of its longest side has no area: that of a body scaled to nothing is rounding.
+/// Least height of a triangle with area, as a share of its longest side. Bodies scaled to zero have flatter
+/// ones, by rounding.
 const MIN_HEIGHT_OF_SIDE: f64 = crate::geometry::numbers::tolerance::DEGENERATE_HEIGHT_OF_PART;
 
-/// Whether a body has a size: not after scaling to zero, when all its triangles are without area, or all vertices of a joint lie in
-/// one place. Wires always have one.
+/// Whether a body has a size.
+///
+/// It has none after scaling to zero: all its triangles lack area, or all vertices of a joint coincide.
+/// Bodies of wires always have one.
 fn has_extent(scene: &Scene, place: usize, body: &Body) -> bool {
     if body.is_joint() {
         let part = scene.parts.get(place);
@@ -244,7 +247,7 @@ fn has_extent(scene: &Scene, place: usize, body: &Body) -> bool {
     faces.is_empty() || faces.iter().any(has_area)
 }
 
-/// Whether several places are one, except for rounding.
+/// Whether several positions coincide except for rounding.
 fn is_point(mut places: impl Iterator<Item = DVec3>) -> bool {
     let Some(first) = places.next() else { return false };
     let mut count = 1;
@@ -255,7 +258,7 @@ fn is_point(mut places: impl Iterator<Item = DVec3>) -> bool {
     is_same && count > 1
 }
 
-/// The triangles of a body in the world.
+/// The triangles of a body, world.
 fn triangles(scene: &Scene, place: usize, body: &Body) -> Vec<[DVec3; 3]> {
     let Some(part) = scene.parts.get(place) else { return Vec::new() };
     let Some(geometry) = scene.geometries.get(part.geometry) else { return Vec::new() };

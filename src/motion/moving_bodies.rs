@@ -1,38 +1,38 @@
-//! Which bodies there are, and which of them leave lines.
+//! Bodies of a scene, and the choice of those that leave motion lines.
 
 use super::options::{MotionOptions, Speed};
 use crate::animation::Rigged;
 use crate::geometry::names::name_ids::identities;
 use crate::geometry::numbers::noise::hash;
 
-/// Where nothing else chooses bodies, those leave lines that go this part of the model's size in a second.
+/// Default speed limit in model sizes per second. Faster bodies leave lines if nothing else selects bodies.
 const FAST: f64 = 0.5;
 
-/// What moves as one: a part, or what a joint of its skin moves most.
+/// Unit of motion: a part, or the vertices that one joint of its skin moves most.
 pub(crate) struct Body {
-    /// The part, as it stands in the file.
+    /// Index of the part in the file.
     pub part: usize,
-    /// The node or joint that moves it.
+    /// Node or joint that moves it.
     pub node: usize,
-    /// What tells it from others at all times.
+    /// Stable identity at all times.
     pub identity: u64,
-    /// Of a skinned part, the vertices that are its own; of others all are.
+    /// For a skinned part, whether each vertex belongs to this body. `None` for other parts, where all do.
     own: Option<Vec<bool>>,
 }
 
 impl Body {
-    /// Whether it is what a joint of a skin moves.
+    /// Whether it is moved by a joint of a skin.
     pub fn is_joint(&self) -> bool {
         self.own.is_some()
     }
 
-    /// Whether a vertex of the part is one of its own.
+    /// Whether a vertex of the part belongs to it.
     pub fn holds(&self, vertex: u32) -> bool {
         self.own.as_ref().is_none_or(|own| own.get(vertex as usize).copied().unwrap_or(false))
     }
 }
 
-/// The bodies of those parts of a scene that move: parts, and those of skins joint by joint.
+/// The bodies of the moving parts of a scene: whole parts, and skinned parts joint by joint.
 pub(crate) fn bodies(rigged: &Rigged, moves: impl Fn(usize) -> bool) -> Vec<Body> {
     let (scene, rig) = (&rigged.scene, &rigged.rig);
     let parts = identities(scene.parts.iter().map(|part| part.name.as_str()));
@@ -62,15 +62,15 @@ pub(crate) fn bodies(rigged: &Rigged, moves: impl Fn(usize) -> bool) -> Vec<Body
     bodies
 }
 
-/// What chooses bodies: their names, the file, or their speed.
+/// Selection of bodies by name, by the file, or by speed.
 pub(crate) struct Choice<'a> {
-    /// Whether lines begin at a body that is fast enough on the page.
+    /// Whether bodies that are fast enough on the page leave lines.
     pub asks_page: bool,
     rigged: &'a Rigged,
     options: &'a MotionOptions,
-    /// Whether each node is chosen, or one that it hangs on.
+    /// Whether each node is selected, itself or through an ancestor.
     nodes: Vec<bool>,
-    /// The speed above which bodies are chosen, model units a second.
+    /// Speed above which bodies are selected, model units per second.
     pub speed: Option<f64>,
 }
 
@@ -95,7 +95,7 @@ impl<'a> Choice<'a> {
         Self { asks_page: matches!(options.speed, Some(Speed::Page(_))), rigged, options, nodes, speed }
     }
 
-    /// Whether a body leaves lines at a speed, wherever it is seen from.
+    /// Whether a body at a speed leaves lines in every view.
     pub fn takes(&self, body: &Body, speed: f64) -> bool {
         let named = |part: usize| {
             let name = self.rigged.scene.parts.get(part).map_or("", |part| &part.name);

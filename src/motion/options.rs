@@ -1,4 +1,5 @@
-//! [`MotionOptions`]: which bodies leave motion lines, and how these are drawn: the `[motion]` table of a style sheet.
+//! [`MotionOptions`]: which bodies leave motion lines and how these are drawn. This is the `[motion]` table
+//! of a style sheet.
 
 use std::fmt;
 
@@ -10,35 +11,37 @@ use crate::drawing::Length;
 use crate::geometry::names::glob::Glob;
 use crate::strokes::Ink;
 
-/// More lines a body, or more segments a line, than this are a mistake.
+/// Greatest number of lines per body, and of segments per line.
 const MOST: u32 = 1000;
 
-/// Strokes that come over more frames than this never are there.
+/// Greatest length of a fade, frames. Longer fades would hide short-lived strokes.
 const MOST_FRAMES: u32 = 24;
 
 /// Which bodies leave motion lines, and how these are drawn.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MotionOptions {
-    /// Draw motion lines at all. Default: false.
+    /// Whether motion lines are drawn. Default: false.
     pub enabled: bool,
-    /// How many lines a body leaves. Default: 7.
+    /// Number of lines per body. Default: 7.
     #[serde(deserialize_with = "count")]
     pub lines: u32,
-    /// How many segments long lines are. Default: 20.
+    /// Length of lines in segments. Default: 20.
     #[serde(deserialize_with = "count")]
     pub segments: u32,
-    /// How many segments stand for a second. Default: 24.
+    /// Segments per second. Default: 24.
     #[serde(deserialize_with = "rate")]
     pub rate: f64,
-    /// Names of parts, nodes and joints that leave lines, with all that hangs on them. Default: none.
+    /// Names of parts, nodes and joints that leave lines, together with their descendants. Default: none.
     #[serde(deserialize_with = "globs")]
     pub parts: Vec<Glob>,
-    /// The speed above which bodies leave lines. Default: half the model's size a second if nothing else chooses them.
+    /// Speed above which bodies leave lines. Default: half the model's size per second, if nothing else
+    /// selects bodies.
     pub speed: Option<Speed>,
-    /// Whose way lines show. Default: vertex.
+    /// Motion that lines follow. Default: vertex.
     pub path: Path,
-    /// A line ends where the way ran elsewhere than now by more than this many degrees; 180 = nowhere. Default: 150.
+    /// Greatest angle between a trail's directions now and earlier, degrees. Past it the line ends; 180 means
+    /// never. Default: 150.
     #[serde(deserialize_with = "angle")]
     pub turn: f64,
     /// Whether lines run over the body that leaves them, where they lie in front of it. Default: false.
@@ -48,26 +51,26 @@ pub struct MotionOptions {
     /// Colour of lines. Default: black.
     #[serde(alias = "color")]
     pub colour: Ink,
-    /// How much of its width a line loses up to its far end: 0 = nothing, 1 = all. Default: 0.
+    /// Share of the width lost towards the far end, 0 to 1. Default: 0.
     #[serde(deserialize_with = "part")]
     pub taper: f64,
-    /// The lines of a body that differ, in their order. Default: none.
+    /// Changes of single lines of a body, in order. Default: none.
     pub line: Vec<LineChange>,
-    /// Over how many frames strokes of an animation grow or fade that come or go. Default: 0.
+    /// Length of the fade of strokes that appear or disappear in an animation, frames. Default: 0.
     #[serde(deserialize_with = "frames")]
     pub fade: u32,
-    /// What such strokes lack. Default: width.
+    /// Property that fades. Default: width.
     pub fade_by: FadeBy,
 }
 
-/// What strokes lack that come or go.
+/// Property of strokes that fades.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum FadeBy {
-    /// They are thinner.
+    /// They become thinner.
     #[default]
     Width,
-    /// They are paler.
+    /// They become paler.
     Opacity,
 }
 
@@ -93,47 +96,47 @@ impl Default for MotionOptions {
     }
 }
 
-/// Whose way lines show.
+/// Motion that lines follow.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Path {
-    /// Each line that of the vertex it begins at: arcs behind what turns.
+    /// That of the vertex where the line starts: arcs behind rotating bodies.
     #[default]
     Vertex,
-    /// All lines that of the body's middle, moved to their vertices: how it went, not how it turned.
+    /// That of the body's centre, moved to each vertex: translation without rotation.
     Body,
 }
 
-/// A speed: above it bodies leave lines.
+/// Speed above which bodies leave lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Speed {
-    /// In model units a second. Written as a number.
+    /// Model units per second. Written as a number.
     Model(f64),
-    /// On the page, a second. Written as a string with a unit: `"200px"`.
+    /// Page length per second. Written as a string with a unit: `"200px"`.
     Page(Length),
 }
 
-/// How one line of a body differs from the others.
+/// Change of one line of a body.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LineChange {
-    /// Of which parts or joints, by name; all if it is left out.
+    /// Names of the parts or joints that it covers. Default: all.
     pub part: Option<Glob>,
-    /// The vertex it begins at, by its number in the part.
+    /// Number of the vertex in the part where the line starts.
     pub start: Option<u32>,
-    /// How many segments long it is.
+    /// Length in segments.
     #[serde(deserialize_with = "some_count")]
     pub length: Option<u32>,
-    /// Its width.
+    /// Width.
     pub width: Option<Length>,
-    /// Its colour.
+    /// Colour.
     #[serde(alias = "color")]
     pub colour: Option<Ink>,
-    /// Whether it is drawn; it is if this is left out.
+    /// Whether the line is drawn. Default: true.
     pub visible: Option<bool>,
 }
 
-/// A number of lines or segments.
+/// Reads a number of lines or segments.
 fn count<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
     let count = f64::deserialize(deserializer)?;
     if (1.0..=f64::from(MOST)).contains(&count) && count.fract() == 0.0 {
@@ -147,7 +150,7 @@ fn some_count<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u32>,
     count(deserializer).map(Some)
 }
 
-/// A number of frames.
+/// Reads a number of frames.
 fn frames<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
     let frames = f64::deserialize(deserializer)?;
     if (0.0..=f64::from(MOST_FRAMES)).contains(&frames) && frames.fract() == 0.0 {
@@ -159,7 +162,7 @@ fn frames<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
     }
 }
 
-/// So many a second.
+/// Reads a number per second.
 fn rate<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let rate = f64::deserialize(deserializer)?;
     if (1e-3..=1e4).contains(&rate) {
@@ -171,7 +174,7 @@ fn rate<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     }
 }
 
-/// An angle of 0 to 180 degrees.
+/// Reads an angle from 0 to 180 degrees.
 fn angle<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let degrees = f64::deserialize(deserializer)?;
     if (0.0..=180.0).contains(&degrees) {
@@ -181,12 +184,12 @@ fn angle<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     }
 }
 
-/// A part of a whole.
+/// Reads a share from 0 to 1.
 fn part<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Ok(crate::strokes::fraction::fraction(deserializer)?.unwrap_or_default())
 }
 
-/// One name or a list of them.
+/// Reads one name or a list of names.
 fn globs<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Glob>, D::Error> {
     struct Globs;
 
@@ -219,7 +222,7 @@ impl<'de> Deserialize<'de> for Speed {
     }
 }
 
-/// Reads either form by what it meets, so that errors keep their place in the sheet.
+/// Reads either form by its type, so that errors keep their position in the sheet.
 struct SpeedVisitor;
 
 impl Visitor<'_> for SpeedVisitor {

@@ -1,4 +1,4 @@
-//! [`Composed`]: a page with its drawings, and what there is to say of them.
+//! [`Composed`]: a page with its drawings and warnings.
 
 use crate::drawing::Composition;
 
@@ -7,6 +7,6 @@ use crate::drawing::Composition;
 pub struct Composed {
     /// The page, in mm.
     pub composition: Composition,
-    /// What could not be drawn as it was told, in words.
+    /// Warnings: keys that could not be followed.
     pub warnings: Vec<String>,
 }

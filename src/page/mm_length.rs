@@ -1,4 +1,4 @@
-//! [`Mm`]: a length on a page, where a number is one of millimetres.
+//! [`Mm`]: a length on a page, where a bare number is in millimetres.
 
 use std::fmt;
 
@@ -7,12 +7,12 @@ use serde::{Deserialize, Deserializer};
 
 use crate::drawing::{Length, Unit};
 
-/// A length on a page in mm; written as a number of mm, or as a string with a unit (`"0.25in"`). May be negative.
+/// A length on a page in mm: a number of mm, or a string with a unit (`"0.25in"`). May be negative.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd, Default)]
 pub struct Mm(pub f64);
 
 impl Mm {
-    /// Reads `5`, `5mm`, `0.2in`, `12pt`.
+    /// Parses `5`, `5mm`, `0.2in` or `12pt`.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let bare = text.trim().ends_with(|c: char| c.is_ascii_digit() || c == '.');
@@ -62,7 +62,7 @@ impl Visitor<'_> for MmVisitor {
     }
 }
 
-/// Longer ones, in mm, are slips of the finger.
+/// Largest length, mm; longer ones are typing errors.
 const LONGEST: f64 = 20_000.0;
 
 #[cfg(test)]

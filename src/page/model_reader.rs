@@ -1,4 +1,4 @@
-//! [`ModelReader`]: models in formats that only the caller can read.
+//! [`ModelReader`]: reads models in formats that only the caller supports.
 
 use std::fmt;
 use std::path::Path;
@@ -9,20 +9,20 @@ use crate::scene::Scene;
 
 type Read = dyn Fn(&Path) -> Result<Option<Scene>, Error> + Send + Sync;
 
-/// Reads models in formats that only the caller can read; none unless set.
+/// A function that reads models in further formats; by default there is none.
 #[derive(Clone, Default)]
 pub struct ModelReader(Option<Arc<Read>>);
 
 impl ModelReader {
-    /// A reader that returns `None` for models in other formats.
+    /// Wraps a function that returns `None` for formats that it does not support.
     pub fn new(read: impl Fn(&Path) -> Result<Option<Scene>, Error> + Send + Sync + 'static) -> Self {
         Self(Some(Arc::new(read)))
     }
 
-    /// The model, if it is in such a format.
+    /// Reads a model; `None` if its format is not supported.
     ///
     /// # Errors
-    /// Those of the reader.
+    /// The errors of the wrapped function.
     pub fn read(&self, path: &Path) -> Result<Option<Scene>, Error> {
         self.0.as_ref().map_or(Ok(None), |read| read(path))
     }

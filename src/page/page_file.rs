@@ -1,4 +1,7 @@
-//! [`PageFile`]: a page file that was read; each of its pages in the vocabulary of its kind.
+//! [`PageFile`]: a page file, with each page read by the keys of its kind.
+//!
+//! `[page]` holds one page or several (`[[page]]`), each with `kind = "comic"` or `kind = "sheet"`. `pages`
+//! names further page files, which are read in turn; cycles are errors.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -17,25 +20,25 @@ use crate::error::Error;
 use crate::scene::Scene;
 use crate::style::toml_reader::{self, Fault};
 
-/// What pages are of.
+/// Kinds of page.
 const KINDS: [&str; 2] = ["comic", "sheet"];
 
-/// The keys of a file.
+/// Keys of a page file.
 const KEYS: [&str; 2] = ["page", "pages"];
 
-/// A file holds no more pages than this, those of the files it names included.
+/// Maximum number of pages, including those of the files that it names.
 const MOST_PAGES: usize = 2000;
 
-/// A page file that was read.
+/// A page file that has been read.
 #[derive(Debug, Clone)]
 pub struct PageFile {
-    /// The pages, each with the file it is told in.
+    /// Each page with the file that contains it.
     pages: Vec<(Source, Kind)>,
-    /// The files that were read.
+    /// The page files that were read.
     files: Vec<PathBuf>,
 }
 
-/// A page in the vocabulary of its kind.
+/// The keys of a page, by kind.
 #[derive(Debug, Clone)]
 enum Kind {
     Comic(Box<ComicPage>),
@@ -43,20 +46,21 @@ enum Kind {
 }
 
 impl PageFile {
-    /// Reads a page file, and those it names.
+    /// Reads a page file and the files that it names.
     ///
     /// # Errors
-    /// If one cannot be read or names itself; names the line and the key that is wrong, and the nearest known one.
+    /// Returns an error if a file cannot be read or names itself. The error names the line, the wrong key and
+    /// the nearest known key.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let mut read = Self { pages: Vec::new(), files: Vec::new() };
         read.add_file(path.as_ref().to_path_buf(), &mut Vec::new())?;
         Ok(read)
     }
 
-    /// Reads the text of a page file; paths in it are relative to the folder of `path`, which need not be there.
+    /// Reads the text of a page file. Paths in it are relative to the folder of `path`, which need not exist.
     ///
     /// # Errors
-    /// As [`PageFile::open`].
+    /// The same as those of [`PageFile::open`].
     pub fn from_text(text: &str, path: impl AsRef<Path>) -> Result<Self, Error> {
         let mut read = Self { pages: Vec::new(), files: Vec::new() };
         let source = Source {
@@ -68,7 +72,7 @@ impl PageFile {
         Ok(read)
     }
 
-    /// Reads models in further formats by a function, which returns `None` for all others.
+    /// Sets a reader for models in other formats; it returns `None` for formats that it does not support.
     #[must_use]
     pub fn reading_models(
         mut self,
@@ -81,13 +85,13 @@ impl PageFile {
         self
     }
 
-    /// How many pages there are.
+    /// Number of pages.
     #[must_use]
     pub fn len(&self) -> usize {
         self.pages.len()
     }
 
-    /// Whether there is no page; no file is read that has none.
+    /// Whether there are no pages; always false for a file that was read.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.pages.is_empty()
@@ -108,10 +112,10 @@ impl PageFile {
         files
     }
 
-    /// The inks that the pages ask for.
+    /// The inks that the pages request.
     ///
     /// # Errors
-    /// At a key that is not what it should be, or that says another thing than a page before.
+    /// Returns an error if a key is invalid, or differs from that of an earlier page.
     pub fn print(&self) -> Result<Print, Error> {
         let mut print = Print::default();
         for (source, kind) in &self.pages {
@@ -122,11 +126,11 @@ impl PageFile {
         Ok(print)
     }
 
-    /// Draws all pages, in their order.
+    /// Draws all pages in order.
     ///
     /// # Errors
-    /// If a model, a style, a font or a camera cannot be read, and where what a page tells does not go together: each names the
-    /// line.
+    /// Returns an error with its line if a model, style, font or camera cannot be read, or keys contradict
+    /// each other.
     pub fn compose(&self) -> Result<Vec<Composed>, Error> {
         let compose = |(source, kind): &(Source, Kind)| match kind {
             Kind::Comic(page) => comic::compose(page, source),
@@ -135,7 +139,7 @@ impl PageFile {
         self.pages.iter().map(compose).collect()
     }
 
-    /// Reads a file; `above` are those that name it.
+    /// Reads a file; `above` are the files that lead to it.
     fn add_file(&mut self, path: PathBuf, above: &mut Vec<PathBuf>) -> Result<(), Error> {
         let bytes = fs::read(&path).map_err(|error| {
             Error::io("cannot read the page file", error)
@@ -197,7 +201,7 @@ impl PageFile {
     }
 }
 
-/// The pages under the key `page`: one, or several.
+/// The pages under the key `page`, one or more.
 fn listed(value: Spanned<DeValue>) -> Vec<Spanned<DeValue>> {
     let span = value.span();
     match value.into_inner() {
@@ -210,7 +214,7 @@ fn read<T: DeserializeOwned>(value: Spanned<DeValue>) -> Result<T, Fault> {
     toml_reader::from_value(value)
 }
 
-/// One page: `kind` says in which vocabulary the other keys are.
+/// Reads one page by the keys of its `kind`.
 fn read_page(mut page: Spanned<DeValue>, source: &Source) -> Result<Kind, Error> {
     let span = page.span();
     let advice = "write kind = \"comic\" or kind = \"sheet\"";

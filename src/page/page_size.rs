@@ -1,4 +1,4 @@
-//! [`Size`]: how large a page is when it is cut, by name or in lengths.
+//! [`Size`]: the trimmed size of a page, by name or as lengths.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use serde::{Deserialize, Deserializer};
 
 use super::mm_length::Mm;
 
-/// Sizes by name, upright, in mm.
+/// Named sizes in portrait format: width and height, mm.
 const SIZES: [(&str, f64, f64); 17] = [
     ("A0", 841.0, 1189.0),
     ("A1", 594.0, 841.0),
@@ -28,29 +28,29 @@ const SIZES: [(&str, f64, f64); 17] = [
     ("square", 210.0, 210.0),
 ];
 
-/// How large a page is when it is cut, in mm: written as a name (`"A4"`, `"US comic"`), as `"170x260mm"`, or as `[170, 260]`.
+/// The trimmed size of a page in mm: a name (`"A4"`, `"US comic"`), `"170x260mm"` or `[170, 260]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Size {
-    /// From left to right.
+    /// Width, mm.
     pub width: f64,
-    /// From top to bottom.
+    /// Height, mm.
     pub height: f64,
 }
 
 impl Default for Size {
-    /// A4, upright.
+    /// A4 in portrait format.
     fn default() -> Self {
         Self { width: 210.0, height: 297.0 }
     }
 }
 
 impl Size {
-    /// The names there are.
+    /// All named sizes.
     pub fn names() -> impl Iterator<Item = &'static str> {
         SIZES.iter().map(|(name, ..)| *name)
     }
 
-    /// Reads a name or `170x260mm`.
+    /// Parses a name or `170x260mm`.
     #[must_use]
     pub fn parse(text: &str) -> Option<Self> {
         let named = SIZES.iter().find(|(name, ..)| name.eq_ignore_ascii_case(text.trim()));
@@ -64,7 +64,7 @@ impl Size {
         Some(Self { width: width?.0, height: Mm::parse(height)?.0 }).filter(Self::is_one)
     }
 
-    /// The same, on its longer side.
+    /// The same size in landscape format.
     #[must_use]
     pub fn lying(self) -> Self {
         Self { width: self.width.max(self.height), height: self.width.min(self.height) }

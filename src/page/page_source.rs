@@ -1,4 +1,4 @@
-//! [`Source`]: the text of a page file, for errors that point into it and for paths beside it.
+//! [`Source`]: the text and path of a page file, for errors with a position and for relative paths.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -10,30 +10,31 @@ use crate::error::Error;
 use crate::style::sheet_errors;
 use crate::style::toml_reader::Fault;
 
-/// The text of a page file, and where it is.
+/// The text of a page file and its path.
 #[derive(Debug, Clone)]
 pub struct Source {
-    /// The path as the caller named it.
+    /// The path as the caller gave it.
     pub path: PathBuf,
     /// The text.
     pub text: String,
-    /// Reads the models that the file names and that are in other formats than ligne's own.
+    /// Reader for models in formats that ligne does not support itself.
     pub models: ModelReader,
 }
 
 impl Source {
-    /// An error about a place in the file: its line, with a caret below, and what to do.
+    /// An error at a position in the file, with the line, a caret and advice.
     #[must_use]
     pub fn fault(&self, span: &Range<usize>, message: &str, advice: &str) -> Error {
         sheet_errors::at_span(&self.text, span, message, Some(advice)).in_file(&self.path)
     }
 
-    /// An error of reading the file.
+    /// An error from reading the file.
     pub(crate) fn unread(&self, error: &Fault) -> Error {
         sheet_errors::in_sheet(&self.text, error).in_file(&self.path)
     }
 
-    /// An error of something that a place in the file names, told of that place where it does not tell a file itself.
+    /// An error about something that the file names. It is reported at that position, unless it already names
+    /// a file.
     #[must_use]
     pub fn about(&self, span: &Range<usize>, error: Error) -> Error {
         match &error.file {
@@ -46,7 +47,7 @@ impl Source {
         }
     }
 
-    /// An error about texts that the file holds, told of the line of the first one that is found in it.
+    /// An error about texts of the file. It is reported at the first text that is found in the file.
     #[must_use]
     pub fn about_text<'a>(&self, texts: impl IntoIterator<Item = &'a String>, error: Error) -> Error {
         let lines = texts.into_iter().filter_map(|text| text.lines().find(|line| !line.trim().is_empty()));
@@ -57,7 +58,7 @@ impl Source {
         }
     }
 
-    /// An error about a word that is none of those that are known: names the nearest one, or all.
+    /// An error about an unknown word; it names the nearest known word or all of them.
     #[must_use]
     pub fn unknown(&self, word: &Spanned<String>, what: &str, known: &[&str]) -> Error {
         let advice = match sheet_errors::nearest(word.get_ref(), known) {
@@ -67,18 +68,18 @@ impl Source {
         self.fault(&word.span(), &format!("there is no {what} `{}`", word.get_ref()), &advice)
     }
 
-    /// An error about a place within a text of the file, in bytes of that text.
+    /// An error at a position within a text of the file; `place` is in bytes of that text.
     #[must_use]
     pub fn within(&self, text: &Spanned<String>, place: &Range<usize>, message: &str, advice: &str) -> Error {
         let span = text.span();
-        // With escapes in it the text stands nowhere as it is.
+        // A text with escapes does not occur literally in the file.
         let raw = self.text.get(span.clone()).unwrap_or_default();
         let start = raw.find(text.get_ref().as_str()).map(|start| span.start + start);
         let place = start.map_or(span, |start| start + place.start..start + place.end);
         self.fault(&place, message, advice)
     }
 
-    /// A path that the file names: relative to its folder.
+    /// A path relative to the folder of the file.
     #[must_use]
     pub fn beside(&self, path: &str) -> PathBuf {
         self.folder().join(path)
@@ -90,10 +91,10 @@ impl Source {
         self.path.parent().unwrap_or(Path::new(""))
     }
 
-    /// A file that the page names.
+    /// The path of a file that must exist, relative to the folder of the page file.
     ///
     /// # Errors
-    /// If there is none.
+    /// Returns an error if there is no such file.
     pub fn existing(&self, path: &Spanned<String>, what: &str) -> Result<PathBuf, Error> {
         let found = self.beside(path.get_ref());
         if found.is_file() {

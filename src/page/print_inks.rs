@@ -1,4 +1,6 @@
-//! [`Print`]: the inks that page files ask for.
+//! [`Print`]: the inks that the pages of a file request.
+//!
+//! One file has one set of inks, so pages that set the same key must agree.
 
 use std::path::PathBuf;
 
@@ -9,23 +11,23 @@ use super::page_source::Source;
 use crate::colour::srgb::Colour;
 use crate::error::Error;
 
-/// Inks by name.
+/// Names of ink sets.
 const INKS: [&str; 3] = ["screen", "k", "cmyk"];
 
-/// What a page tells of its inks.
+/// The keys of a page for its inks.
 #[derive(Debug, Clone, Default)]
 pub struct PrintKeys {
     /// `screen`, `k` or `cmyk`.
     pub ink: Option<Spanned<String>>,
     /// The ICC profile of the press.
     pub icc: Option<Spanned<String>>,
-    /// All inks of a place together, percent of one.
+    /// Maximum total ink at a point, in percent of one ink.
     pub ink_limit: Option<Spanned<f64>>,
-    /// Colours with inks of their own.
+    /// Spot colours.
     pub spot: Option<Spanned<Spots>>,
 }
 
-/// One colour with an ink of its own, or several.
+/// One or more spot colours.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(
     untagged,
@@ -38,36 +40,36 @@ pub enum Spots {
     Several(Vec<SpotKeys>),
 }
 
-/// A colour with an ink of its own.
+/// A spot colour: a colour that is printed with its own ink.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SpotKeys {
-    /// The name of the ink, such as `PANTONE 185 C`.
+    /// Name of the ink, such as `PANTONE 185 C`.
     pub name: String,
-    /// The colour on the page that is printed with it.
+    /// The colour on the page that the ink replaces.
     #[serde(alias = "color")]
     pub colour: Colour,
 }
 
-/// The inks of the pages of a file: what all pages that tell of any agree on. Nothing is told of what is `None`.
+/// The inks of all pages of a file. A field is `None` if no page sets it.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Print {
     /// `screen`, `k` or `cmyk`.
     pub ink: Option<String>,
-    /// The file of the ICC profile of the press.
+    /// File of the ICC profile of the press.
     pub icc: Option<PathBuf>,
-    /// All inks of a place together, percent of one.
+    /// Maximum total ink at a point, in percent of one ink.
     pub ink_limit: Option<f64>,
-    /// Colours with inks of their own.
+    /// Spot colours.
     pub spots: Vec<SpotKeys>,
 }
 
 impl Print {
-    /// Adds what a page tells.
+    /// Adds the inks of a page.
     ///
     /// # Errors
-    /// At a key that is not what it should be, or that says another thing than a page before.
+    /// Returns an error if a key is invalid, or differs from that of an earlier page.
     pub(crate) fn add(&mut self, keys: &PrintKeys, source: &Source) -> Result<(), Error> {
         if let Some(ink) = &keys.ink {
             let name = ink.get_ref().to_ascii_lowercase();
@@ -114,7 +116,7 @@ impl Print {
     }
 }
 
-/// Takes a value, which is to be the same for all pages.
+/// Sets a value that must be the same for all pages.
 fn agree<T: PartialEq, K>(
     all: &mut Option<T>,
     own: T,

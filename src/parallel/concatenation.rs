@@ -1,14 +1,14 @@
-//! [`joined`]: lists one after the other.
+//! [`joined`]: concatenates lists in parallel.
 //!
-//! Memory that nobody has touched is cleared by the system when it first is: of long lists that takes longer than to copy
-//! them, and one thread that does it keeps all others waiting.
+//! The system clears memory pages when they are first touched. For long lists this takes longer than the copy
+//! itself, so all threads share it.
 
 use super::prelude::*;
 
-/// Values that one task copies at least.
+/// Minimum number of values that one task copies.
 const LEAST: usize = 1 << 12;
 
-/// All values of some lists, in their order, copied by all threads.
+/// Concatenates lists in their order, on all threads.
 pub fn joined<T: Copy + Send + Sync>(lists: &[Vec<T>]) -> Vec<T> {
     let mut starts = Vec::with_capacity(lists.len());
     let mut total = 0;
@@ -16,7 +16,7 @@ pub fn joined<T: Copy + Send + Sync>(lists: &[Vec<T>]) -> Vec<T> {
         starts.push(total);
         total += list.len();
     }
-    // Neighbours mostly are of one list.
+    // Consecutive values are mostly from one list.
     let value = |own: &mut usize, at: usize| match lists[*own].get(at.wrapping_sub(starts[*own])) {
         Some(value) => *value,
         None => {

@@ -1,15 +1,15 @@
-//! [`Spare`]: what tasks need one after the other, and would not make anew each.
+//! [`Spare`]: a pool of scratch objects that parallel tasks reuse.
 
 use std::sync::{Mutex, PoisonError};
 
-/// Things that are lent to one task at a time, as many as there are tasks at once.
+/// Pool of scratch objects, each lent to one task at a time.
 ///
-/// Lists that grow while a task works keep their room for the next one. What a task gets is as the one before left it.
+/// Objects are not reset: lists keep their capacity, and their content, between tasks.
 #[derive(Debug, Default)]
 pub(crate) struct Spare<T>(Mutex<Vec<T>>);
 
 impl<T: Default> Spare<T> {
-    /// Does some work with one of them.
+    /// Runs `work` with an object of the pool, or with a new one if all are lent.
     pub fn lend<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
         let mut one = self.0.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
         let result = work(&mut one);
@@ -32,7 +32,7 @@ mod tests {
                 other.extend([2, 3]);
             });
         });
-        // The last one that came back goes first.
+        // The object returned last is lent first.
         spare.lend(|one| {
             assert_eq!(*one, [1]);
             spare.lend(|other| assert_eq!(*other, [2, 3]));

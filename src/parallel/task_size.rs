@@ -1,6 +1,7 @@
-//! [`GRAIN`]: how small a task may be.
+//! [`GRAIN`]: the minimum size of a parallel task.
 
-/// The smallest piece of work for another thread, in vertices, edges or faces: a few nanoseconds each. A thread that sleeps
-/// takes some ten microseconds to wake, so that less is done sooner alone; a small part that is drawn has no more
-/// than some of these, and one thread would do all of it while the other waits.
+/// Minimum items (vertices, edges or faces) of a task for another thread, at a few nanoseconds each.
+///
+/// Waking a sleeping thread takes about 10 microseconds, so smaller tasks finish sooner on one thread. A
+/// larger value would leave a small part to a single thread.
 pub const GRAIN: usize = 1 << 11;

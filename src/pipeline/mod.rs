@@ -52,7 +52,7 @@ use crate::error::Error;
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
 
-/// Draws a scene on a page in px that is as large as the camera's frame.
+/// Draws a scene on a page in px with the size of the camera's frame.
 ///
 /// ```no_run
 /// use ligne::{render, scene::{Camera, Scene}, style::Style};
@@ -67,20 +67,20 @@ use crate::style::Style;
 /// ```
 ///
 /// # Errors
-/// If the camera can take no picture: see [`Camera::validate`].
+/// If the camera is invalid: see [`Camera::validate`].
 pub fn render(scene: &Scene, camera: &Camera, style: &Style) -> Result<Drawing, Error> {
     let page =
         Page { width: camera.width, height: camera.height, unit: Unit::Px, background: style.background };
     render_reported(scene, camera, style, page, None).map(|(drawing, _)| drawing)
 }
 
-/// Draws a scene on a page, with the camera's frame in the page's middle, and reports what it
-/// took. With a stage named, what that stage made is drawn instead.
+/// Draws a scene with the camera's frame centred on a page, and reports times and counts. With a stage named,
+/// draws the result of that stage instead.
 ///
 /// The report's load and write times and its path counts are left to the caller.
 ///
 /// # Errors
-/// If the camera can take no picture: see [`Camera::validate`].
+/// If the camera is invalid: see [`Camera::validate`].
 pub fn render_reported(
     scene: &Scene,
     camera: &Camera,

@@ -1,7 +1,7 @@
-//! [`on_threads`]: work that is begun on the threads that share it.
+//! [`on_threads`]: runs work on the threads of the pool.
 
-/// Does some work on one of the threads that parts of it are shared out to: whoever calls from another thread waits for them
-/// once, and not at each part.
+/// Runs work on a thread of the pool. A caller from another thread then waits once, instead of once per
+/// parallel part.
 pub(crate) fn on_threads<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     rayon_core::scope(|_| work())
 }

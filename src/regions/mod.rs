@@ -38,44 +38,44 @@ use cells::border_arcs::{OUTSIDE_PATCH, RawArc};
 use cells::triangulation::Triangulation;
 use labels::surface_label::NOTHING;
 
-/// A stretch of border between two regions.
+/// Border between two regions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Border {
-    /// The curve, in user units; both regions are painted up to it.
+    /// Curve in user units. Both regions are painted up to it.
     pub path: BezPath,
-    /// The regions on both sides: first the one that lies to the right of the path as the page is
-    /// seen (y down). None beyond the page and where there is only paper.
+    /// Regions on both sides, the one on the right of the path on the page (y down) first. None outside the
+    /// page and for paper.
     pub sides: [Option<u32>; 2],
-    /// Whether it closes on itself.
+    /// Whether it is closed.
     pub closed: bool,
 }
 
-/// A part of the page that looks alike and hangs together.
+/// Connected part of the page with one label.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Region {
-    /// What it looks like.
+    /// Its label.
     pub look: Look,
-    /// Its area, user units squared.
+    /// Area, user units squared.
     pub area: f64,
-    /// The loops around it and around its holes: borders by their number in [`Regions::borders`], and
-    /// whether they are run through from their start.
+    /// Loops around it and around its holes: indices into [`Regions::borders`], and whether each is passed
+    /// from its start.
     pub loops: Vec<Vec<(u32, bool)>>,
-    /// How its tone changes across it, where it is several steps of light.
+    /// Tones across it, if it joins several steps of light.
     pub ramp: Option<Ramp>,
 }
 
 /// All regions of a drawing.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Regions {
-    /// The regions.
+    /// All regions.
     pub regions: Vec<Region>,
-    /// Their borders.
+    /// All borders.
     pub borders: Vec<Border>,
-    /// Cells in which different looks were seen, because a line around them breaks off.
+    /// Number of cells with different labels, because a line around them has a gap.
     pub leaks: u64,
 }
 
-/// Gathers what looks alike: neighbours that differ in their bin of light only are one region.
+/// Collects regions of equal label. Neighbours that differ in hatching bin only are one region.
 #[must_use]
 pub fn gather(seen: &Seen, options: &RegionOptions, chain: &ChainOptions, unit: Unit) -> Regions {
     let (mut patches, table) = patches(seen, |look| Look { bin: 0, ..*look }, options, unit);
@@ -91,7 +91,7 @@ pub fn gather(seen: &Seen, options: &RegionOptions, chain: &ChainOptions, unit: 
     regions(&seen.cut, &patches, &table, ramps, &drawn)
 }
 
-/// Gathers what looks alike to a coarser eye.
+/// Collects regions after relabelling by `coarser`, which may make labels equal.
 pub(crate) fn gather_as(
     seen: &Seen,
     coarser: impl Fn(&Look) -> Look,
@@ -104,7 +104,7 @@ pub(crate) fn gather_as(
     regions(&seen.cut, &patches, &table, Vec::new(), &drawn)
 }
 
-/// What looks alike and hangs together, without crumbs.
+/// Patches of equal label, with small ones merged, and the table of labels.
 fn patches(
     seen: &Seen,
     coarser: impl Fn(&Look) -> Look,
@@ -116,9 +116,9 @@ fn patches(
     (cells::patches::gather(&seen.cut, &looks, NOTHING, 2.0 * crumb * crumb), table)
 }
 
-/// The patch that each triangle is painted with.
+/// Patch that each triangle is painted with.
 fn owners(patches: &cells::patches::Patches) -> Vec<u32> {
-    // All paper counts as one: there is no border within it, nor between it and what is beyond.
+    // All paper counts as one patch, together with the outside of the page.
     let is_paper = |patch: u32| patches.looks[patch as usize] == NOTHING;
     patches.of.iter().map(|patch| if is_paper(*patch) { OUTSIDE_PATCH } else { *patch }).collect()
 }
@@ -132,7 +132,7 @@ struct Drawn<'a> {
     unit: Unit,
 }
 
-/// The regions of painted patches, and their borders; `ramps` one a patch, or none.
+/// Regions and borders of painted patches. `ramps` has one entry per patch, or none.
 fn regions(
     cut: &Triangulation,
     patches: &cells::patches::Patches,
@@ -162,7 +162,7 @@ fn regions(
     Regions { regions, borders, leaks: drawn.leaks }
 }
 
-/// The curve of an arc.
+/// Fitted curve of an arc.
 fn curve(cut: &Triangulation, arc: &RawArc, drawn: &Drawn) -> BezPath {
     let at = |v: &u32| {
         let [x, y] = cut.points[*v as usize];
@@ -182,5 +182,5 @@ fn curve(cut: &Triangulation, arc: &RawArc, drawn: &Drawn) -> BezPath {
     chains::curve(&points, &arc.soft, arc.closed, tolerance::REGION_SNAP * drawn.step, &chain, drawn.unit)
 }
 
-/// Smoothing may move borders by no more than this, px: neighbours lie near to each other.
+/// Largest displacement of borders by smoothing, px. Neighbouring borders may be close to each other.
 const SMOOTH_PX: f64 = 0.1;

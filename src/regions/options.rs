@@ -1,44 +1,45 @@
-//! How regions are gathered and painted: part of the `[fills]` table of a style sheet.
+//! How regions are collected and painted: part of the `[fills]` table of a style sheet.
 
 use serde::{Deserialize, Serialize};
 
 use crate::drawing::Length;
 
-/// What lies under the border of two regions.
+/// Treatment of the border between two regions.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Seams {
-    /// The region painted first reaches a little under its neighbour, so that no paper shines
-    /// through where both are anti-aliased.
+    /// The region painted first extends a little under its neighbour. No paper shows through where both are
+    /// anti-aliased.
     #[default]
     Underlap,
-    /// Regions end at their borders.
+    /// Regions end at their border.
     Exact,
 }
 
-/// How the steps of light are painted.
+/// How steps of light are painted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum StepsAs {
-    /// Each in its own colour.
+    /// Each step in its own colour.
     #[default]
     Bands,
-    /// Where they lie side by side along straight, parallel borders, together in a gradient; elsewhere each in its own colour.
+    /// As one gradient where steps lie side by side along straight, parallel borders; elsewhere each in its
+    /// own colour.
     Gradients,
 }
 
-/// How regions are gathered and painted.
+/// How regions are collected and painted.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RegionOptions {
     /// Whether regions are painted at all. Default: false.
     pub enabled: bool,
     /// How steps of light are painted. Default: bands.
     pub steps_as: StepsAs,
-    /// What lies under borders. Default: underlap.
+    /// Treatment of borders. Default: underlap.
     pub seams: Seams,
-    /// How far a region reaches under its neighbour. Default: 0.6 px.
+    /// How far a region extends under its neighbour. Default: 0.6 px.
     pub underlap: Length,
-    /// Regions of less area than a square with this side go to a neighbour. Default: 2 px.
+    /// Regions with less area than a square of this side go to a neighbour. Default: 2 px.
     pub crumb: Length,
     /// How far a fitted border may lie from the exact one. Default: 0.05 px.
     pub fit_tolerance: Length,

@@ -1,4 +1,4 @@
-//! [`GlassOptions`]: materials that one sees through, and what becomes of them.
+//! [`GlassOptions`]: treatment of see-through materials.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -6,31 +6,32 @@ use serde::{Deserialize, Deserializer, Serialize};
 use super::{Geometry, Material, Scene};
 use crate::geometry::names::glob::Glob;
 
-/// What becomes of materials that one sees through.
+/// How see-through materials are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum GlassDraw {
-    /// They are drawn like all others.
+    /// Like all other materials.
     #[default]
     Opaque,
-    /// They are left out.
+    /// Left out.
     Absent,
-    /// They have their lines, and what is behind them is drawn in thinner ones, its colours mixed with theirs.
+    /// As glass: their own lines are drawn, and things behind them get thinner lines and mixed colours.
     Glass,
 }
 
-/// What becomes of materials that one sees through: the `[glass]` table of a style sheet.
+/// Treatment of see-through materials: the `[glass]` table of a style sheet.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct GlassOptions {
-    /// What becomes of them. Default: opaque.
+    /// How they are drawn. Default: opaque.
     pub draw: GlassDraw,
-    /// Materials that count as such whatever their file says; `*` stands for any letters. Default: none.
+    /// Materials that count as glass regardless of their opacity in the file; `*` matches any text. Default:
+    /// none.
     pub materials: Vec<Glob>,
-    /// How much of the colour of those is over what is behind them, 0 to 1, where the file does not say. Default: 0.35.
+    /// Opacity of these materials, 0 to 1, if the file does not give one. Default: 0.35.
     #[serde(deserialize_with = "fraction")]
     pub opacity: f64,
-    /// The part of their pen's width that lines behind glass have, 0 to 1. Default: 0.5.
+    /// Width of lines behind glass, as a fraction of their pen's width, 0 to 1. Default: 0.5.
     #[serde(deserialize_with = "fraction")]
     pub width: f64,
 }
@@ -41,11 +42,12 @@ impl Default for GlassOptions {
     }
 }
 
-/// Glass that is as clear as can be has this opacity all the same, so that it is seen.
+/// Minimum opacity of glass, so that fully transparent glass stays visible.
 const LEAST_OPACITY: f64 = 0.15;
 
 impl Material {
-    /// How opaque the file says the material is, 0 to 1: by the alpha of its colour, and by how much light it transmits.
+    /// Opacity of the material in the file, 0 to 1: alpha of its colour times the share of light that it does
+    /// not transmit.
     #[must_use]
     pub fn opacity(&self) -> f64 {
         f64::from(self.colour.a) / 255.0 * (1.0 - f64::from(self.transmission))
@@ -53,7 +55,7 @@ impl Material {
 }
 
 impl GlassOptions {
-    /// How opaque a material is that one sees through; none if one does not.
+    /// Opacity of a see-through material; `None` for an opaque one.
     #[must_use]
     pub fn opacity_of(&self, material: &Material) -> Option<f64> {
         let own = material.opacity();
@@ -63,8 +65,8 @@ impl GlassOptions {
         self.materials.iter().any(|glob| glob.matches(&material.name)).then_some(self.opacity)
     }
 
-    /// How opaque the materials of a scene are that one sees through, by their index; empty if one sees through none, or they are
-    /// not to be drawn as `draw` says.
+    /// Opacity of each see-through material of a scene, by index. Empty if there is none, or if they are
+    /// drawn in another way than `draw`.
     #[must_use]
     pub fn opacities(&self, scene: &Scene, draw: GlassDraw) -> Vec<Option<f64>> {
         if self.draw != draw {
@@ -75,7 +77,7 @@ impl GlassOptions {
     }
 }
 
-/// A scene without the triangles of some materials.
+/// Copy of a scene without the triangles of some materials.
 pub(crate) fn without(scene: &Scene, is_gone: impl Fn(usize) -> bool) -> Scene {
     let mut left = scene.clone();
     for geometry in &mut left.geometries {
@@ -95,7 +97,7 @@ pub(crate) fn without(scene: &Scene, is_gone: impl Fn(usize) -> bool) -> Scene {
     left
 }
 
-/// Keeps what stays of a list; one may be empty.
+/// Keeps the marked items of a list that may be empty.
 fn keep<T>(list: &mut Vec<T>, stays: &[bool]) {
     let mut stays = stays.iter();
     list.retain(|_| stays.next().copied().unwrap_or(true));

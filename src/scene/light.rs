@@ -2,29 +2,29 @@
 
 use glam::DVec3;
 
-/// What a light is like.
+/// Kind and geometry of a light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum LightKind {
-    /// Parallel light; `direction` is the way it travels, unit length.
+    /// Parallel light.
     Directional {
-        /// Way the light travels, in world space, unit length.
+        /// Direction of travel of the light, in world space, unit length.
         direction: DVec3,
     },
     /// Light from a point in all directions.
     Point {
-        /// Where it is, in world space.
+        /// Position in world space.
         position: DVec3,
     },
     /// Light from a point into a cone.
     Spot {
-        /// Where it is, in world space.
+        /// Position in world space.
         position: DVec3,
-        /// Axis of the cone, away from the light, unit length.
+        /// Axis of the cone, pointing away from the light, unit length.
         direction: DVec3,
-        /// Half angle inside which the light is full, radians.
+        /// Half angle within which the light has full intensity, radians.
         inner_angle: f64,
-        /// Half angle outside which there is none, radians.
+        /// Half angle outside which there is no light, radians.
         outer_angle: f64,
     },
 }
@@ -38,8 +38,8 @@ pub struct Light {
     pub kind: LightKind,
     /// Linear RGB, 0 to 1.
     pub colour: [f32; 3],
-    /// Brightness as in the file (lux or candela).
+    /// Brightness as stored in the file (lux or candela).
     pub intensity: f64,
-    /// Distance beyond which it gives no light.
+    /// Maximum distance that the light reaches.
     pub range: Option<f64>,
 }

@@ -1,47 +1,46 @@
-//! Materials, as far as a drawing needs them.
+//! Materials, reduced to what a drawing needs.
 
 use std::sync::Arc;
 
 use crate::colour::srgb::Colour;
 
-/// How a surface looks.
+/// Appearance of a surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Material {
     /// Name in the file; may be empty.
     pub name: String,
     /// Base (diffuse) colour, sRGB.
     pub colour: Colour,
-    /// Light of its own, sRGB.
+    /// Emitted light, sRGB.
     pub emissive: Colour,
-    /// Whether the file asks for both sides to be seen. ligne draws both sides always; kept for
-    /// shading.
+    /// Whether both sides are visible according to the file. ligne always draws both sides; kept for shading.
     pub double_sided: bool,
     /// Path of the base-colour texture relative to the model, if it is a file.
     pub texture: Option<String>,
-    /// The base-colour texture, still encoded, if it is inside the model's file.
+    /// Encoded base-colour texture, if it is inside the model's file.
     pub picture: Option<Arc<[u8]>>,
-    /// What becomes of the alpha of the base colour and of its texture.
+    /// Interpretation of the alpha of base colour and texture.
     pub alpha: Alpha,
-    /// How it shines, if its file says so.
+    /// Gloss, if the file gives it.
     pub gloss: Option<Gloss>,
-    /// How much light goes through it, 0 to 1, beside what its alpha says.
+    /// Share of light that is transmitted, 0 to 1, in addition to the alpha.
     pub transmission: f32,
-    /// Path of a picture that says how opaque the material is, relative to the model (`map_d` in MTL).
+    /// Path of an opacity map relative to the model (`map_d` in MTL).
     pub opacity_map: Option<String>,
-    /// How the texture goes on beyond its borders, along u and along v.
+    /// Wrapping of the texture along u and along v.
     pub wrap: [Wrap; 2],
-    /// What is between the texels of the texture.
+    /// Interpolation between the texels of the texture.
     pub filter: Filter,
-    /// Where the texture lies on its coordinates (`-s` and `-o` in MTL).
+    /// Scale and offset of texture coordinates (`-s` and `-o` in MTL).
     pub placing: Placing,
 }
 
-/// Where a texture lies on its coordinates: it is looked up at (u, v) · scale + offset.
+/// Scale and offset of texture coordinates: the texture is sampled at (u, v) · scale + offset.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placing {
-    /// How often it comes along u and along v where it came once.
+    /// Repetitions along u and along v per unit of the original coordinates.
     pub scale: [f32; 2],
-    /// By how much it is shifted back, as parts of it.
+    /// Offset in units of the texture.
     pub offset: [f32; 2],
 }
 
@@ -51,53 +50,53 @@ impl Default for Placing {
     }
 }
 
-/// How a material shines, by its file.
+/// Highlights of a material.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gloss {
-    /// The exponent of its highlights (Blinn-Phong): `Ns` of MTL; of a roughness r in glTF 2/r⁴ − 2.
+    /// Blinn-Phong exponent: `Ns` of MTL, or 2/r⁴ − 2 for a glTF roughness r.
     pub exponent: f32,
-    /// How strong they are, 0 to 1: the greatest channel of `Ks` in MTL, 1 − roughness in glTF.
+    /// Strength, 0 to 1: greatest channel of `Ks` in MTL, or 1 − roughness in glTF.
     pub strength: f32,
 }
 
-/// What becomes of alpha.
+/// Interpretation of alpha.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum Alpha {
-    /// It says nothing.
+    /// Alpha is ignored.
     #[default]
     Opaque,
-    /// What of the texture has less is cut away.
+    /// Surface with texture alpha below the cutoff is removed.
     Mask {
-        /// The least alpha of the texture that is left, 0 to 1.
+        /// Minimum texture alpha that remains, 0 to 1.
         cutoff: f32,
     },
-    /// The surface is as opaque as it says. Where some of the texture is wholly clear, as between leaves, what has less than
-    /// half of its most is cut away.
+    /// Alpha is the opacity of the surface. If parts of the texture are fully transparent, as between leaves,
+    /// surface below half the maximum alpha is removed.
     Blend,
 }
 
-/// How a texture goes on beyond its borders.
+/// Continuation of a texture outside its borders.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Wrap {
-    /// It begins again.
+    /// Repeats from the start.
     #[default]
     Repeat,
-    /// Its border goes on.
+    /// Repeats the border texel.
     Clamp,
-    /// It goes back and forth.
+    /// Alternates between forward and mirrored.
     Mirror,
 }
 
-/// What is between the texels of a texture.
+/// Interpolation between the texels of a texture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum Filter {
-    /// They pass into each other.
+    /// Bilinear.
     #[default]
     Smooth,
-    /// Nothing: each is a block of one colour.
+    /// Nearest texel: each texel is a block of one colour.
     Blocks,
 }
 

@@ -54,55 +54,58 @@ pub use warnings::Warnings;
 
 use crate::error::{Error, ErrorKind};
 
-/// Which axis of the file points up.
+/// Axis of the file that points up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum UpAxis {
-    /// y, as glTF demands.
+    /// y, as glTF specifies.
     #[default]
     Y,
-    /// z, as CAD programs have it.
+    /// z, as is usual in CAD.
     Z,
 }
 
 /// A camera of the model file, with its name.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedCamera {
-    /// The name in the file; `camera 0` and so on where it has none.
+    /// Name in the file, or `camera 0` and so on.
     pub name: String,
-    /// The camera, with a frame of 1000 x 1000 px or of the file's aspect ratio.
+    /// The camera, with a frame of 1000 x 1000 px or the aspect ratio of the file.
     pub camera: Camera,
 }
 
-/// What a model file holds: parts that instance geometries, materials, lights, cameras.
+/// Content of a model file: parts that instance geometries, materials, lights, cameras.
 #[derive(Debug, Clone, Default)]
 pub struct Scene {
-    /// The file it was read from.
+    /// File that it was read from.
     pub file: Option<PathBuf>,
-    /// `OBJ`, `glTF`, `STL`, `PLY`.
+    /// Format: `OBJ`, `glTF`, `STL` or `PLY`.
     pub format: &'static str,
-    /// Which axis points up.
+    /// Axis that points up.
     pub up: UpAxis,
-    /// Shapes, each stored once however often it is shown.
+    /// Geometries, each stored once regardless of its number of instances.
     pub geometries: Vec<Geometry>,
-    /// What is shown: one entry an instance, in file order.
+    /// Instances of geometries, in file order.
     pub parts: Vec<Part>,
-    /// Materials that geometries point to by index; may be empty.
+    /// Materials, indexed by geometries; may be empty.
     pub materials: Vec<Material>,
-    /// The file's lights, in world space.
+    /// Lights of the file, in world space.
     pub lights: Vec<Light>,
-    /// The file's cameras, in world space.
+    /// Cameras of the file, in world space.
     pub cameras: Vec<NamedCamera>,
-    /// Vertices of the file that no face or line uses and that no geometry holds.
+    /// Number of vertices that no face or line uses and that no geometry contains.
     pub unused_vertices: u64,
-    /// What moves at this moment and may leave motion lines; `None` where nobody asked (see [`crate::motion`]).
+    /// Moving bodies at this moment that may leave motion lines; `None` if motion was not requested (see
+    /// [`crate::motion`]).
     pub movers: Option<Vec<Mover>>,
-    /// What had to be dropped or mended while reading.
+    /// Things that were dropped or repaired while reading.
     pub warnings: Warnings,
 }
 
 impl Scene {
-    /// A scene of one part that a program made: positions, and the corners of each triangle as indices of
-    /// them, counter-clockwise seen from outside. Its y axis points up; set [`Scene::up`] if another does.
+    /// Makes a scene of one part from positions and triangles, for models that a program generates.
+    ///
+    /// Triangles are indices of positions, counter-clockwise from outside. The y axis points up; set
+    /// [`Scene::up`] for another axis.
     ///
     /// ```
     /// use ligne::{Camera, Scene, Style, render};
@@ -115,8 +118,8 @@ impl Scene {
     /// ```
     ///
     /// # Errors
-    /// Names the first triangle with an index that points nowhere, or the first position that is not finite;
-    /// and says if there is nothing to draw.
+    /// Names the first triangle with an index out of range, or the first position that is not finite. Also
+    /// fails if there is nothing to draw.
     pub fn from_triangles(
         positions: impl IntoIterator<Item = impl Into<DVec3>>,
         triangles: impl IntoIterator<Item = [u32; 3]>,
@@ -140,7 +143,7 @@ impl Scene {
     }
 }
 
-/// The scene, unless there is nothing in it to draw.
+/// Returns the scene, unless it has nothing to draw.
 ///
 /// # Errors
 /// If it has neither triangles nor wires.
@@ -152,7 +155,8 @@ pub(crate) fn drawable(scene: Scene) -> Result<Scene, Error> {
     Err(nothing_to_draw(&scene.warnings, points))
 }
 
-/// The error of a file without a face or a line that can be drawn: what was left out of it, or whether it has points.
+/// Error for a file without a drawable face or line: lists the elements that were left out, or mentions
+/// points.
 pub(crate) fn nothing_to_draw(warnings: &Warnings, has_points: bool) -> Error {
     let left_out: Vec<String> =
         warnings.lines().into_iter().filter(|line| line.contains("left out")).collect();

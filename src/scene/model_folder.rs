@@ -1,4 +1,4 @@
-//! Files that a model names: read only from the folder of the model, and found there by another spelling of their name.
+//! Files that a model refers to: read only from the folder of the model, and found there by similar names.
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
@@ -7,16 +7,17 @@ use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 
-/// Names of a folder that are looked at, at most.
+/// Maximum number of names that are read from a folder.
 const MAX_NAMES: usize = 1 << 16;
 
-/// Steps of a path, counted from its end, that are looked for in the model's folder, at most.
+/// Maximum number of steps of a path, counted from its end, that are searched in the model's folder.
 const MAX_STEPS: usize = 16;
 
-/// The bytes of a file beside the model, by the name the model calls it.
+/// Reads a file next to the model, by the name that the model uses.
 ///
 /// # Errors
-/// If the name, or a link it stands for, leads outside the model's folder, or the file cannot be read.
+/// If the name, or a link that it stands for, leads outside the model's folder, or if the file cannot be
+/// read.
 pub fn read_beside(model: &Path, name: &str) -> Result<Vec<u8>, Error> {
     if !stays_inside(name) {
         return Err(Error::new(format!("{name} is outside the model's folder")).in_file(model));
@@ -32,7 +33,7 @@ pub fn read_beside(model: &Path, name: &str) -> Result<Vec<u8>, Error> {
     fs::read(&path).map_err(|e| Error::io("cannot be read", e).in_file(path))
 }
 
-/// Whether a relative path, written with slashes, stays inside the folder it starts from.
+/// Whether a relative path, written with slashes, stays inside the folder that it starts from.
 #[must_use]
 pub fn stays_inside(path: &str) -> bool {
     let mut depth = 0_i32;
@@ -46,16 +47,16 @@ pub fn stays_inside(path: &str) -> bool {
             return false;
         }
     }
-    // A colon is a drive or a protocol.
+    // A colon belongs to a drive or a protocol.
     !path.starts_with(['/', '\\']) && !path.contains([':', '\0'])
 }
 
-/// The folder that a model lies in.
+/// The folder of a model.
 fn folder_of(model: &Path) -> &Path {
     model.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Whether a file lies in a folder once links are followed.
+/// Whether a file is in a folder, after links are resolved.
 fn is_within(folder: &Path, file: &Path) -> bool {
     match (folder.canonicalize(), file.canonicalize()) {
         (Ok(folder), Ok(file)) => file.starts_with(folder),
@@ -63,39 +64,41 @@ fn is_within(folder: &Path, file: &Path) -> bool {
     }
 }
 
-/// The files in a model's folder and in those below it. Each folder is listed once.
+/// The files in a model's folder and its sub-folders. Each folder is listed once.
 #[derive(Debug)]
 pub(crate) struct Neighbours {
     folder: PathBuf,
-    /// The names in each folder listed so far, by their lower case; the folders as seen from the model.
+    /// Names in each listed folder, keyed by their lower case. Folders are relative to the model.
     listed: RefCell<BTreeMap<String, BTreeMap<String, Vec<String>>>>,
 }
 
 impl Neighbours {
-    /// Those of a model file.
+    /// Starts with no folder listed.
     pub fn of(model: &Path) -> Self {
         Self { folder: folder_of(model).to_path_buf(), listed: RefCell::default() }
     }
 
-    /// Whether a path, as seen from the model and written with slashes, is that of a file in its folder.
+    /// Whether a path relative to the model, written with slashes, is a file inside its folder.
     pub fn has(&self, path: &str) -> bool {
         let file = self.folder.join(path);
         stays_inside(path) && file.is_file() && is_within(&self.folder, &file)
     }
 
-    /// The file that a name may mean if there is none of exactly this name, as seen from the model: the one at the longest
-    /// end of the path that is there, in any letter case. `C:\work\maps\Wall.PNG` is `maps/wall.png`, or else `wall.png`.
+    /// Finds the file that a name may refer to if no file has exactly this name. Returns its path relative to
+    /// the model.
     ///
-    /// The path is looked for in `below`, the folder of the file that names it (empty, or with a slash at its end), and then
-    /// next to the model. Of several names that differ in case only, the first in alphabetical order is taken.
+    /// Takes the longest end of the path that exists, in any letter case: `C:\work\maps\Wall.PNG` is
+    /// `maps/wall.png`, or else `wall.png`. The search begins in `below`, the folder of the file that
+    /// contains the name (empty, or ending with a slash), and continues next to the model. Of several names
+    /// that differ only in case, it takes the first in alphabetical order.
     pub fn find(&self, below: &str, name: &str) -> Option<String> {
         let mut steps: Vec<&str> = Vec::new();
         for step in name.split(['/', '\\']) {
             match step {
                 "" | "." => {}
-                // What stands before leads elsewhere.
+                // The steps before `..` lead elsewhere.
                 ".." => steps.clear(),
-                // A drive or a protocol.
+                // Drive or protocol.
                 _ if step.contains([':', '\0']) => steps.clear(),
                 _ => steps.push(step),
             }
@@ -109,7 +112,7 @@ impl Neighbours {
         })
     }
 
-    /// The file at some steps below a folder, in any letter case.
+    /// Path of the file at the end of some steps below a folder, in any letter case.
     fn spelt(&self, folder: &str, steps: &[&str]) -> Option<String> {
         let mut path = folder.to_owned();
         for step in steps {
@@ -123,7 +126,7 @@ impl Neighbours {
         self.has(&path).then_some(path)
     }
 
-    /// The names in a folder that are alike except for their case, in alphabetical order.
+    /// Names in a folder that differ from each other only in case, in alphabetical order.
     fn names(&self, folder: &str, lower: &str) -> Vec<String> {
         let mut listed = self.listed.borrow_mut();
         if !listed.contains_key(folder) {
@@ -161,7 +164,7 @@ mod tests {
         }
     }
 
-    /// A folder of files, gone when it is dropped.
+    /// Temporary folder, deleted when dropped.
     struct Folder(PathBuf);
 
     impl Folder {

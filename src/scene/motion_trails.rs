@@ -1,37 +1,38 @@
-//! [`Mover`]: a body that moves, and the ways that some of its vertices have come.
+//! [`Mover`]: a moving body, and the paths of some of its vertices.
 
 use glam::DVec3;
 
-/// A body that moves as one (a part, or what a joint of its skin moves) and may leave motion lines.
+/// A body that moves as one (a part, or the vertices of a skin's joint) and may leave motion lines.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mover {
-    /// Its part, an index into [`super::Scene::parts`].
+    /// Index of its part in [`super::Scene::parts`].
     pub part: usize,
-    /// The material where its first line begins.
+    /// Material at the start of its first line.
     pub material: Option<u32>,
-    /// What tells it from others at all times of a clip.
+    /// Identity, the same at all times of a clip.
     pub identity: u64,
-    /// Of a joint, which of the movers it hangs on; those that hang together and leave lines share the lines of one body.
+    /// For a joint, the index of its parent mover. Connected movers that leave lines share the lines of one
+    /// body.
     pub above: Option<usize>,
-    /// Whether it leaves lines wherever it is seen from; else it does if it is fast enough on the page.
+    /// Whether it always leaves lines; otherwise only if it is fast enough on the page.
     pub chosen: bool,
-    /// Seconds from a point of a trail to the next one.
+    /// Seconds between consecutive points of a trail.
     pub interval: f64,
-    /// The ways of its vertices.
+    /// Paths of its vertices.
     pub trails: Vec<Trail>,
-    /// Its triangles in the world now; its lines are not drawn over them.
+    /// Its triangles in world space at this moment; its lines are not drawn over them.
     pub body: Vec<[DVec3; 3]>,
 }
 
-/// The way that a vertex has come.
+/// Path of a vertex.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trail {
-    /// Which of the lines of its mover it is.
+    /// Number of the line among those of its mover.
     pub line: usize,
-    /// Whether the style says where it begins.
+    /// Whether the style gives its start.
     pub named: bool,
-    /// Which entry of the style's list of lines is for it, if one is.
+    /// Index in the style's list of lines, if one applies.
     pub rule: Option<usize>,
-    /// Where it was in the world: now, an interval ago, and so on.
+    /// World positions: now, an interval ago, and so on.
     pub points: Vec<DVec3>,
 }

@@ -1,11 +1,11 @@
-//! Choosing parts by name.
+//! Selection of parts by name.
 
 use super::Scene;
 
 impl Scene {
-    /// Keeps the parts whose names match one of `only` (all, if it is empty) and none of `hide`.
+    /// Keeps the parts whose names match a pattern of `only` (all, if it is empty) and none of `hide`.
     ///
-    /// `*` stands for any characters, `?` for any one; case counts.
+    /// `*` matches any characters, `?` any one; letter case matters.
     pub fn keep_parts(&mut self, only: &[String], hide: &[String]) {
         let matches = |globs: &[String], name: &str| globs.iter().any(|glob| glob_matches(glob, name));
         let stays = |name: &str| (only.is_empty() || matches(only, name)) && !matches(hide, name);
@@ -13,7 +13,8 @@ impl Scene {
         self.retain_parts(&keep);
     }
 
-    /// Keeps the parts that are told; gives for each part the number that it has now, or would have.
+    /// Keeps the parts marked in `keep`. Returns a new index for each old part: for a removed one, that of
+    /// the next remaining part.
     pub(crate) fn retain_parts(&mut self, keep: &[bool]) -> Vec<usize> {
         let stays = |part: usize| keep.get(part).copied().unwrap_or(false);
         let mut place = 0;
@@ -35,12 +36,12 @@ impl Scene {
     }
 }
 
-/// Whether the whole name fits the pattern.
+/// Whether the pattern matches the whole name.
 #[must_use]
 pub fn glob_matches(glob: &str, name: &str) -> bool {
     let (glob, name): (Vec<char>, Vec<char>) = (glob.chars().collect(), name.chars().collect());
     let (mut g, mut n) = (0, 0);
-    // After a failure the last star takes one character more: no other choice need be undone.
+    // After a mismatch the last star takes one more character. Earlier choices never need to be undone.
     let mut star = None;
     while n < name.len() {
         match glob.get(g) {

@@ -1,4 +1,4 @@
-//! Shapes and the parts that show them.
+//! Geometries, and the parts that instance them.
 
 use glam::{DAffine3, DVec3};
 
@@ -6,44 +6,44 @@ use crate::geometry::numbers::tolerance::F32_STEP;
 use crate::mesh::EdgeMark;
 use crate::mesh::normals::triangle_area::has_own_area;
 
-/// A shape: triangles and wires in its own space.
+/// Triangles and wires in local space.
 ///
-/// Arrays "per triangle" are as long as `triangles`, or empty where the file says nothing.
+/// Arrays with one entry per triangle are as long as `triangles`, or empty if the file has no such data.
 #[derive(Debug, Clone, Default)]
 pub struct Geometry {
     /// Vertex positions, finite.
     pub positions: Vec<DVec3>,
-    /// Vertices of each triangle, counter-clockwise seen from outside; each below
-    /// `positions.len()`. Polygons are already triangulated.
+    /// Vertices of each triangle, counter-clockwise from outside; each below `positions.len()`. Polygons are
+    /// already triangulated.
     pub triangles: Vec<[u32; 3]>,
-    /// Material of each triangle, an index into [`super::Scene::materials`]; empty: `material`.
+    /// Material of each triangle, an index into [`super::Scene::materials`]. If empty, `material` applies.
     pub triangle_material: Vec<u32>,
-    /// Material of all triangles if `triangle_material` is empty, and of the wires.
+    /// Material of the wires, and of all triangles if `triangle_material` is empty.
     pub material: Option<u32>,
-    /// Normals of the file, to which `corner_normals` points; not necessarily of unit length.
+    /// Normals of the file, indexed by `corner_normals`; not necessarily of unit length.
     pub normals: Vec<[f32; 3]>,
-    /// For each triangle the normals of its corners (`u32::MAX` = none), or empty.
+    /// Normals of each triangle's corners (`u32::MAX` = none), or empty.
     pub corner_normals: Vec<[u32; 3]>,
-    /// Texture coordinates, to which `corner_uvs` points.
+    /// Texture coordinates, indexed by `corner_uvs`.
     pub uvs: Vec<[f32; 2]>,
-    /// For each triangle the texture coordinates of its corners (`u32::MAX` = none), or empty.
+    /// Texture coordinates of each triangle's corners (`u32::MAX` = none), or empty.
     pub corner_uvs: Vec<[u32; 3]>,
-    /// Linear RGBA of each vertex, not finite for one without a colour; or empty.
+    /// Linear RGBA of each vertex, not finite for a vertex without a colour; or empty.
     pub colours: Vec<[f32; 4]>,
-    /// For each triangle the marks of its sides 0-1, 1-2, 2-0, or empty.
+    /// Marks of each triangle's sides 0-1, 1-2, 2-0, or empty.
     pub edge_marks: Vec<[EdgeMark; 3]>,
-    /// Line segments that belong to no face.
+    /// Line segments without a face.
     pub wires: Vec<[u32; 2]>,
     /// Whether the positions were stored in single precision.
     pub single_precision: bool,
-    /// The step of the lattice to which the file rounded the positions, local units: a decimal of a text, a step of whole
-    /// numbers; 0 where it is not known, and for single precision.
+    /// Rounding step of the file's positions, in local units: a decimal of a text, or a step of integers.
+    /// Zero if unknown, and for single precision.
     pub lattice_step: f64,
 }
 
 impl Geometry {
-    /// The distance between neighbouring coordinates that the file could have written, at its largest coordinate, local units;
-    /// 0 for numbers in double precision.
+    /// Distance between neighbouring coordinates that the file could store, at its largest coordinate, in
+    /// local units; 0 for double precision.
     #[must_use]
     pub fn step(&self) -> f64 {
         if !self.single_precision {
@@ -52,8 +52,8 @@ impl Geometry {
         self.lattice_step.max(F32_STEP * self.largest())
     }
 
-    /// The step of the coordinates as [`Self::step`], but of single precision the distance of the largest coordinate from the next
-    /// number, not its upper bound.
+    /// Like [`Self::step`]. For single precision it is the exact distance to the next number at the largest
+    /// coordinate, not its upper bound.
     #[cfg(feature = "page")]
     #[must_use]
     pub(crate) fn finest_step(&self) -> f64 {
@@ -64,8 +64,8 @@ impl Geometry {
         self.lattice_step.max(f64::from(largest.next_up()) - f64::from(largest))
     }
 
-    /// The coarsest of 1, 0.1, 0.01 and so on to 0.000001 that all coordinates are multiples of, local units; 0 if none is. A file of few decimals
-    /// may have been rounded to it.
+    /// Coarsest step (1, 0.1, 0.01 … 0.000001) that divides all coordinates, in local units; 0 if none does.
+    /// A file with few decimals may have been rounded to it.
     #[must_use]
     pub(crate) fn decimal_step(&self) -> f64 {
         let numbers = || self.positions.iter().flat_map(|p| p.to_array());
@@ -75,7 +75,8 @@ impl Geometry {
         found.map_or(0.0, |power| 1.0 / power)
     }
 
-    /// The largest coordinate, local units, of faces with an area and wires with a length; of all where there are none.
+    /// Largest absolute coordinate of faces with area and wires with length, in local units; of all positions
+    /// if there are none.
     fn largest(&self) -> f64 {
         let at = |vertex: u32| self.positions.get(vertex as usize).copied().unwrap_or_default();
         let size = |vertex: u32| at(vertex).abs().max_element();
@@ -85,20 +86,20 @@ impl Geometry {
         if self.triangles.iter().any(|corners| reaches(corners) && counts(corners)) {
             return all;
         }
-        // What is largest does not count.
+        // The largest position belongs only to degenerate elements.
         let faces = self.triangles.iter().filter(|corners| counts(corners)).flatten();
         let wires = self.wires.iter().filter(|[a, b]| at(*a) != at(*b)).flatten();
         let counted = faces.chain(wires).map(|v| size(*v)).fold(0.0, f64::max);
         if counted > 0.0 { counted } else { all }
     }
 
-    /// The colour of a vertex, linear RGBA, if it has one.
+    /// Linear RGBA of a vertex, if it has a colour.
     #[must_use]
     pub fn colour_of(&self, vertex: u32) -> Option<[f32; 4]> {
         self.colours.get(vertex as usize).copied().filter(|colour| colour.iter().all(|c| c.is_finite()))
     }
 
-    /// The material of a triangle.
+    /// Material of a triangle.
     #[must_use]
     pub fn material_of(&self, triangle: usize) -> Option<u32> {
         self.triangle_material.get(triangle).copied().or(self.material)
@@ -108,11 +109,11 @@ impl Geometry {
 /// One instance of a geometry.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
-    /// Name of the glTF node, OBJ object or group; unnamed parts get the name of the mesh or
-    /// `part N`. Not necessarily unique.
+    /// Name of the glTF node, OBJ object or group. Unnamed parts get the name of the mesh or `part N`. Not
+    /// necessarily unique.
     pub name: String,
     /// Index into [`super::Scene::geometries`].
     pub geometry: usize,
-    /// Places the geometry in the world. A negative determinant turns the winding round.
+    /// Transform from local to world space. A negative determinant reverses the winding.
     pub world_from_part: DAffine3,
 }

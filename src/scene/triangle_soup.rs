@@ -1,4 +1,4 @@
-//! Flattening: all instances of a scene into one [`Soup`] in world space, and what can be known of it before.
+//! Flattens all instances of a scene into one [`Soup`] in world space.
 
 use crate::parallel::prelude::*;
 use glam::{DAffine3, DMat3, DVec3};
@@ -13,27 +13,28 @@ const NONE: u32 = u32::MAX;
 impl Scene {
     /// All triangles and wires in world space.
     ///
-    /// Part ids index [`Scene::parts`]; material ids index [`Scene::materials`], and what has no
-    /// material gets the id after the last. Mirrored parts have their winding turned round. Parts
-    /// that are scaled to nothing (or beyond all numbers) are left out.
+    /// Part ids index [`Scene::parts`]; material ids index [`Scene::materials`], and elements without a
+    /// material get the id after the last. Mirrored parts have their winding reversed. Parts whose transform
+    /// is singular or not finite are left out.
     #[must_use]
     pub fn to_soup(&self) -> Soup {
         self.flattened(None)
     }
 
-    /// The triangles of all parts in world space, with the paint of each triangle.
+    /// All triangles and wires in world space, with the paint of each triangle.
     #[must_use]
     pub fn to_painted_soup(&self, paints: &Paints) -> Soup {
         self.flattened(Some(paints))
     }
 
-    /// The same of a scene whose shapes nobody asks for any more: they are gone afterwards, and a shape that is all there is
-    /// becomes the soup without a copy.
+    /// Like [`Scene::to_soup`], but consumes the geometries: they are empty afterwards, and a single
+    /// untransformed geometry is moved without a copy.
     pub(crate) fn take_soup(&mut self, paints: Option<&Paints>) -> Soup {
         let soup = match self.only_one().filter(|_| paints.is_none()) {
             Some(only) => {
                 let mut from = std::mem::take(&mut self.geometries[only]);
-                // Single precision is a lattice as well, once it is known how large the numbers are.
+                // The step of single precision depends on the largest coordinate, so it is computed before
+                // the positions are taken.
                 from.lattice_step = from.step();
                 let (positions, triangles) =
                     (std::mem::take(&mut from.positions), std::mem::take(&mut from.triangles));
@@ -54,7 +55,7 @@ impl Scene {
         soup
     }
 
-    /// The geometry of the only part, if it stands in the world as it is.
+    /// Index of the geometry, if there is a single part with the identity transform.
     fn only_one(&self) -> Option<usize> {
         let [part] = self.parts.as_slice() else { return None };
         let geometry = self.geometry_of(part).filter(|_| part.world_from_part == DAffine3::IDENTITY)?;
@@ -79,8 +80,8 @@ impl Scene {
         soup
     }
 
-    /// Makes room for all parts at once: lists that grow by themselves are copied again and again, and may be twice as large as
-    /// needed. Where there is not as much memory they grow all the same.
+    /// Reserves memory for all parts at once. Growing lists would be copied repeatedly and could end up twice
+    /// as large as needed. A failed reservation is ignored.
     fn reserve(&self, soup: &mut Soup) {
         let (mut positions, mut triangles) = (0, 0);
         for geometry in self.parts.iter().filter_map(|part| self.geometry_of(part)) {
@@ -98,20 +99,20 @@ impl Scene {
         drop(rooms);
     }
 
-    /// Box around all that is drawn, in world space: least and greatest coordinates. Faces without area and wires without
-    /// length do not count. None where nothing can be drawn.
+    /// Bounding box of everything that is drawn, in world space. Faces without area and wires without length
+    /// do not count. `None` if nothing can be drawn.
     #[must_use]
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
         bounds(&world_points(self))
     }
 
-    /// How many triangles are drawn, each instance counted.
+    /// Number of triangles, instances counted.
     #[must_use]
     pub fn triangle_count(&self) -> usize {
         self.parts.iter().filter_map(|part| self.geometry_of(part)).map(|g| g.triangles.len()).sum()
     }
 
-    /// The geometry of a part that can be placed.
+    /// Geometry of a part, if its transform is finite and not singular.
     #[must_use]
     pub fn geometry_of(&self, part: &Part) -> Option<&Geometry> {
         let determinant = part.world_from_part.matrix3.determinant();
@@ -122,7 +123,7 @@ impl Scene {
 
 fn append(soup: &mut Soup, from: &Geometry, place: &DAffine3, part: PartId, default_material: u32) {
     let first = soup.positions.len();
-    // Ids are 32 bits wide; what lies beyond them cannot be drawn.
+    // Ids have 32 bits; a part that does not fit is left out.
     if first + from.positions.len() >= NONE as usize {
         return;
     }
@@ -145,14 +146,14 @@ fn append(soup: &mut Soup, from: &Geometry, place: &DAffine3, part: PartId, defa
     append_attributes(soup, from, place, appended, default_material);
 }
 
-/// The part whose shape was appended last, and the first vertex and triangle of it.
+/// Part, first vertex and first triangle of the geometry that was appended last.
 struct Appended {
     part: PartId,
     vertex: usize,
     triangle: usize,
 }
 
-/// Appends what belongs to the vertices and triangles that were appended last.
+/// Appends the attributes of the vertices and triangles that were appended last.
 fn append_attributes(
     soup: &mut Soup,
     from: &Geometry,
@@ -202,18 +203,18 @@ fn append_attributes(
     }
 }
 
-/// By how much a placement stretches lengths, at most along one of the axes of the shape.
+/// Maximum scale of a transform along the local axes.
 pub(crate) fn longest_axis(place: &DAffine3) -> f64 {
     let axes = place.matrix3;
     axes.x_axis.length().max(axes.y_axis.length()).max(axes.z_axis.length())
 }
 
-/// Appends `value` to a list that is shorter than `count`, up to that length.
+/// Extends a list with `value` up to `count` items.
 fn fill<T: Copy>(list: &mut Vec<T>, count: usize, value: T) {
     list.resize(count, value);
 }
 
-/// Appends the paints of the triangles that were appended last; without any, those of their materials.
+/// Appends the paints of the triangles that were appended last; by default those of their materials.
 fn append_paints(soup: &mut Soup, paints: &[PaintId]) {
     let own = soup.triangle_material.iter().skip(soup.triangle_paint.len()).enumerate();
     let of = own.map(|(i, material)| paints.get(i).copied().unwrap_or((*material).into()));
@@ -221,7 +222,7 @@ fn append_paints(soup: &mut Soup, paints: &[PaintId]) {
     soup.triangle_paint.extend(of);
 }
 
-/// Appends the colours of the corners of the triangles that were appended last; white where they have none.
+/// Appends the corner colours of the triangles that were appended last; white by default.
 fn append_colours(soup: &mut Soup, from: &Geometry, turned: bool) {
     let white = [1.0; 4];
     let colour = |v: u32| {
@@ -243,7 +244,7 @@ fn append_corners(to: &mut Vec<[u32; 3]>, from: &[[u32; 3]], first: u32, turned:
     }
 }
 
-/// Appends corners of normals or texture coordinates, with none for the triangles that lack them.
+/// Appends corner indices of normals or texture coordinates, with none for triangles without them.
 fn append_optional(
     to: &mut Vec<[u32; 3]>,
     from: &[[u32; 3]],
@@ -261,7 +262,7 @@ fn append_optional(
     }
 }
 
-/// Normals go with the inverse transpose, so that they stay at right angles to the surface.
+/// Appends normals, transformed by the inverse transpose so that they stay perpendicular to the surface.
 fn append_normals(soup: &mut Soup, from: &Geometry, place: &DAffine3, first_triangle: usize, turned: bool) {
     let first = soup.normals.len();
     let count = soup.triangles.len();

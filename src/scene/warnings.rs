@@ -1,9 +1,9 @@
-//! Defects that were drawn around: counted and named, never fatal.
+//! [`Warnings`]: defects of a model that did not prevent drawing, counted by kind.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Counts of defects by their description, in the order of the alphabet.
+/// Counts of defects by description, in alphabetical order, and further notes.
 ///
 /// ```
 /// let mut warnings = ligne::scene::Warnings::default();
@@ -25,7 +25,7 @@ impl Warnings {
         }
     }
 
-    /// Adds a whole sentence, once.
+    /// Adds a sentence, once.
     pub fn note(&mut self, sentence: impl Into<String>) {
         let sentence = sentence.into();
         if !self.notes.contains(&sentence) {
@@ -33,7 +33,7 @@ impl Warnings {
         }
     }
 
-    /// Takes over the warnings of another stage.
+    /// Adds the warnings of another stage.
     pub fn extend(&mut self, other: &Self) {
         for (what, n) in &other.counts {
             self.count(what.clone(), *n);
@@ -43,13 +43,13 @@ impl Warnings {
         }
     }
 
-    /// Whether nothing was amiss.
+    /// Whether there are no warnings.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.counts.is_empty() && self.notes.is_empty()
     }
 
-    /// One line a warning: `14 non-manifold edges`.
+    /// One line per warning: `14 non-manifold edges`.
     #[must_use]
     pub fn lines(&self) -> Vec<String> {
         let counted = self.counts.iter().map(|(what, n)| format!("{n} {what}"));
@@ -57,8 +57,8 @@ impl Warnings {
     }
 }
 
-/// Odd spots of one kind in a file: the first is told with its place, the others are counted, so that a file full of
-/// them costs no more than one.
+/// Defects of one kind in a file. The first is described with its location, the others are only counted, so
+/// that many cost no more than one.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Spots {
     first: Option<String>,
@@ -66,7 +66,7 @@ pub(crate) struct Spots {
 }
 
 impl Spots {
-    /// Adds a spot; its sentence is made only if it is the first.
+    /// Adds a defect; the sentence is built only for the first.
     pub fn add(&mut self, sentence: impl FnOnce() -> String) {
         match self.first {
             None => self.first = Some(sentence()),
@@ -74,7 +74,7 @@ impl Spots {
         }
     }
 
-    /// What there is to say of the spots, if there are any.
+    /// Description of the defects, if there are any.
     pub fn sentence(self) -> Option<String> {
         let first = self.first?;
         Some(match self.others {
@@ -83,7 +83,7 @@ impl Spots {
         })
     }
 
-    /// Tells of the spots, if there were any.
+    /// Adds the description to warnings, if there are any defects.
     pub fn warn(self, warnings: &mut Warnings) {
         if let Some(sentence) = self.sentence() {
             warnings.note(sentence);

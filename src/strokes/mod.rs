@@ -3,8 +3,8 @@
 //! 1. Rules choose the pen of each chain ([`pens`]).
 //! 2. The path of a chain becomes an axis of closely spaced points ([`axes`]). Halos and hand-drawn gaps
 //!    interrupt it ([`gaps`]).
-//! 3. Each piece gets a width at every point ([`widths`]) and becomes a stroked path, an outline of varying
-//!    width ([`outlines`]) or a brushed shape ([`brushes`]), with the ink of its surroundings ([`inking`]).
+//! 3. Each piece gets a width at every point ([`widths`]) and an ink ([`inking`]). It becomes a stroked path,
+//!    an outline of varying width ([`outlines`]) or a brushed shape ([`brushes`]).
 //!
 //! Files, in reading order: [`pens`]; [`axes`]; [`gaps`]; [`widths`]; [`outlines`]; [`brushes`]; [`inking`];
 //! [`travel_order`] short pen-up ways for plotters; [`fraction`] numbers from 0 to 1 in style sheets.
@@ -49,10 +49,10 @@ use inking::ink_spans::Tint;
 use inking::stroke_shape::Shape;
 use outlines::stroke_outline::Nib;
 
-/// Turns chains into the layers `hidden-lines` and `lines`, back to front; empty ones are absent.
+/// Turns chains into the layers `hidden-lines` and `lines`, back to front. Empty layers are omitted.
 ///
-/// Weaker kinds come first, so that outlines paint over the lines that end at them; lines of one
-/// kind keep their order.
+/// Weaker kinds come first, so that outlines paint over the lines that end at them. Lines of one kind keep
+/// their order.
 #[must_use]
 pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> Vec<Layer> {
     let selection = options.selection(context);
@@ -76,8 +76,8 @@ pub fn ink(chains: &[Chain], context: &InkContext, options: &StrokeOptions) -> V
     layers.flat_map(|(kind, marks)| layers_of(kind, marks, options.layers, context.unit)).collect()
 }
 
-/// Turns chains of motion lines into the layer `motion`, each with the pen of its own that `pen` gives, changed only by rules that
-/// name this kind of line.
+/// Turns chains of motion lines into the layer `motion`. `pen` gives the pen of each chain. Only rules that
+/// name this kind of line change it.
 #[must_use]
 pub fn ink_motion(
     chains: &[Chain],
@@ -95,7 +95,7 @@ pub fn ink_motion(
     layers_of(LayerKind::Motion, marks, options.layers, context.unit)
 }
 
-/// The marks of the first so many chains, and those of the others.
+/// The marks of the first `behind` chains, and those of the others.
 fn marks(
     chains: &[&Chain],
     behind: usize,
@@ -109,7 +109,7 @@ fn marks(
         let visible = hidden.split_off(behind);
         return [hidden, visible].map(|marks| marks.into_iter().flatten().collect());
     }
-    // A plain chain has one mark, but for one of no length or width: they are laid where they stay.
+    // Each plain chain gives at most one mark, so marks are collected in place.
     let (hidden, visible) = chains.split_at(behind);
     [hidden, visible].map(|chains| {
         let marks: Vec<Option<Mark>> =
@@ -118,7 +118,7 @@ fn marks(
     })
 }
 
-/// The layers of a kind that marks make; none if there are no marks.
+/// The layers of a kind made from marks. No layer is empty.
 fn layers_of(kind: LayerKind, marks: Vec<Mark>, options: LayerOptions, unit: Unit) -> Vec<Layer> {
     let mut layers = match options.by {
         LayersBy::Visibility => vec![Layer { kind, pen: None, ordered: false, marks }],
@@ -134,7 +134,7 @@ fn layers_of(kind: LayerKind, marks: Vec<Mark>, options: LayerOptions, unit: Uni
     layers
 }
 
-/// The marks of chains some of which have a hand, or are cut by the halos of others.
+/// The marks of chains if some have hand-drawn effects or are interrupted by halos.
 fn handmade(chains: &[&Chain], pens: &[Pen], context: &InkContext) -> Vec<Vec<Mark>> {
     let px = context.px();
     let axes: Vec<Axis> = chains.par_iter().map(|chain| Axis::of(chain, px).evened(px)).collect();
@@ -212,12 +212,12 @@ fn is_solid(chain: &Chain, context: &InkContext, pen: &Pen) -> bool {
     pen.dash.is_empty() || (chain.invisibility > 0 && context.hidden == HiddenLines::Solid)
 }
 
-/// The colour of a chain's ink, where nobody asked what is beside it.
+/// The ink colour of a chain when the surface next to it is unknown.
 fn colour(chain: &Chain, context: &InkContext, pen: &Pen) -> Colour {
     inking::ink_spans::plain(chain, pen, None, context)
 }
 
-/// One chain with its pen; `None` if it has no path or its pen no width.
+/// One chain with its pen. `None` if it has no path or its pen no width.
 fn mark(chain: &Chain, context: &InkContext, pen: &Pen) -> Option<Mark> {
     let width = pen.width.in_unit(context.unit);
     if chain.path.elements().len() < 2 || width <= 0.0 {
@@ -275,7 +275,7 @@ fn stroked(
     Mark { path, paint, provenance: provenance(chain, context) }
 }
 
-/// The chain's classes and names.
+/// Classes and names of a chain.
 fn provenance(chain: &Chain, context: &InkContext) -> Provenance {
     let mut classes = vec![chain.kind.name()];
     if chain.silhouette {
@@ -298,8 +298,8 @@ fn provenance(chain: &Chain, context: &InkContext) -> Provenance {
     }
 }
 
-/// One layer a pen (width and colour), in order of first use. The labels begin with a number, as
-/// plotter programs want them to pick the pen.
+/// Splits marks into one layer per pen (width and colour), in order of first use. Labels start with a number,
+/// which plotter programs use to select the pen.
 fn by_pen(kind: LayerKind, marks: Vec<Mark>, unit: Unit) -> Vec<Layer> {
     let mut layers: Vec<Layer> = Vec::new();
     let mut pens: Vec<(f64, Colour)> = Vec::new();

@@ -1,13 +1,14 @@
-//! Paths ordered and turned round for a short way of the pen between them.
+//! Pen travel: paths ordered and reversed to shorten the pen-up ways between them.
 //!
-//! Nearest neighbour over the ends of all paths, found by a grid over the page that is rebuilt
-//! as it empties.
+//! Algorithm: nearest neighbour over the ends of all paths. The search uses a grid over the page that is
+//! rebuilt as it empties.
 
 use kurbo::{BezPath, PathEl, Point};
 
 use crate::drawing::{Layer, Mark, Paint};
 
-/// A layer in an order of travel, if it is all strokes of one colour, whose order nobody sees; else as it is.
+/// A layer in travel order, if it consists of opaque strokes of one colour, whose order is invisible. Other
+/// layers are unchanged.
 #[must_use]
 pub fn along(layer: Layer) -> Layer {
     let colour = |mark: &Mark| match &mark.paint {
@@ -15,7 +16,7 @@ pub fn along(layer: Layer) -> Layer {
         _ => None,
     };
     let first = layer.marks.first().and_then(colour);
-    // Where strokes are not opaque, those of one path and those of several look different.
+    // Translucent strokes would look different when split from one path into several.
     let is_opaque = first.is_some_and(|colour| colour.a == 255);
     if !is_opaque || layer.marks.iter().any(|mark| colour(mark) != first) {
         return layer;
@@ -24,7 +25,7 @@ pub fn along(layer: Layer) -> Layer {
     Layer { marks: rejoined(shorten(strokes)), ordered: true, ..layer }
 }
 
-/// The strokes of a mark, a mark each.
+/// The subpaths of a mark, one mark each.
 fn single(mark: &Mark) -> Vec<Mark> {
     let mut paths: Vec<BezPath> = Vec::new();
     for element in mark.path.elements() {
@@ -37,7 +38,7 @@ fn single(mark: &Mark) -> Vec<Mark> {
     begun.map(|path| Mark { path, ..mark.clone() }).collect()
 }
 
-/// Strokes that follow each other, and are from the same place and painted alike, as one mark.
+/// Joins consecutive strokes of equal provenance and paint into one mark.
 fn rejoined(strokes: Vec<Mark>) -> Vec<Mark> {
     let mut marks: Vec<Mark> = Vec::new();
     for stroke in strokes {
@@ -51,20 +52,22 @@ fn rejoined(strokes: Vec<Mark>) -> Vec<Mark> {
     marks
 }
 
-/// One end of a mark's path.
+/// End of a mark's path.
 #[derive(Clone, Copy)]
 struct End {
     /// Index of the mark.
     mark: usize,
-    /// Whether the path must be turned round to start here.
+    /// Whether the path must be reversed to start here.
     turned: bool,
-    /// Where it is.
+    /// Position of the end.
     at: Point,
 }
 
-/// Marks in an order of travel: each next one starts near the end of the one before, from the page's
-/// top-left corner on. Paths may be turned round; dashes of turned paths still end well, since
-/// dash patterns are made symmetrical or are turned with them.
+/// Marks in travel order: each starts near the end of the previous one, beginning at the page's top-left
+/// corner.
+///
+/// Paths may be reversed. Dashes of reversed paths still end well, because dash patterns are symmetrical or
+/// are reversed too.
 #[must_use]
 pub fn shorten(marks: Vec<Mark>) -> Vec<Mark> {
     let mut remaining: Vec<End> = Vec::with_capacity(marks.len() * 2);
@@ -81,7 +84,7 @@ pub fn shorten(marks: Vec<Mark>) -> Vec<Mark> {
     let mut left = remaining.len();
     while left > 0 {
         let mut grid = EndCells::new(&remaining);
-        // A grid made for many ends is slow for few: start anew when three quarters are gone.
+        // A grid for many ends is slow for few. Rebuild it when three quarters are gone.
         let rebuild_at = left / 4;
         while left > rebuild_at
             && let Some(next) = grid.take_nearest(pen, &used)
@@ -109,18 +112,18 @@ pub fn shorten(marks: Vec<Mark>) -> Vec<Mark> {
     result
 }
 
-/// Where the path begins.
+/// The point where the path begins.
 fn first_point(mark: &Mark) -> Option<Point> {
     mark.path.elements().first().and_then(kurbo::PathEl::end_point)
 }
 
-/// Where the pen is lifted: a closed path ends where it began.
+/// The point where the pen is lifted. A closed path ends where it began.
 fn last_point(mark: &Mark) -> Option<Point> {
     mark.path.current_position()
 }
 
-/// Whether the path may be drawn from its other end. A dash pattern of more than one dash and gap
-/// need not be symmetrical.
+/// Whether the path may be drawn in reverse. A dash pattern of more than one dash and gap may not be
+/// symmetrical.
 fn turns_well(mark: &Mark) -> bool {
     match &mark.paint {
         Paint::Stroke(stroke) => stroke.dash.len() <= 2,
@@ -128,7 +131,7 @@ fn turns_well(mark: &Mark) -> bool {
     }
 }
 
-/// Ends in square cells over their bounding box.
+/// Ends in a uniform grid over their bounding box.
 struct EndCells {
     origin: Point,
     cell: f64,
@@ -138,7 +141,7 @@ struct EndCells {
 }
 
 impl EndCells {
-    /// About two ends a cell.
+    /// A grid with about two ends per cell.
     fn new(ends: &[End]) -> Self {
         let mut low = Point::new(f64::INFINITY, f64::INFINITY);
         let mut high = Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY);
@@ -147,7 +150,7 @@ impl EndCells {
             high = Point::new(high.x.max(end.at.x), high.y.max(end.at.y));
         }
         let (width, height) = ((high.x - low.x).max(1e-9), (high.y - low.y).max(1e-9));
-        // The longer side bounds the number of cells of a thin drawing.
+        // The longer side limits the number of cells for a thin drawing.
         let longer = width.max(height);
         let wished = (ends.len() as f64 / 2.0).max(1.0);
         let cell = (width * height / wished).sqrt().max(longer / wished);
@@ -161,19 +164,19 @@ impl EndCells {
         grid
     }
 
-    /// The cell of a point, or the nearest one.
+    /// The cell of a point, or the closest cell.
     fn cell_of(&self, at: Point) -> (usize, usize) {
         let column = ((at.x - self.origin.x) / self.cell).max(0.0) as usize;
         let row = ((at.y - self.origin.y) / self.cell).max(0.0) as usize;
         (column.min(self.columns - 1), row.min(self.rows - 1))
     }
 
-    /// The nearest end whose mark is not drawn yet; of equally near ones the first mark's.
+    /// The closest end of a mark not yet drawn. Among equally close ends, the first mark wins.
     fn take_nearest(&mut self, pen: Point, used: &[bool]) -> Option<End> {
         let (column, row) = self.cell_of(pen);
         let mut best: Option<(f64, usize, bool, End)> = None;
         for ring in 0..self.columns.max(self.rows) {
-            // Cells of this ring are at least so far from any point of the middle cell.
+            // Cells of this ring are at least this far from any point of the middle cell.
             let nearest = (ring.saturating_sub(1)) as f64 * self.cell;
             if best.is_some_and(|(distance, ..)| distance < nearest * nearest) {
                 break;
@@ -260,7 +263,7 @@ mod tests {
             (0..300).map(|_| mark(random(), random(), random(), random() * 0.01)).collect();
         let short = shorten(marks.clone());
         assert_eq!(short.len(), marks.len());
-        // The greedy choice, by looking at all.
+        // The greedy choice by exhaustive search.
         let mut left = marks;
         let mut pen = Point::ZERO;
         for drawn in &short {

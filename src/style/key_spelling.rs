@@ -4,10 +4,10 @@ use toml::{Table, Value};
 
 use crate::error::spelling::british;
 
-/// A table whose keys are the user's own names.
+/// A table whose keys are names chosen by the user.
 const NAMES: &str = "artist_texture";
 
-/// Renames the keys of a sheet to the spelling of the options, so that sheets in either spelling merge.
+/// Renames the keys of a sheet to British spelling, so that sheets in either spelling merge.
 pub(crate) fn to_british(table: &mut Table) {
     let keys: Vec<String> = table.keys().filter(|key| british(key) != **key).cloned().collect();
     for key in keys {

@@ -48,38 +48,38 @@ use crate::regions::RegionOptions;
 use crate::scene::{GlassOptions, TextureOptions};
 use crate::strokes::StrokeOptions;
 
-/// The options of every stage.
+/// The options of all stages.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Style {
-    /// Colour of the paper; `None` leaves it transparent. Default: white.
+    /// Background colour; `None` for transparent. Default: white.
     pub background: Option<Colour>,
-    /// What is drawn on. Default: plain.
+    /// Paper texture. Default: plain.
     pub paper: Paper,
-    /// Which lines are sought and drawn.
+    /// Kinds of lines to find and draw.
     pub lines: LineOptions,
-    /// How lines are linked, tidied, smoothed and fitted.
+    /// Linking, tidying, smoothing and fitting of lines.
     pub chain: ChainOptions,
-    /// Pens, and which lines they draw.
+    /// Pens, and the rules that choose them.
     pub stroke: StrokeOptions,
-    /// Which lights shine, and from where.
+    /// Lights.
     pub light: LightOptions,
-    /// Into which tones surfaces fall, and what colours they have.
+    /// Tones of surfaces and their colours.
     pub tones: ToneOptions,
-    /// How the pictures of materials are painted.
+    /// How material textures are painted.
     pub textures: TextureOptions,
-    /// What is laid over tones.
+    /// Patterns over tones.
     pub patterns: Vec<Pattern>,
-    /// Whether regions of tones are painted, and how.
+    /// Whether and how regions of tones are painted.
     pub region: RegionOptions,
-    /// Into which bins of light hatched surfaces fall.
+    /// Tone bins of hatched surfaces.
     pub shade: ShadeOptions,
-    /// Whether surfaces are hatched, and how.
+    /// Whether and how surfaces are hatched.
     pub hatch: HatchOptions,
-    /// What becomes of materials that one sees through.
+    /// Treatment of transparent materials.
     pub glass: GlassOptions,
-    /// Which bodies leave motion lines, and how these are drawn.
+    /// Bodies with motion lines, and how these are drawn.
     pub motion: MotionOptions,
-    /// The hand: seeds everything that varies by chance, and changes nothing else. Default: 0.
+    /// Random seed for hand-drawn effects. The same seed gives the same drawing. Default: 0.
     pub seed: u64,
 }
 
@@ -90,7 +90,7 @@ impl Default for Style {
     }
 }
 
-/// The built-in sheets, by name: the file styles/NAME.toml.
+/// The built-in sheets by name: the files `styles/NAME.toml`.
 const BUILT_IN: [(&str, &str); 24] = [
     ("blueprint", include_str!("../../styles/blueprint.toml")),
     ("comic", include_str!("../../styles/comic.toml")),
@@ -119,7 +119,7 @@ const BUILT_IN: [(&str, &str); 24] = [
 ];
 
 impl Style {
-    /// A built-in style; `None` if there is none of this name.
+    /// A built-in style by name.
     #[must_use]
     pub fn preset(name: &str) -> Option<Self> {
         Self::sheet_text(name)?;
@@ -131,43 +131,44 @@ impl Style {
         BUILT_IN.iter().map(|(name, _)| *name)
     }
 
-    /// The text of a built-in style's sheet.
+    /// The text of a built-in sheet.
     #[must_use]
     pub fn sheet_text(name: &str) -> Option<&'static str> {
         BUILT_IN.iter().find(|(known, _)| *known == name).map(|(_, text)| *text)
     }
 
-    /// The idea of a built-in style in one line: the first comment of its sheet.
+    /// The description of a built-in style in one line: the first comment of its sheet.
     #[must_use]
     pub fn idea(name: &str) -> Option<&'static str> {
         Some(Self::sheet_text(name)?.lines().next()?.trim_start_matches('#').trim())
     }
 
-    /// Reads a style: the name of a built-in one or the path of a sheet, then changes to it, each
-    /// `KEY=VALUE` with a dotted key such as `pen.contour.width=2`.
+    /// Loads a style by name or path, then applies changes. Each is `KEY=VALUE` with a dotted key such as
+    /// `pen.contour.width=2`.
     ///
     /// # Errors
-    /// Names the file (or the change), the line and the key, and the nearest known one.
+    /// Returns an error with the file or change, the line, the wrong key and the nearest known key.
     pub fn load(name_or_path: &str, sets: &[String]) -> Result<Self, Error> {
         sheet_loader::load(name_or_path, sets)
     }
 
-    /// A complete sheet of a style: every key with its value or its default, and a line of help. It loads as the same style; paths in
-    /// it are relative to the working folder.
+    /// A complete sheet of a style: every key with its value or default, and a line of help. It loads as the
+    /// same style. Paths in it are relative to the working folder.
     ///
     /// # Errors
-    /// As [`Style::load`].
+    /// The same as those of [`Style::load`].
     pub fn full_sheet(name_or_path: &str) -> Result<String, Error> {
         Ok(keys::full_sheet::full_sheet(name_or_path, &sheet_loader::all_keys(name_or_path)?))
     }
 
-    /// The same for a page to scale or a DXF file: no point of the model moves by more than 0.02 mm, and corners on one circle become it.
+    /// The style for a page to scale or a DXF file. No point of the model moves by more than 0.02 mm, and
+    /// corners on a circle become an arc.
     #[must_use]
     pub fn to_scale(self) -> Self {
         Self { chain: self.chain.to_scale(), ..self }
     }
 
-    /// Reads the text of a style sheet; paths that it extends are relative to the working folder.
+    /// Reads the text of a style sheet. Paths that it extends are relative to the working folder.
     ///
     /// ```
     /// let style = ligne::Style::from_toml("extends = 'ink'\nlines.crease_deg = 25")?;
@@ -176,7 +177,7 @@ impl Style {
     /// ```
     ///
     /// # Errors
-    /// Names the line and the key that is wrong, and the nearest known one.
+    /// Returns an error with the line, the wrong key and the nearest known key.
     pub fn from_toml(text: &str) -> Result<Self, Error> {
         sheet_loader::load_text(text)
     }

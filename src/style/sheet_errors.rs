@@ -1,4 +1,9 @@
-//! What is wrong in a TOML file, with its line, a caret under the place and the nearest known key.
+//! Error messages about TOML files, with the line, a caret and advice.
+//!
+//! 1. The message of the parser is explained in plain words.
+//! 2. For style sheets, the path of the wrong key is found in the text, and the table of keys suggests a key
+//!    or a value.
+//! 3. The line is printed with a caret below the wrong span.
 
 use std::ops::Range;
 
@@ -15,19 +20,19 @@ use crate::style::keys::advice::{alternatives, ending, listed, write_value};
 
 pub(crate) use crate::error::nearest::nearest;
 
-/// Of longer lines a part is shown, characters.
+/// Longest line that is shown in full, characters.
 const LONGEST: usize = 120;
 
-/// Longer values are not quoted in a message, bytes.
+/// Longest value that is quoted in a message, bytes.
 const MAX_QUOTED: usize = 40;
 
-/// An error of a file's text: at its line, with the line and a caret.
+/// An error in a TOML text, with its line and a caret.
 #[cfg(feature = "page")]
 pub(crate) fn in_sheet(text: &str, error: &Fault) -> Error {
     placed(text, error, &explained(text, error))
 }
 
-/// The parser's message in plain words; a value that it does not name is quoted from the text.
+/// Explains the parser's message in plain words; quotes the value if the message does not name it.
 fn explained(text: &str, error: &Fault) -> Explained {
     let explained = explain(error.message());
     let value = error.span().and_then(|span| text.get(span)).unwrap_or_default().trim();
@@ -39,7 +44,7 @@ fn explained(text: &str, error: &Fault) -> Explained {
     }
 }
 
-/// The same for a style sheet: advice names keys in the whole tree, and the values that a key may have.
+/// An error in a style sheet, with its line, a caret, and advice from the table of keys.
 pub(crate) fn in_style_sheet(text: &str, error: &Fault) -> Error {
     let path = error.span().and_then(|span| path_at(text, &span)).unwrap_or_default();
     placed(text, error, &with_keys(explained(text, error), &path, &path, false))
@@ -53,7 +58,7 @@ fn placed(text: &str, error: &Fault, explained: &Explained) -> Error {
     }
 }
 
-/// An error about a place in a file's text: at its line, with the line and a caret.
+/// An error at a position in a text, with its line and a caret.
 pub(crate) fn at_span(text: &str, span: &Range<usize>, message: &str, advice: Option<&str>) -> Error {
     let (number, column, line, width) = locate(text, span);
     let (column, line, width) = excerpt(column, line, width);
@@ -63,7 +68,7 @@ pub(crate) fn at_span(text: &str, span: &Range<usize>, message: &str, advice: Op
     with_remedy(Error::new(message).at(format!("line {number}")), advice, Some(&picture))
 }
 
-/// An error of a change on the command line: the place is the change itself.
+/// An error in a change of the command line, with a caret below the change.
 pub(crate) fn in_change(set: &str, text: &str, error: &Fault) -> Error {
     let typed = set.split('=').next().unwrap_or_default().trim();
     let path = error.span().and_then(|span| path_at(text, &span)).unwrap_or_default();
@@ -71,7 +76,7 @@ pub(crate) fn in_change(set: &str, text: &str, error: &Fault) -> Error {
     let before = "--set ";
     let picture = error.span().map(|span| {
         let (_, column, _, width) = locate(text, &span);
-        // The text that was read is `KEY = VALUE`, perhaps with the value in another form.
+        // The parsed text is `KEY = VALUE`; the value may have been quoted or replaced.
         let key = set.split('=').next().unwrap_or_default();
         let in_key = column < key.trim().chars().count();
         let (column, width) = if in_key {
@@ -93,12 +98,12 @@ pub(crate) fn place_of_value(text: &str, key: &str) -> String {
     number.map_or_else(|| format!("key {key}"), |number| format!("line {}", number + 1))
 }
 
-/// A message about a style, with advice from the table of keys. `path` is the path of the key that is wrong, `typed` the one that
-/// was typed, which may go on.
+/// Adds advice from the table of keys. `path` is the path of the wrong key, `typed` the path as the user
+/// typed it.
 fn with_keys(explained: Explained, path: &str, typed: &str, only_settable: bool) -> Explained {
     let advice = match &explained.mistake {
         Mistake::UnknownKey(word, known) => {
-            // `crease` for `crease_deg`.
+            // A known key that continues the word, such as `crease_deg` for `crease`.
             let start = format!("{word}_");
             let begun: Vec<String> =
                 known.iter().filter(|known| known.starts_with(&start)).cloned().collect();
@@ -124,7 +129,7 @@ fn with_keys(explained: Explained, path: &str, typed: &str, only_settable: bool)
     }
 }
 
-/// The dotted path of the key that a place of a TOML text is at, or in whose value it is.
+/// The dotted path of the key or value at a position in a TOML text.
 fn path_at(text: &str, span: &Range<usize>) -> Option<String> {
     let document = DeTable::parse(text).ok()?;
     let holds =
@@ -163,7 +168,8 @@ fn with_remedy(error: Error, advice: Option<&str>, picture: Option<&str>) -> Err
     }
 }
 
-/// Line number from 1, column from 0, the line, and the width of a place, in characters.
+/// The position of a span: line number from 1, column from 0, the line, and the width. Columns count
+/// characters.
 fn locate(text: &str, span: &Range<usize>) -> (usize, usize, String, usize) {
     let start = floor(text, span.start);
     let end = floor(text, span.end).max(start);
@@ -173,11 +179,11 @@ fn locate(text: &str, span: &Range<usize>) -> (usize, usize, String, usize) {
     let line = text.get(line_start..).unwrap_or_default().lines().next().unwrap_or_default();
     let column = text.get(line_start..start).unwrap_or_default().chars().count();
     let marked = text.get(start..end).unwrap_or_default().lines().next().unwrap_or_default();
-    // A tab is shown as one blank so that the caret stays below its place.
+    // A tab becomes one blank, so that the caret stays below its place.
     (number, column, line.replace('\t', " "), marked.chars().count().max(1))
 }
 
-/// Of a line that is too long to be shown what is around the place, with the place in it.
+/// The section of a long line around a position, with the adjusted column and width.
 fn excerpt(column: usize, line: String, width: usize) -> (usize, String, usize) {
     if line.chars().count() <= LONGEST {
         return (column, line, width);
@@ -190,7 +196,7 @@ fn excerpt(column: usize, line: String, width: usize) -> (usize, String, usize) 
     (column, format!("{before}{shown}{after}"), width.min(LONGEST + 1 - column.min(LONGEST)))
 }
 
-/// The nearest boundary of characters at or before a byte.
+/// The last character boundary at or before a byte.
 fn floor(text: &str, byte: usize) -> usize {
     (0..=byte.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)
 }

@@ -1,6 +1,7 @@
-//! Reading a style: its chain of sheets and the changes of the command line, merged as tables.
+//! Loads a style: follows `extends` from sheet to sheet, then merges their tables and the changes of the
+//! command line.
 //!
-//! Every sheet and change is first read by itself, so that an error can point into its own text.
+//! Every sheet and change is first deserialised separately, so an error can point into its own text.
 
 use std::path::{Path, PathBuf};
 
@@ -21,16 +22,16 @@ use crate::style::tables::style_sheet::Sheet;
 
 /// A sheet that has been found.
 struct Source {
-    /// What tells it from the others: the built-in name, or the resolved path.
+    /// Identity of the sheet: the built-in name, or the resolved path.
     identity: PathBuf,
-    /// How errors name it.
+    /// Name of the sheet in errors.
     shown: PathBuf,
     /// The folder that `extends` is relative to; `None` for built-in sheets.
     folder: Option<PathBuf>,
     text: String,
 }
 
-/// Reads a style, see [`Style::load`].
+/// Loads a style, see [`Style::load`].
 pub(crate) fn load(name_or_path: &str, sets: &[String]) -> Result<Style, Error> {
     merged(find(name_or_path, None)?, sets)
 }
@@ -41,7 +42,7 @@ pub(crate) fn load_text(text: &str) -> Result<Style, Error> {
     merged(Source { identity: PathBuf::new(), shown, folder: None, text: text.to_owned() }, &[])
 }
 
-/// The style of a sheet, of those it extends, and of changes.
+/// The style of a sheet, the sheets it extends, and changes.
 fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
     let merged = merged_table(source, sets)?;
     let mut sheet: Sheet = toml_reader::from_table(merged).map_err(|fault| Error::new(fault.message()))?;
@@ -53,12 +54,12 @@ fn merged(source: Source, sets: &[String]) -> Result<Style, Error> {
     Ok(sheet.into_style())
 }
 
-/// The keys that a style sets, of its own sheet and of those it extends.
+/// The keys that a style sets, including those of the sheets it extends.
 pub(crate) fn all_keys(name_or_path: &str) -> Result<Table, Error> {
     merged_table(find(name_or_path, None)?, &[])
 }
 
-/// The sheets that a style is made of and that are not built in, as their names in messages and their keys; the last one counts most.
+/// The sheets of a style that are not built in: name in messages and keys, lowest priority first.
 #[cfg(feature = "page")]
 pub(crate) fn own_sheets(name_or_path: &str) -> Result<Vec<(PathBuf, Table)>, Error> {
     let chain = chain(find(name_or_path, None)?)?;
@@ -70,7 +71,7 @@ pub(crate) fn own_sheets(name_or_path: &str) -> Result<Vec<(PathBuf, Table)>, Er
         .collect())
 }
 
-/// The keys of a sheet, of those it extends, and of changes.
+/// The merged keys of a sheet, the sheets it extends, and changes.
 fn merged_table(source: Source, sets: &[String]) -> Result<Table, Error> {
     let mut merged = Table::new();
     for (_, sheet) in chain(source)?.into_iter().rev() {
@@ -83,7 +84,7 @@ fn merged_table(source: Source, sets: &[String]) -> Result<Table, Error> {
     Ok(merged)
 }
 
-/// A sheet and those it extends, one after another, with their keys.
+/// A sheet and the sheets it extends in turn, with their keys.
 fn chain(source: Source) -> Result<Vec<(Source, Table)>, Error> {
     let mut sheets: Vec<(Source, Table)> = Vec::new();
     let mut seen: Vec<PathBuf> = Vec::new();
@@ -147,7 +148,7 @@ fn find(name: &str, folder: Option<&Path>) -> Result<Source, Error> {
     Ok(Source { identity, shown: path, folder, text })
 }
 
-/// An error told of the sheet that names what was not found.
+/// Reports an error at the sheet that names a missing sheet.
 fn name_in(mut error: Error, sheet: &Path, place: &str) -> Error {
     if let Some(file) = &error.file {
         error.message = format!("{}: {}", file.display(), error.message);
@@ -155,15 +156,14 @@ fn name_in(mut error: Error, sheet: &Path, place: &str) -> Error {
     error.in_file(sheet).at(place)
 }
 
-/// A sheet as options, to find its errors, and as a table, to merge it.
+/// Reads a sheet twice: as options, to find errors, and as a table, to merge it.
 fn read(text: &str) -> Result<(Sheet, Table), Fault> {
     let (sheet, mut table) = (toml_reader::from_text(text)?, toml::from_str(text)?);
     to_british(&mut table);
     Ok((sheet, table))
 }
 
-/// A change, checked, with the paths of pictures and brushes in it relative to what `folder` is
-/// relative to.
+/// Checks a change and makes the paths in it relative to `folder`.
 #[cfg(feature = "page")]
 pub(crate) fn placed_change(set: &str, folder: &Path) -> Result<String, Error> {
     let mut table = change(set)?;
@@ -175,7 +175,7 @@ pub(crate) fn placed_change(set: &str, folder: &Path) -> Result<String, Error> {
     Ok(table.iter().map(|(key, value)| format!("{key}={value}")).collect())
 }
 
-/// One change of the command line as a table.
+/// Parses a change of the command line into a table.
 pub(crate) fn change(set: &str) -> Result<Table, Error> {
     let wrong = |message: &str| {
         Error::new(message).at(format!("--set {set}")).remedy("write KEY=VALUE, such as --set pen.width=1.5")
@@ -189,7 +189,7 @@ pub(crate) fn change(set: &str) -> Result<Table, Error> {
     let quoted = Value::String(value.to_owned()).to_string();
     let written = format!("{key} = {value}");
     let mut readings = Vec::new();
-    // Line breaks would let a value bring further keys with it.
+    // A value with line breaks could contain further keys.
     if !value.contains(['\n', '\r']) && toml::from_str::<Table>(&written).is_ok() {
         readings.push(written);
         match value {
@@ -214,8 +214,8 @@ pub(crate) fn change(set: &str) -> Result<Table, Error> {
     Err(first_error.unwrap_or_else(|| wrong("is not understood")))
 }
 
-/// Lays one table over another: tables are merged key by key, lists of tables (rules, materials)
-/// are appended, everything else is replaced.
+/// Merges a table into another one: tables key by key, lists of tables (rules, materials) appended, other
+/// values replaced.
 fn merge(base: &mut Table, over: Table) {
     for (key, value) in over {
         match (base.get_mut(&key), value) {

@@ -1,8 +1,10 @@
-//! Reads options from parsed TOML, with the place of each fault.
+//! Deserialises options from TOML, with the position of each error.
 //!
-//! The text is parsed by `toml`. Its tables become a tree of [`Node`]s, each with its span, and one small deserialiser walks
-//! the tree. The deserialisers of `toml` would do the same, but the compiler makes four copies of every table of options
-//! for them: for tables, for values with spans, for dates and for values without spans.
+//! The text is parsed by `toml`. Its tables become a tree of [`Node`]s with spans, and one small deserialiser
+//! walks the tree.
+//!
+//! The deserialisers of `toml` give the same results. But with them the compiler instantiates the code of
+//! every options table four times: for tables, values with spans, dates, and values without spans.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -17,7 +19,7 @@ use serde::forward_to_deserialize_any;
 use toml::de::{DeTable, DeValue};
 use toml::{Spanned, Table, Value};
 
-/// What is wrong in a TOML text, and where: a range of bytes.
+/// An error in a TOML text, with its byte range.
 #[derive(Debug, Clone)]
 pub(crate) struct Fault {
     message: String,
@@ -33,7 +35,7 @@ impl Fault {
         self.span.clone()
     }
 
-    /// The same fault at this place, unless it has one.
+    /// Sets the position, unless the error has one.
     fn at(self, span: &Option<Range<usize>>) -> Self {
         Self { span: self.span.or_else(|| span.clone()), ..self }
     }
@@ -59,25 +61,25 @@ impl From<toml::de::Error> for Fault {
     }
 }
 
-/// Reads options from a TOML text.
+/// Deserialises options from a TOML text.
 pub(crate) fn from_text<T: DeserializeOwned>(text: &str) -> Result<T, Fault> {
     let document = DeTable::parse(text)?;
     let span = document.span();
     T::deserialize(Node::table(document.into_inner(), span)?)
 }
 
-/// Reads options from a table without spans.
+/// Deserialises options from a table without spans.
 pub(crate) fn from_table<T: DeserializeOwned>(table: Table) -> Result<T, Fault> {
     T::deserialize(Node::from(Value::Table(table)))
 }
 
-/// Reads options from a part of a parsed text.
+/// Deserialises options from a part of a parsed text.
 #[cfg(feature = "page")]
 pub(crate) fn from_value<T: DeserializeOwned>(value: Spanned<DeValue>) -> Result<T, Fault> {
     T::deserialize(Node::spanned(value)?)
 }
 
-/// A value with its place in the text.
+/// A value with its position in the text.
 struct Node {
     kind: Kind,
     span: Option<Range<usize>>,
@@ -193,7 +195,7 @@ impl<'de> Deserializer<'de> for Node {
         visitor: V,
     ) -> Result<V::Value, Fault> {
         match fields {
-            // `Spanned` asks for its two ends and its value by three names of its own.
+            // `Spanned` requests its two ends and its value by three private names.
             [start, end, value] if name.starts_with("$__serde_spanned") => {
                 let span = self.span.clone();
                 let range = span.clone().unwrap_or_default();
@@ -273,7 +275,7 @@ impl<'de> SeqAccess<'de> for Items {
 /// The entries of a table.
 struct Entries {
     rest: vec::IntoIter<(Key, Node)>,
-    /// The value whose key was read last, with the place of the key.
+    /// The value of the key that was read last, with the position of the key.
     next: Option<(Option<Range<usize>>, Node)>,
 }
 
@@ -331,7 +333,7 @@ mod tests {
         Dotted(f64),
     }
 
-    /// What `toml` makes of a text: the value, or the message and the place.
+    /// The result of `toml` for a text: the value, or the message and the position.
     fn expected<T: DeserializeOwned>(text: &str) -> Result<T, (String, Option<Range<usize>>)> {
         toml::from_str(text).map_err(|error| (error.message().to_owned(), error.span()))
     }

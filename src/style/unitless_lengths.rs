@@ -1,10 +1,12 @@
 //! [`bare_lengths`]: a warning about numbers without a unit on a page in mm.
 //!
-//! A bare number is a length in px. On a page in mm users often intend mm, so such numbers are reported once:
+//! A bare number is a length in px. On a page in mm users often intend mm, so these numbers are reported
+//! once:
 //!
-//! 1. Only the user's own numbers count: those of `--set`, and those of sheets that are not built in.
-//! 2. Only keys whose type is a length count, and 0 is the same in every unit.
-//! 3. In a sheet, a number that is the default of its key or that a built-in sheet has is no mistake: the sheet was copied.
+//! 1. Only numbers of the user count: those of `--set`, and those of sheets that are not built in.
+//! 2. Only keys with lengths count, and 0 is the same in every unit.
+//! 3. A number in a sheet is ignored if it is the default of its key, or a built-in sheet has it, because the
+//!    sheet is probably a copy.
 
 use toml::{Table, Value};
 
@@ -13,15 +15,15 @@ use super::keys::{KeyType, StyleKey};
 use super::sheet_loader::{change, own_sheets};
 use crate::drawing::length::MM_PER_PX;
 
-/// A number without a unit, and where it stands.
+/// A number without a unit.
 struct Bare {
-    /// The path of its key, without `[]`.
+    /// Path of its key, without `[]`.
     key: String,
     value: f64,
 }
 
-/// The warning about numbers without a unit in a style and the changes to it, for a page in mm; `None` if there are none or the style
-/// cannot be read.
+/// The warning about numbers without a unit in a style and its changes, for a page in mm. `None` if there are
+/// none or the style cannot be read.
 pub(crate) fn bare_lengths(name_or_path: &str, sets: &[String]) -> Option<String> {
     let mut found = Vec::new();
     for set in sets {
@@ -75,7 +77,7 @@ fn is_default(own: &Bare) -> bool {
     numbers.iter().any(|default| default.value == own.value)
 }
 
-/// The bare lengths of a table, under the path of that table.
+/// Collects the bare lengths of a table at path `above`.
 fn gather(table: &Table, above: &str, found: &mut Vec<Bare>) {
     for (key, value) in table {
         let path = if above.is_empty() { key.clone() } else { format!("{above}.{key}") };

@@ -32,17 +32,17 @@ use crate::export::SvgOptions;
 
 pub use crate::assert_drawing;
 
-/// The variable that approves drawings as they are.
+/// Environment variable that approves changed drawings.
 pub const BLESS: &str = "LIGNE_BLESS";
 
-/// Lines of a failure, at most.
+/// Most lines of a failure message.
 const MOST_LINES: usize = 30;
 
-/// Asserts that a [`Drawing`] is as it was approved: `assert_drawing!(drawing, "name")`.
+/// Asserts that a [`Drawing`] equals its approved version: `assert_drawing!(drawing, "name")`.
 ///
-/// The approved drawing is `tests/drawings/NAME.svg` of the crate under test, or `NAME.svg` in a folder of its own:
-/// `assert_drawing!(drawing, "name", folder = "tests/golden")`. `tolerance = "0.1px"` may be added at the end, as in
-/// `ligne diff --tolerance`. See [`self`].
+/// The approved drawing is `tests/drawings/NAME.svg` of the crate under test. Another folder can be given by
+/// `assert_drawing!(drawing, "name", folder = "tests/golden")`. A last argument `tolerance = "0.1px"` has the
+/// same form as in `ligne diff --tolerance`. See [`self`].
 #[macro_export]
 macro_rules! assert_drawing {
     ($drawing:expr, $name:expr $(,)?) => {
@@ -68,19 +68,19 @@ macro_rules! assert_drawing {
     }};
 }
 
-/// Whether drawings that differ are approved.
+/// Handling of drawings that differ from their approved version.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Approval {
-    /// They fail.
+    /// The test fails.
     None,
-    /// They are written over the approved ones.
+    /// The new drawing replaces the approved one.
     Bless,
-    /// They fail, and it is said why they are not approved: a machine asked.
+    /// The test fails and explains why nothing is approved on a build server.
     Refused,
 }
 
 impl Approval {
-    /// What the variables `LIGNE_BLESS` and `CI` ask for.
+    /// Reads the environment variables `LIGNE_BLESS` and `CI`.
     #[must_use]
     pub fn of_environment() -> Self {
         let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty() && value != "0");
@@ -92,10 +92,10 @@ impl Approval {
     }
 }
 
-/// Compares a drawing with `NAME.svg` in a folder, or approves it; what [`assert_drawing!`] calls.
+/// Compares a drawing with `NAME.svg` in a folder, or approves it. Called by [`assert_drawing!`].
 ///
 /// # Errors
-/// What differs in words, and where to look at it.
+/// A description of the differences, with the paths of files to inspect.
 pub fn check(
     drawing: &Drawing,
     name: &str,
@@ -153,6 +153,7 @@ pub fn check(
     Err(told + &advice)
 }
 
+/// Compares two files with a tolerance as text.
 fn compare(known: &str, drawn: &str, tolerance: &str) -> Result<Option<Diff>, Error> {
     let tolerances = match tolerance {
         "" => Tolerances::default(),
@@ -162,8 +163,8 @@ fn compare(known: &str, drawn: &str, tolerance: &str) -> Result<Option<Diff>, Er
     Ok(Some(diff::compare(&Picture::from_svg(known)?, &Picture::from_svg(drawn)?, &options)))
 }
 
-/// Where a file for looking at goes: the temporary folder, so that nothing is left in the project, under a name of the
-/// approved drawing's own, so that tests that run side by side do not write over each other's.
+/// Path of a file for inspection in the temporary folder. The name contains a hash of the approved path, so
+/// that parallel tests do not overwrite each other's files.
 fn beside(approved: &Path, name: &str, what: &str) -> PathBuf {
     let flat: String = name.chars().map(|c| if c.is_alphanumeric() { c } else { '-' }).collect();
     let place = FxBuildHasher.hash_one(approved);

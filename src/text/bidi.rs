@@ -1,9 +1,10 @@
-//! Which way letters run: levels of a line's characters, and the order in which they are seen.
+//! Text direction: the embedding levels of characters, and their visual order.
 //!
-//! Source: Unicode Standard Annex 9, without explicit marks of direction: strong letters have the direction of their script, numbers
-//! run to the right, and all else goes along with what is on both its sides.
+//! Source: Unicode Standard Annex 9, without explicit directional marks. Strong letters have the direction of
+//! their script, and numbers run to the right. Neutral characters follow their neighbours on both sides if
+//! these agree.
 
-/// What a character is, as to direction.
+/// Directional class of a character.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Left,
@@ -24,19 +25,19 @@ fn kind(c: char) -> Kind {
     }
 }
 
-/// Whether a text as a whole runs to the left: as its first letter does.
+/// Whether the base direction is right to left, as that of the first strong letter.
 pub(crate) fn runs_left(text: &str) -> bool {
     text.chars().map(kind).find(|kind| matches!(kind, Kind::Left | Kind::Right)) == Some(Kind::Right)
 }
 
-/// The levels of all characters of a text: even ones run to the right, odd ones to the left.
+/// The embedding level of each character; even levels run to the right, odd ones to the left.
 pub(crate) fn levels(text: &str, base: u8) -> Vec<u8> {
     let kinds: Vec<Kind> = text.chars().map(kind).collect();
     if base == 0 && !kinds.contains(&Kind::Right) {
         return vec![0; kinds.len()];
     }
     let outer = if base == 1 { Kind::Right } else { Kind::Left };
-    // The way that a neighbour goes; numbers go along with the letters before them.
+    // Numbers count as the strong letter before them when neutral characters are resolved.
     let mut before = outer;
     let strong: Vec<Kind> = kinds
         .iter()
@@ -75,7 +76,7 @@ pub(crate) fn levels(text: &str, base: u8) -> Vec<u8> {
     levels
 }
 
-/// The numbers of pieces with those levels in the order in which they are seen, from the left (rule L2).
+/// The indices of runs in visual order from the left, for their levels (rule L2).
 pub(crate) fn seen_order(levels: &[u8]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..levels.len()).collect();
     let level = |number: &usize| levels.get(*number).copied().unwrap_or(0);

@@ -1,25 +1,26 @@
-//! Where lines may be broken: between words as Unicode says, and inside words as their language parts them.
+//! Break opportunities: between words by the Unicode rules (UAX 14), and inside words by hyphenation
+//! patterns.
 
 use hypher::Lang;
 use unicode_linebreak::{BreakOpportunity, linebreaks};
 
 use crate::error::Error;
 
-/// Shorter words stay whole, letters.
+/// Minimum length of a word that is hyphenated, letters.
 const SHORTEST_PARTED: usize = 5;
 
-/// A place where a line may end and the next begin.
+/// A break opportunity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Break {
-    /// The byte of the text.
+    /// Position in the text, bytes.
     pub at: usize,
-    /// Whether it is inside a word, so that the line ends with a hyphen.
+    /// Whether the line ends with a hyphen, because the break is inside a word.
     pub hyphen: bool,
-    /// Whether a line must end here.
+    /// Whether the line must end here.
     pub must: bool,
 }
 
-/// The language of two letters.
+/// Parses a language code of two letters.
 pub(crate) fn language(code: &str) -> Result<Lang, Error> {
     let bytes = <[u8; 2]>::try_from(code.to_lowercase().as_bytes()).ok();
     bytes.and_then(Lang::from_iso).ok_or_else(|| {
@@ -28,7 +29,7 @@ pub(crate) fn language(code: &str) -> Result<Lang, Error> {
     })
 }
 
-/// All places where lines of a text may be broken, its start and its end among them.
+/// All break opportunities of a text, including its start and its end.
 pub(crate) fn breaks(text: &str, language: Option<Lang>) -> Vec<Break> {
     let mut found = vec![Break { at: 0, hyphen: false, must: true }];
     let mut from = 0;
@@ -43,7 +44,7 @@ pub(crate) fn breaks(text: &str, language: Option<Lang>) -> Vec<Break> {
     found
 }
 
-/// Adds the places inside the words of a stretch of text.
+/// Adds the hyphenation points of the words in a range of the text.
 fn part(text: &str, range: std::ops::Range<usize>, language: Lang, found: &mut Vec<Break>) {
     let stretch = &text[range.clone()];
     let mut words = stretch.char_indices().peekable();

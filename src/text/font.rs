@@ -1,4 +1,4 @@
-//! [`Font`]: a font of a file, or one that comes with the project, with its letters' outlines.
+//! [`Font`]: a bundled font or a font file, with its metrics and outlines.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -12,24 +12,24 @@ use skrifa::{DrawMemory, GlyphId, ScalerFont};
 use crate::drawing::FontFile;
 use crate::error::{Error, ErrorKind};
 
-/// The fonts that come with the project, in the order in which they stand in for others.
+/// The bundled fonts, in the order of fallback.
 const SHIPPED: [(&str, &[u8]); 3] = [
     ("comic", include_bytes!("../../fonts/ComicNeue-Bold.otf")),
     ("technical", include_bytes!("../../fonts/RoutedGothic.ttf")),
     ("plain", include_bytes!("../../fonts/B612-Regular.otf")),
 ];
 
-/// Files that are larger are no fonts one would set a page with.
+/// Maximum size of a font file, bytes.
 const LARGEST_FILE: u64 = 64 << 20;
 
-/// A font. Variable ones are as they are by default. Copies share what they hold.
+/// A font; cheap to clone. Variable fonts are used with their default axes.
 #[derive(Clone)]
 pub struct Font {
     inner: Arc<Inner>,
 }
 
 struct Inner {
-    /// As a reader is to know it.
+    /// Full name for messages.
     name: String,
     file: Arc<FontFile>,
     face: Face,
@@ -50,16 +50,16 @@ impl PartialEq for Font {
 }
 
 impl Font {
-    /// Names of the fonts that come with the project.
+    /// The names of the bundled fonts.
     #[must_use]
     pub fn names() -> Vec<&'static str> {
         SHIPPED.iter().map(|(name, _)| *name).collect()
     }
 
-    /// A font that comes with the project.
+    /// A bundled font by name.
     ///
     /// # Errors
-    /// Returns an error if there is none of that name.
+    /// Returns an error if there is no font of that name.
     pub fn named(name: &str) -> Result<Self, Error> {
         match SHIPPED.iter().find(|(known, _)| *known == name) {
             Some((_, bytes)) => Self::from_bytes(bytes),
@@ -68,10 +68,10 @@ impl Font {
         }
     }
 
-    /// A font of a TTF or OTF file; of a collection the first.
+    /// Reads a TTF or OTF file, or the first font of a collection.
     ///
     /// # Errors
-    /// Returns an error that names the file if it cannot be read or is no font.
+    /// Returns an error that names the file if it cannot be read or is not a font.
     pub fn open(path: impl AsRef<Path>) -> Result<Self, Error> {
         let path = path.as_ref();
         let read = || {
@@ -85,7 +85,7 @@ impl Font {
         Self::from_bytes(&bytes).map_err(|error| error.in_file(path))
     }
 
-    /// A font by the name of one that comes with the project, or by its file.
+    /// A bundled font by name, or a font file by path.
     ///
     /// # Errors
     /// Returns an error if it is neither.
@@ -94,10 +94,10 @@ impl Font {
         if is_name { Self::named(name_or_file) } else { Self::open(name_or_file) }
     }
 
-    /// A font of the bytes of a TTF or OTF file; of a collection the first.
+    /// Reads the bytes of a TTF or OTF file, or the first font of a collection.
     ///
     /// # Errors
-    /// Returns an error if they are no font, or one without outlines.
+    /// Returns an error if the bytes are not a font, or a font without outlines.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, Error> {
         let remedy = "give a TTF or OTF file with outlines";
         let refused = |what: &str| Error::new(what).of_kind(ErrorKind::Unsupported).remedy(remedy);
@@ -146,36 +146,36 @@ impl Font {
         Ok(Self { inner: Arc::new(inner) })
     }
 
-    /// What readers know it by, such as `Comic Neue Bold`.
+    /// Full name, such as `Comic Neue Bold`.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.inner.name
     }
 
-    /// Its file, for documents that hold it.
+    /// The font file with its metrics, for embedding.
     #[must_use]
     pub fn file(&self) -> &Arc<FontFile> {
         &self.inner.file
     }
 
-    /// The outline of a letter by its number in the font, in ems with y down, standing at (0, 0); empty for blanks.
+    /// The outline of a glyph in ems, y down, with its origin at (0, 0); empty for blanks.
     #[must_use]
     pub fn outline(&self, glyph: u16) -> BezPath {
         outline(&self.inner.scaler, GlyphId::from(glyph), self.inner.units_per_em)
     }
 
-    /// The font as shaping wants it.
+    /// The parsed font, for shaping.
     pub(crate) fn face(&self) -> &Face {
         &self.inner.face
     }
 
-    /// The font's units in an em.
+    /// Font units per em.
     pub(crate) fn units_per_em(&self) -> f64 {
         self.inner.units_per_em
     }
 }
 
-/// The outline of a letter, in ems with y down.
+/// The outline of a glyph in ems, y down.
 fn outline(scaler: &ScalerFont, glyph: GlyphId, units_per_em: f64) -> BezPath {
     let mut sink = Outline { path: BezPath::new(), units_per_em };
     if let Some(outline) = scaler.outline(glyph)
@@ -186,7 +186,7 @@ fn outline(scaler: &ScalerFont, glyph: GlyphId, units_per_em: f64) -> BezPath {
     sink.path
 }
 
-/// A path that is drawn in units of a font.
+/// A sink that converts an outline from font units to ems, y down.
 struct Outline {
     path: BezPath,
     units_per_em: f64,
@@ -220,7 +220,7 @@ impl PathSink for Outline {
     }
 }
 
-/// Whether the font says that documents may hold parts of it: bits of `fsType` in the table OS/2 (OpenType 1.9).
+/// Whether the font may be embedded as a subset: `fsType` bits of the OS/2 table (OpenType 1.9).
 fn embeddable(bytes: &[u8]) -> bool {
     let flags = || -> Option<u16> {
         let face = skrifa::FontRef::from_index(bytes, 0).ok()?;

@@ -1,4 +1,7 @@
-//! Which font has which letter: the one that was asked for, and those that stand in for it.
+//! Font fallback: chooses a font for each letter, the requested one or a bundled one.
+//!
+//! A font has a letter if shaping yields no missing glyph, combining marks included. Bundled fonts are loaded
+//! only when the requested font lacks a letter.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -9,14 +12,14 @@ use super::Font;
 use super::shaping::glyphs_of;
 use crate::error::Error;
 
-/// A letter that a font lacks, and the font that it was taken from.
+/// A letter that the requested font lacks, and the font that replaces it.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Fallback {
-    /// The letter, with the marks on it.
+    /// The letter with its combining marks.
     pub letter: String,
-    /// The font that was asked for.
+    /// The requested font.
     pub asked: String,
-    /// The font that has it.
+    /// The font that has the letter.
     pub used: String,
 }
 
@@ -27,16 +30,16 @@ impl fmt::Display for Fallback {
     }
 }
 
-/// A letter and its code: `` `Ω` (U+03A9) ``.
+/// Formats a letter with its code points: `` `Ω` (U+03A9) ``.
 fn spelled(letter: &str) -> String {
     let codes: Vec<String> = letter.chars().map(|c| format!("U+{:04X}", c as u32)).collect();
     format!("`{letter}` ({})", codes.join(" "))
 }
 
-/// The fonts of a text, the one that was asked for first.
+/// The fonts of a text, the requested one first.
 pub(crate) struct Chain {
     pub fonts: Vec<Font>,
-    /// The number of the font of each letter that was asked for.
+    /// Cache: the index of the font for each letter.
     known: BTreeMap<String, usize>,
 }
 
@@ -45,7 +48,7 @@ impl Chain {
         Self { fonts: vec![asked.clone()], known: BTreeMap::new() }
     }
 
-    /// Adds the fonts that come with the project.
+    /// Adds the bundled fonts.
     fn add_others(&mut self) -> Result<(), Error> {
         for name in Font::names() {
             let font = Font::named(name)?;
@@ -56,7 +59,7 @@ impl Chain {
         Ok(())
     }
 
-    /// The number of the first font that has a letter with its marks.
+    /// The index of the first font that has a letter with its combining marks.
     pub fn font_of(&mut self, letter: &str) -> Result<usize, Error> {
         if let Some(number) = self.known.get(letter) {
             return Ok(*number);
@@ -65,7 +68,7 @@ impl Chain {
             let glyphs = glyphs_of(font, letter, false, None);
             glyphs.is_ok_and(|(glyphs, whole)| whole && glyphs.len() > 1)
         };
-        // What is not seen is in every font.
+        // Invisible characters need no glyph.
         let unseen = letter.chars().all(|c| c.is_control() || c.is_whitespace() && c != '\u{3000}');
         let mut number = if unseen { Some(0) } else { self.fonts.iter().position(has) };
         if number.is_none() && self.fonts.len() == 1 {
@@ -73,7 +76,7 @@ impl Chain {
             number = self.fonts.iter().position(has);
         }
         if number.is_none() && letter.starts_with(char::REPLACEMENT_CHARACTER) {
-            // What stands for letters that could not be read is drawn as the box that fonts have for letters they lack.
+            // The replacement character is drawn as the font's box for missing glyphs.
             let has_box = |font: &Font| !font.outline(0).elements().is_empty();
             number = Some(self.fonts.iter().position(has_box).unwrap_or_default());
         }
@@ -89,7 +92,7 @@ impl Chain {
         Ok(number)
     }
 
-    /// The letters that were not in the font that was asked for.
+    /// The letters that the requested font lacks.
     pub fn fallbacks(&self) -> Vec<Fallback> {
         let name =
             |number: usize| self.fonts.get(number).map(|font| font.name().to_owned()).unwrap_or_default();
@@ -100,7 +103,7 @@ impl Chain {
     }
 }
 
-/// The letters of a text, each with the marks that stand on it.
+/// Splits a text into letters with their combining marks.
 pub(crate) fn letters(text: &str) -> Vec<&str> {
     let joins = |c: char| {
         let class = break_property(c as u32);

@@ -1,8 +1,13 @@
-//! Which breaks are taken: line after line as much as fits, or so that the costliest of a number of lines costs least.
+//! Line breaking: greedy, or balanced by dynamic programming.
+//!
+//! Balanced breaking runs twice: first to minimise the largest cost of a line, then to minimise the sum of
+//! squares among the breaks that reach this minimum.
 
-/// Takes as much as fits into each line: the numbers of the breaks at which lines end, or of the one from which nothing fits.
-/// `fits` knows of two breaks whether a line between them is short enough, `may_end` whether one may end at a break, and `must_end`
-/// whether it must.
+/// Breaks lines greedily, each as full as possible. Returns the indices of the breaks that end lines, or the
+/// break where nothing fits.
+///
+/// `fits` tests a line between two breaks, `may_end` whether a line may end at a break, `must_end` whether it
+/// must.
 pub(crate) fn greedy(
     last: usize,
     fits: &mut dyn FnMut(usize, usize) -> bool,
@@ -30,9 +35,11 @@ pub(crate) fn greedy(
     Ok(ends)
 }
 
-/// The ends of so many lines of which the costliest costs least, and of those with the least sum of squares; and what the costliest
-/// costs. `cost` knows what a line, by its number and the breaks between which it lies, costs: nothing if it cannot be, and neither
-/// can longer ones that end alike.
+/// Splits a text into exactly `lines` lines and minimises the largest cost of a line; ties go to the smallest
+/// sum of squares. Returns the largest cost and the ends of lines.
+///
+/// `cost` gets the number of the line and its two breaks. `None` means that this line is impossible, and so
+/// are longer lines with the same end.
 pub(crate) fn choose(
     lines: usize,
     last: usize,
@@ -47,7 +54,7 @@ pub(crate) fn choose(
     Some((worst, ends))
 }
 
-/// The ends of so many lines with the least cost, as costs are put together.
+/// Dynamic programming over breaks: the cheapest ends of `lines` lines, with costs combined by `together`.
 fn search(
     lines: usize,
     last: usize,
@@ -55,7 +62,7 @@ fn search(
     may_end: &dyn Fn(usize) -> bool,
     together: fn(f64, f64) -> f64,
 ) -> Option<(f64, Vec<usize>)> {
-    // Of each break: the least cost of all up to it, and where the line that ends there begins.
+    // For each break the least cost up to it; per line, where the line that ends there begins.
     let mut costs: Vec<Option<f64>> = vec![None; last + 1];
     *costs.first_mut()? = Some(0.0);
     let mut begins: Vec<Vec<usize>> = Vec::with_capacity(lines);
@@ -90,7 +97,7 @@ fn search(
 mod tests {
     use super::*;
 
-    /// All ways to end so many lines.
+    /// All possible ends of a number of lines.
     fn all(lines: usize, last: usize) -> Vec<Vec<usize>> {
         if lines == 1 {
             return vec![vec![last]];

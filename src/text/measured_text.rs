@@ -1,4 +1,7 @@
-//! [`Source`]: a text with the places where its lines may be broken, and the widths of lines between them.
+//! [`Source`]: a text with its break opportunities, and the widths of lines between them.
+//!
+//! Whole pieces are measured once and summed, so the width of a line without hyphens needs no shaping. Lines
+//! with hyphens shape their first and last piece.
 
 use std::sync::Arc;
 
@@ -8,28 +11,29 @@ use super::line_breaking::{choose, greedy};
 use super::shaped_pieces::{Piece, Pieces};
 use crate::error::{Error, ErrorKind};
 
-/// Lines times places where they may break that are looked through for the best breaks.
+/// Maximum number of lines times break opportunities for balanced breaking.
 const MOST_WAYS: usize = 4_000_000;
 
-/// A text with its breaks and its measures; lengths in ems.
+/// A text with its breaks and measures. Lengths in ems.
 pub(crate) struct Source<'a> {
     text: &'a str,
     pub setting: &'a Setting,
     pub breaks: Vec<Break>,
     pub pieces: Pieces<'a>,
-    /// Of each break, the whole stretches before it and their width with all blanks.
+    /// For each break, the number of whole pieces before it; for each number of pieces, their width with
+    /// blanks.
     stretches: Vec<usize>,
     widths: Vec<f64>,
-    /// The breaks between whole stretches.
+    /// The breaks between whole pieces.
     whole: Vec<usize>,
-    /// How far letters reach above the line of writing and below it.
+    /// Largest height above and depth below the baseline.
     pub reach: [f64; 2],
-    /// What went wrong while widths were asked for.
+    /// The first error while measuring.
     fault: Option<Error>,
 }
 
 impl<'a> Source<'a> {
-    /// Shapes a text whose lines are tidy.
+    /// Shapes a trimmed text.
     pub fn new(text: &'a str, setting: &'a Setting) -> Result<Self, Error> {
         let em = setting.em();
         if !(em.is_finite() && em > 0.0 && setting.leading.is_finite() && setting.leading >= 0.0) {
@@ -57,17 +61,17 @@ impl<'a> Source<'a> {
         Ok(Self { text, setting, breaks, pieces, stretches, widths, whole, reach, fault: None })
     }
 
-    /// Says what went wrong while widths were asked for.
+    /// Returns the error that occurred while measuring, if any.
     pub fn take_fault(&mut self) -> Result<(), Error> {
         self.fault.take().map_or(Ok(()), Err)
     }
 
-    /// A length in ems.
+    /// Converts a length from user units to ems.
     pub fn in_ems(&self, units: f64) -> f64 {
         units / self.setting.em()
     }
 
-    /// The bytes of the pieces of a line between two breaks: the first, those between, the last; with a hyphen or none.
+    /// The pieces of a line between two breaks: start byte, end byte, and whether a hyphen follows.
     pub fn parts(&self, from: usize, to: usize) -> Vec<(usize, usize, bool)> {
         let (begin, end) = (self.breaks[from], self.breaks[to]);
         let mut parts = Vec::new();
@@ -83,7 +87,8 @@ impl<'a> Source<'a> {
         parts
     }
 
-    /// The width of a line between two breaks, all ink included; none if a letter is missing or the line must end before.
+    /// The width of a line between two breaks, including overhanging ink; `None` if a glyph is missing or the
+    /// line must end earlier.
     pub fn line_width(&mut self, from: usize, to: usize) -> Option<f64> {
         if (from + 1..to).rev().any(|between| self.breaks[between].must) {
             return None;
@@ -91,7 +96,7 @@ impl<'a> Source<'a> {
         self.measured(from, to).map_err(|error| self.fault = Some(error)).ok()
     }
 
-    /// The width of a line between two breaks.
+    /// The width of a line between two breaks, including overhanging ink.
     pub fn measured(&mut self, from: usize, to: usize) -> Result<f64, Error> {
         let parts_whole = !self.breaks[from].hyphen && !self.breaks[to].hyphen;
         let at = |source: &Self, number: usize| source.breaks[source.whole[number]].at;
@@ -112,12 +117,12 @@ impl<'a> Source<'a> {
                 _ => return Ok(0.0),
             }
         };
-        // Where letters run to the left the last piece is the first one that is seen.
+        // In text from right to left, the last piece is on the left.
         let [left, right] = if self.pieces.runs_left { [&last, &first] } else { [&first, &last] };
         Ok(left.overhang[0] + sum - last.blank_width + right.overhang[1])
     }
 
-    /// The ends of lines that are as full as can be, or the break from which nothing fits.
+    /// Greedy line ends, or the break where nothing fits.
     pub fn greedy(&mut self, width: f64, parted: bool) -> Result<Vec<usize>, usize> {
         let limit = self.in_ems(width);
         let breaks = self.breaks.clone();
@@ -126,7 +131,7 @@ impl<'a> Source<'a> {
         greedy(last, &mut fits, &|at| parted || !breaks[at].hyphen, &|at| breaks[at].must)
     }
 
-    /// Says which word is too wide.
+    /// The error that a word is too wide.
     pub fn too_wide(&mut self, begin: usize, width: f64) -> Error {
         if let Some(fault) = self.fault.take() {
             return fault;
@@ -139,7 +144,7 @@ impl<'a> Source<'a> {
             .remedy("make the text wider, set it smaller, or name the language for hyphenation")
     }
 
-    /// An error if the best breaks would be sought among too many.
+    /// Returns an error if the search for balanced breaks would be too large.
     pub fn refuse_many(&self, lines: usize) -> Result<(), Error> {
         if lines.saturating_mul(self.breaks.len()) <= MOST_WAYS {
             return Ok(());
@@ -147,7 +152,7 @@ impl<'a> Source<'a> {
         Err(Error::new("the text is too long to balance its lines").remedy("give it a width"))
     }
 
-    /// The best ends of so many lines, and what the costliest costs.
+    /// The most even ends of `lines` lines, and the largest cost of a line.
     pub fn best(
         &mut self,
         lines: usize,
@@ -159,7 +164,7 @@ impl<'a> Source<'a> {
         choose(lines, last, &mut |line, from, to| cost(self, line, from, to), &|at| may_end[at])
     }
 
-    /// Half the width of the smallest ellipse, and the ends of lines.
+    /// The smallest ellipse around the lines of a text: half its width, and the ends of lines.
     pub fn smallest_ellipse(&mut self, aspect: f64, parted: bool) -> Result<(f64, Vec<usize>), Error> {
         let [above, below] = self.reach;
         let leading = self.setting.leading;
@@ -167,7 +172,7 @@ impl<'a> Source<'a> {
         for lines in 1..self.breaks.len() {
             let height = above + below + (lines - 1) as f64 * leading;
             let reached = best.as_ref().map_or(f64::INFINITY, |(square, _)| *square);
-            // Corners of lines that are nearest to the top or to the bottom.
+            // Height of the line's farthest corner from the centre, scaled to a circle.
             let corner = |line: usize| {
                 let top = line as f64 * leading - height / 2.0;
                 top.abs().max((top + above + below).abs()) / aspect

@@ -1,98 +1,97 @@
-//! [`Setting`]: how a text is set: its font, size, leading, alignment, language.
+//! [`Setting`]: font, size, leading, alignment and language of a text.
 
 use super::Font;
 
-/// How large letters are, in user units of the page.
+/// Letter size, in user units of the page.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Size {
-    /// The em of the font.
+    /// Em size of the font.
     Em(f64),
-    /// The height of capitals, which drawings of machines are lettered by.
+    /// Height of capitals, as usual on technical drawings.
     Capitals(f64),
 }
 
-/// Where the lines of a block stand.
+/// Alignment of the lines in a block.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Align {
-    /// At its left side.
+    /// Aligned left.
     Left,
-    /// In its middle.
+    /// Centred.
     #[default]
     Centre,
-    /// At its right side.
+    /// Aligned right.
     Right,
 }
 
-/// How a text is set.
+/// Settings of a text.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct Setting {
-    /// The font. Letters that it lacks are taken from the fonts that come with the project.
+    /// The font. Letters that it lacks are taken from the bundled fonts.
     pub font: Font,
-    /// Size of the letters.
+    /// Letter size.
     pub size: Size,
-    /// From one line of writing to the next, in ems.
+    /// Distance between baselines, in ems.
     pub leading: f64,
-    /// Where lines stand.
+    /// Alignment of lines.
     pub align: Align,
-    /// Whether all letters are capitals.
+    /// Whether all letters are upper case.
     pub upper_case: bool,
-    /// The language, as two letters of ISO 639-1: words are parted where it parts them, and `i` is capital as it writes it. With none
-    /// words stay whole.
+    /// Language for hyphenation and upper case, two letters of ISO 639-1. `None` disables hyphenation.
     pub language: Option<String>,
 }
 
 impl Setting {
-    /// Letters of a font whose em is a unit, in lines that are centred and 1.2 ems apart.
+    /// Settings with an em of 1 unit, centred lines and a leading of 1.2.
     #[must_use]
     pub fn new(font: Font) -> Self {
         let (size, align) = (Size::Em(1.0), Align::Centre);
         Self { font, size, leading: 1.2, align, upper_case: false, language: None }
     }
 
-    /// Letters with an em of so many units.
+    /// Sets the em size, in user units.
     #[must_use]
     pub fn with_em(mut self, em: f64) -> Self {
         self.size = Size::Em(em);
         self
     }
 
-    /// Letters whose capitals are so many units high.
+    /// Sets the height of capitals, in user units.
     #[must_use]
     pub fn with_capitals(mut self, height: f64) -> Self {
         self.size = Size::Capitals(height);
         self
     }
 
-    /// Lines so many ems apart.
+    /// Sets the distance between baselines, in ems.
     #[must_use]
     pub fn with_leading(mut self, ems: f64) -> Self {
         self.leading = ems;
         self
     }
 
-    /// Lines that stand there.
+    /// Sets the alignment of lines.
     #[must_use]
     pub fn aligned(mut self, align: Align) -> Self {
         self.align = align;
         self
     }
 
-    /// All letters as capitals.
+    /// Sets all letters to upper case.
     #[must_use]
     pub fn upper_case(mut self) -> Self {
         self.upper_case = true;
         self
     }
 
-    /// Words of that language, as two letters of ISO 639-1, parted where it parts them.
+    /// Sets the language for hyphenation, two letters of ISO 639-1.
     #[must_use]
     pub fn in_language(mut self, code: &str) -> Self {
         self.language = Some(code.to_owned());
         self
     }
 
-    /// The em in user units.
+    /// Em size in user units.
     #[must_use]
     pub fn em(&self) -> f64 {
         match self.size {
@@ -101,7 +100,7 @@ impl Setting {
         }
     }
 
-    /// A text as its letters are set.
+    /// The text in upper case, if that is set.
     pub(crate) fn cased(&self, text: &str) -> String {
         if !self.upper_case {
             return text.to_owned();

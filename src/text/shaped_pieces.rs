@@ -1,4 +1,8 @@
-//! [`Pieces`]: stretches of a text that no line is broken in, shaped once each, with their measures.
+//! [`Pieces`]: the unbreakable pieces of a text, each shaped and measured once.
+//!
+//! 1. The letters of a piece are grouped into runs of one font and one embedding level.
+//! 2. Each run is shaped, and its ink is measured from the outlines.
+//! 3. The piece keeps its width, and how far its ink extends past it on all sides.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -12,43 +16,43 @@ use super::{Font, Setting};
 use crate::drawing::SetGlyph;
 use crate::error::Error;
 
-/// Letters of one font and direction; lengths in ems of the font that was asked for.
+/// Glyphs of one font and direction. Lengths in ems of the requested font.
 #[derive(Debug, Clone)]
 pub(crate) struct Run {
     pub font: Font,
-    /// An em of its font.
+    /// Em of its font, in ems of the requested font.
     pub em: f64,
-    /// Even ones run to the right, odd ones to the left.
+    /// Embedding level: even levels run to the right, odd ones to the left.
     pub level: u8,
     pub words: String,
-    /// From the left, in ems of its font.
+    /// Glyphs from the left, in ems of their font.
     pub glyphs: Vec<SetGlyph>,
     pub width: f64,
-    /// What is inked, y down from the line of writing, nothing if all are blanks.
+    /// Bounding box of the ink, y down from the baseline; `None` for blanks.
     pub ink: Option<Rect>,
 }
 
-/// A stretch of text, without the blanks after it; lengths in ems.
+/// An unbreakable piece of text, and the blanks after it. Lengths in ems.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Piece {
     pub runs: Vec<Run>,
     pub blanks: Vec<Run>,
     pub width: f64,
     pub blank_width: f64,
-    /// How far ink reaches out to the left of its start, and to the right of its end.
+    /// Ink outside the advance width, on the left and on the right.
     pub overhang: [f64; 2],
-    /// How far ink reaches above the line of writing, and below it.
+    /// Ink above and below the baseline.
     pub reach: [f64; 2],
 }
 
-/// The pieces of a text.
+/// Shapes the pieces of a text and caches them.
 pub(crate) struct Pieces<'a> {
     text: &'a str,
     setting: &'a Setting,
     chain: Chain,
-    /// Of the character at each byte.
+    /// Embedding level of the character at each byte.
     levels: BTreeMap<usize, u8>,
-    /// Whether the text as a whole runs to the left.
+    /// Whether the base direction is right to left.
     pub runs_left: bool,
     known: BTreeMap<(usize, usize, bool), Arc<Piece>>,
 }
@@ -62,7 +66,7 @@ impl<'a> Pieces<'a> {
         Self { text, setting, chain, levels, runs_left, known: BTreeMap::new() }
     }
 
-    /// The piece between two bytes of the text, with a hyphen behind it or none.
+    /// The piece between two bytes of the text, with or without a hyphen at its end.
     pub fn piece(&mut self, from: usize, to: usize, hyphen: bool) -> Result<Arc<Piece>, Error> {
         if let Some(piece) = self.known.get(&(from, to, hyphen)) {
             return Ok(Arc::clone(piece));
@@ -91,7 +95,7 @@ impl<'a> Pieces<'a> {
         Ok(piece)
     }
 
-    /// Letters that had to be taken from other fonts.
+    /// The letters that the requested font lacks.
     pub fn fallbacks(&self) -> Vec<Fallback> {
         self.chain.fallbacks()
     }
@@ -104,7 +108,7 @@ impl<'a> Pieces<'a> {
             let level = self.levels.get(&at).copied().unwrap_or(last);
             at += letter.len();
             last = level;
-            // Marks of where a word may be parted, line ends and tabs are no letters of their own.
+            // Soft hyphens and zero-width spaces are dropped; control characters become blanks.
             let plain: String = letter
                 .chars()
                 .filter(|c| *c != '\u{ad}' && *c != '\u{200b}')
@@ -137,7 +141,7 @@ impl<'a> Pieces<'a> {
     fn run(&self, number: usize, level: u8, words: String) -> Result<Run, Error> {
         let asked = &self.setting.font;
         let font = self.chain.fonts.get(number).unwrap_or(asked).clone();
-        // Others are as high as the one that was asked for.
+        // Fallback fonts are scaled to the height of capitals of the requested font.
         let em = if number == 0 { 1.0 } else { asked.file().cap_height / font.file().cap_height };
         let language = self.setting.language.as_deref();
         let (mut glyphs, _) = glyphs_of(&font, &words, level % 2 == 1, language)?;

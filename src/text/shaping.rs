@@ -1,4 +1,4 @@
-//! Letters of one font and direction as glyphs with their places: kerning, ligatures, marks.
+//! Shaping: the glyphs of a text in one font and direction, with kerning, ligatures and marks.
 
 use harfrust::{Buffer, Direction, Language, ShapeOptions, ShaperFont, shape};
 
@@ -6,7 +6,8 @@ use super::Font;
 use crate::drawing::SetGlyph;
 use crate::error::Error;
 
-/// The glyphs of a text, from the left as they are seen, in ems of the font, and whether the font has all of them.
+/// The glyphs of a text from left to right, in ems of the font, and whether the font has all of them. One
+/// extra glyph marks the end.
 pub(crate) fn glyphs_of(
     font: &Font,
     text: &str,
@@ -50,7 +51,7 @@ pub(crate) fn glyphs_of(
         x = x.saturating_add(place.x_advance);
         y = y.saturating_add(place.y_advance);
     }
-    // The end of the text is where the next glyph would stand.
+    // The position of the next glyph is the end of the text.
     glyphs.push(SetGlyph { id: 0, x: ems(x), y: 0.0, advance: 0.0, shows: text.len()..text.len() });
     Ok((glyphs, whole))
 }

@@ -1,4 +1,8 @@
-//! [`Block`]: a text broken into lines that are set one below the other.
+//! [`Block`]: a text broken into lines, and the lines set below each other.
+//!
+//! 1. Lines are broken at given line breaks, greedily to a width, evenly to a width, or into an ellipse.
+//! 2. The runs of each line are put in visual order and positioned.
+//! 3. Marks are made from the glyph outlines, one for each stretch of one font and direction.
 
 use std::sync::Arc;
 
@@ -13,61 +17,62 @@ use crate::colour::srgb::Colour;
 use crate::drawing::{Mark, Paint, Provenance, SetGlyph, TextRun};
 use crate::error::{Error, ErrorKind};
 
-/// Longer texts are no blocks, bytes.
+/// Maximum length of a text, bytes.
 const LONGEST: usize = 50_000;
 
-/// How much smaller an ellipse must get before words are parted for it.
+/// Words are hyphenated if that shrinks the ellipse at least to this share.
 const WORTH_PARTING: f64 = 0.85;
 
-/// A line of a block; lengths in user units, from the upper left corner of the block, y down.
+/// A line of a block. Lengths in user units, from the upper left corner of the block, y down.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Line {
-    /// What it says, in reading order.
+    /// The text in reading order.
     pub words: String,
-    /// Its left side.
+    /// Left side.
     pub x: f64,
-    /// Its width, all ink included.
+    /// Width, including overhanging ink.
     pub width: f64,
-    /// The line of writing.
+    /// y coordinate of the baseline.
     pub baseline: f64,
-    /// From the top of the line to the line of writing; of all lines of a block alike: no ink is higher, and neither are capitals.
+    /// Distance from the top of the line to the baseline. It is the same for all lines of a block, and covers
+    /// all ink and the height of capitals.
     pub ascent: f64,
-    /// From the line of writing to the lower end of the lowest letter of the block.
+    /// Distance from the baseline to the lowest ink of the block.
     pub descent: f64,
-    /// From its left side to where its first letter stands, and the runs, from the left, with where they stand.
+    /// Offset from the left side to the first letter, and the runs from the left with their positions.
     start: f64,
     runs: Vec<(f64, Run)>,
 }
 
 impl Line {
-    /// The box around it.
+    /// The bounding box.
     #[must_use]
     pub fn bounds(&self) -> Rect {
         Rect::new(self.x, self.baseline - self.ascent, self.x + self.width, self.baseline + self.descent)
     }
 }
 
-/// A text in lines; lengths in user units, from its upper left corner, y down.
+/// A text in lines. Lengths in user units, from its upper left corner, y down.
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Block {
-    /// The lines, from the top.
+    /// The lines from top to bottom.
     pub lines: Vec<Line>,
-    /// Its width.
+    /// Width of the block.
     pub width: f64,
-    /// Its height, from the top of the first line to the lower end of the last.
+    /// Height, from the top of the first line to the bottom of the last one.
     pub height: f64,
-    /// Letters that the font lacks, and which one they were taken from.
+    /// Letters that the font lacks, with the fonts that replace it.
     pub fallbacks: Vec<Fallback>,
     em: f64,
 }
 
 impl Block {
-    /// A text in lines as they are written, however long.
+    /// Sets a text with its own line breaks only.
     ///
     /// # Errors
-    /// Returns an error if no font has a letter, or the text is too long.
+    /// Returns an error if no font has a glyph, or the text is too long.
     pub fn unbroken(text: &str, setting: &Setting) -> Result<Self, Error> {
         let text = tidied(text)?;
         let mut source = Source::new(&text, setting)?;
@@ -75,10 +80,11 @@ impl Block {
         set(&mut source, &ends, None)
     }
 
-    /// A text in lines no wider than a width in user units, each as full as can be. The block is as wide as that.
+    /// Sets a text in lines of at most `width` user units, each as full as possible. The block has that
+    /// width.
     ///
     /// # Errors
-    /// Returns an error that names a word which is too wide, or if no font has a letter, or the text is too long.
+    /// Returns an error if a word is too wide, no font has a glyph, or the text is too long.
     pub fn in_width(text: &str, setting: &Setting, width: f64) -> Result<Self, Error> {
         let text = tidied(text)?;
         let mut source = Source::new(&text, setting)?;
@@ -86,11 +92,13 @@ impl Block {
         set(&mut source, &ends, Some(width))
     }
 
-    /// A text in lines no wider than a width in user units, as few as can be, and those as even as can be: the widest is as narrow as
-    /// so many lines allow. Words are parted only where the text does not fit otherwise. The block is as wide as its widest line.
+    /// Sets a text in the fewest lines of at most `width` user units, as even as possible.
+    ///
+    /// The widest line is as narrow as this number of lines allows. Words are hyphenated only if the text
+    /// does not fit otherwise. The block is as wide as its widest line.
     ///
     /// # Errors
-    /// Returns an error as [`Block::in_width`] does.
+    /// Returns the same errors as [`Block::in_width`].
     pub fn balanced(text: &str, setting: &Setting, width: f64) -> Result<Self, Error> {
         let text = tidied(text)?;
         let mut source = Source::new(&text, setting)?;
@@ -108,11 +116,14 @@ impl Block {
         set(&mut source, &ends, None)
     }
 
-    /// A text in lines whose corners all lie in an ellipse around the middle of the block, the smallest that is `aspect` times as high
-    /// as wide, and half the width and height of that ellipse. Words are parted where that saves a lot.
+    /// Sets a text in the smallest ellipse around the centre of the block with height `aspect` times its
+    /// width.
+    ///
+    /// The corners of all lines lie in the ellipse. Words are hyphenated if that saves much space. Also
+    /// returns half the width and height of the ellipse.
     ///
     /// # Errors
-    /// Returns an error if no font has a letter, or the text is too long.
+    /// Returns an error if `aspect` is not positive, no font has a glyph, or the text is too long.
     pub fn in_ellipse(text: &str, setting: &Setting, aspect: f64) -> Result<(Self, Vec2), Error> {
         if !(aspect.is_finite() && aspect > 0.0) {
             return Err(Error::new(format!("an ellipse with aspect {aspect} is not possible"))
@@ -133,20 +144,20 @@ impl Block {
         Ok((block, Vec2::new(radius, radius * aspect)))
     }
 
-    /// The box around it.
+    /// The bounding box.
     #[must_use]
     pub fn bounds(&self) -> Rect {
         Rect::new(0.0, 0.0, self.width, self.height)
     }
 
-    /// What it says, line by line.
+    /// The text of all lines, separated by line breaks.
     #[must_use]
     pub fn words(&self) -> String {
         self.lines.iter().map(|line| line.words.as_str()).collect::<Vec<_>>().join("\n")
     }
 
-    /// Its letters with its upper left corner at a point: filled outlines, one mark for each stretch of a line in one font, with the
-    /// words beside them.
+    /// The letters as filled outlines, with the upper left corner of the block at a point. There is one mark
+    /// for each stretch of a line in one font and direction.
     #[must_use]
     pub fn marks(&self, corner: Point, colour: Colour) -> Vec<Mark> {
         self.lines.iter().flat_map(|line| self.marks_of(line, corner, colour)).collect()
@@ -164,7 +175,7 @@ impl Block {
         let place = Affine::new([em, 0.0, 0.0, -em, x, corner.y + line.baseline]);
         let mut glyphs: Vec<SetGlyph> = Vec::new();
         let mut path = BezPath::new();
-        // Words are read from the right where letters run there.
+        // Runs from right to left hold their words in reverse order.
         let leftward = first.level % 2 == 1;
         let reading: Vec<&str> = {
             let words = runs.iter().map(|(_, run)| run.words.as_str());
@@ -197,7 +208,7 @@ impl Block {
     }
 }
 
-/// A text without blanks around its lines.
+/// Trims the lines of a text; an error if it is too long or empty.
 fn tidied(text: &str) -> Result<String, Error> {
     if text.len() > LONGEST {
         let message = format!("a text of {} bytes is too long to be set in one block", text.len());
@@ -210,7 +221,7 @@ fn tidied(text: &str) -> Result<String, Error> {
     Ok(lines.join("\n"))
 }
 
-/// The block of lines that end at those breaks, as wide as asked for or as its widest line.
+/// Sets the lines that end at the given breaks. The block has the given width, or that of its widest line.
 fn set(source: &mut Source, ends: &[usize], width: Option<f64>) -> Result<Block, Error> {
     source.take_fault()?;
     let em = source.setting.em();
@@ -234,7 +245,7 @@ fn set(source: &mut Source, ends: &[usize], width: Option<f64>) -> Result<Block,
     Ok(Block { lines, width, height, fallbacks: source.pieces.fallbacks(), em })
 }
 
-/// The line between two breaks.
+/// Sets the line between two breaks.
 fn line(source: &mut Source, from: usize, to: usize, baseline: f64) -> Result<Line, Error> {
     let em = source.setting.em();
     let mut runs: Vec<Run> = Vec::new();

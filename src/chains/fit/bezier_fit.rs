@@ -1,20 +1,21 @@
-//! Fits cubic Béziers, joined smoothly, to densely spaced points.
+//! Fits smoothly joined cubic Béziers to densely spaced points.
 //!
-//! Each cubic is the best one for its points with given end tangents (Source: Schneider, An
-//! algorithm for automatically fitting digitized curves, Graphics Gems 1990); instead of halving
-//! where a fit fails, each cubic reaches as far as it can, which takes about half as many.
+//! Each cubic is the least-squares fit for its points with given end tangents. Source: Schneider, An
+//! algorithm for automatically fitting digitized curves, Graphics Gems 1990. Deviation: instead of halving
+//! where a fit fails, each cubic reaches as far as it can. This takes about half as many cubics.
 
 use crate::geometry::plane::planar_distance::length;
 use kurbo::{BezPath, CubicBez, ParamCurve, Point, Vec2};
 
-/// Rounds of moving each point's parameter to its foot on the curve.
+/// Rounds of reparameterization: each point's parameter moves to the foot point on the curve.
 const ROUNDS: usize = 4;
 
-/// Most points a cubic is solved for; more are passed over evenly, but all are checked.
+/// Maximum number of points in the least-squares system. Longer runs are sampled evenly, but all points are
+/// checked.
 const MOST_POINTS: usize = 40;
 
-/// Adds cubics through `points` to `path`, which stands at the first of them. Tangents point along
-/// the line. No point is left farther away than `tolerance`.
+/// Appends cubics through `points` to `path`, which ends at the first of them. Both tangents point along the
+/// line. No point deviates by more than `tolerance`.
 pub(crate) fn fit(points: &[Point], start: Vec2, end: Vec2, tolerance: f64, path: &mut BezPath) {
     let last = points.len().saturating_sub(1);
     let mut from = 0;
@@ -27,7 +28,7 @@ pub(crate) fn fit(points: &[Point], start: Vec2, end: Vec2, tolerance: f64, path
         let mut low = from;
         let mut high = last + 1;
         let mut to = (from + guess).min(last);
-        // Grow while it fits, then halve between what fits and what does not.
+        // Double the length while it fits, then bisect between the longest fit and the shortest failure.
         loop {
             if let Some(found) = attempt(to) {
                 best = Some((to, found));
@@ -63,7 +64,7 @@ pub(crate) fn tangent_of(points: &[Point], i: usize) -> Vec2 {
     unit(points[b] - points[a])
 }
 
-/// Direction in which points set out, by the circle through the first, one farther on, and one in
+/// Direction at the first point, from the circle through three points: the first, one farther on, and one in
 /// between.
 pub(crate) fn end_tangent(points: impl Fn(usize) -> Point, count: usize) -> Vec2 {
     let reach = (count - 1).min(6);
@@ -75,7 +76,7 @@ pub(crate) fn end_tangent(points: impl Fn(usize) -> Point, count: usize) -> Vec2
     if la <= 0.0 || lb <= 0.0 {
         return unit(b);
     }
-    // The tangent turns on from the chords as they turn from each other, in proportion to length.
+    // The tangent turns away from the chords as they turn from each other, in proportion to length.
     unit(unit(a) * (1.0 + la / (lb - la).max(0.1 * lb)) - unit(b) * (la / (lb - la).max(0.1 * lb)))
 }
 
@@ -84,7 +85,7 @@ pub(crate) fn unit(v: Vec2) -> Vec2 {
     if length > 0.0 { v / length } else { Vec2::ZERO }
 }
 
-/// The cubic through the first and last point that passes all others within `tolerance`.
+/// Cubic through the first and last point that passes all others within `tolerance`.
 fn cubic(points: &[Point], start: Vec2, end: Vec2, tolerance: f64) -> Option<CubicBez> {
     let (&first, &last) = (points.first()?, points.last()?);
     let chord = length(last - first);
@@ -111,7 +112,7 @@ fn cubic(points: &[Point], start: Vec2, end: Vec2, tolerance: f64) -> Option<Cub
     }
     for round in 0..ROUNDS {
         let curve = solve(&chosen, &parameters, start, end, chord, along)?;
-        // Farther off than this no change of parameters will bring it near.
+        // Reparameterization cannot correct a larger distance than this.
         let hopeless = if round == 0 { 36.0 } else { 6.0 } * tolerance * tolerance;
         let mut worst = 0.0_f64;
         for (p, t) in chosen.iter().zip(&mut parameters) {
@@ -129,7 +130,7 @@ fn cubic(points: &[Point], start: Vec2, end: Vec2, tolerance: f64) -> Option<Cub
     None
 }
 
-/// Whether the curve passes all points, not only the chosen ones.
+/// Whether the curve passes all points within the tolerance, not only the sampled ones.
 fn passes(curve: &CubicBez, points: &[Point], stride: usize, parameters: &[f64], tolerance: f64) -> bool {
     if stride == 1 {
         return true;
@@ -144,7 +145,7 @@ fn passes(curve: &CubicBez, points: &[Point], stride: usize, parameters: &[f64],
     })
 }
 
-/// Least squares for the lengths of the two handles.
+/// Least-squares solution for the lengths of the two handles.
 fn solve(
     points: &[Point],
     parameters: &[f64],
@@ -173,7 +174,7 @@ fn solve(
     } else {
         (third, third)
     };
-    // Handles that point back or reach too far make loops and cusps.
+    // Handles that point backward or reach too far cause loops and cusps.
     let (least, most) = (0.05 * chord, along);
     if !(least..=most).contains(&a) || !(least..=most).contains(&b) {
         a = a.clamp(least, most);
@@ -182,7 +183,7 @@ fn solve(
     Some(CubicBez::new(first, first + start * a, last - end * b, last))
 }
 
-/// One step of Newton's method towards the parameter of the point's foot on the curve.
+/// One Newton step towards the parameter of the point's foot on the curve.
 fn foot(curve: &CubicBez, p: Point, t: f64) -> f64 {
     let s = 1.0 - t;
     let (p0, p1, p2, p3) = (curve.p0, curve.p1, curve.p2, curve.p3);
@@ -202,7 +203,7 @@ mod tests {
 
     #[test]
     fn a_cubic_is_found_from_far_off_parameters() {
-        // Cubics whose speed is far from even, so that lengths along their points are but a first guess of parameters.
+        // Cubics of very uneven speed, for which arc lengths are a poor first guess of the parameters.
         for (bend, tolerance) in [(0.3, 0.5), (0.6, 0.5), (0.9, 1.0)] {
             let whole = CubicBez::new((0.0, 0.0), (10.0, 60.0 * bend), (40.0, 60.0), (120.0, 10.0));
             let points: Vec<Point> = (0..=30).map(|k| whole.eval(f64::from(k) / 30.0)).collect();

@@ -1,14 +1,18 @@
-//! [`arcs`]: the stretches of a polyline whose corners lie on one circle, within the rounding of the file.
+//! Circular arcs in polylines: finds stretches whose corners lie on one circle, within the file's rounding.
 //!
-//! A tessellated circle has all corners on the circle, except for the rounding of the file. Five corners or more that pass this test are an
-//! arc if no chord turns by more than 22.5 degrees: 16 corners a turn, four chords a quarter.
+//! A tessellated circle has all its corners on the circle, except for the rounding of the file. Five or more
+//! corners that pass this test form an arc if no chord turns by more than 22.5 degrees (16 corners a full
+//! turn).
 //!
-//! 1. From each corner the stretch is made as long as it can be: doubled while it fits, then halved. Each attempt fits a circle to all its
-//!    corners by least squares (Kåsa) and measures them. Every part of a stretch that fits, fits: so the search finds the longest.
-//! 2. A closed line is one circle, or is begun anew where a stretch ends, so that no arc is cut.
-//! 3. An arc that turns too little has an uncertain radius, and may be a piece of an ellipse: it is left alone.
-//! 4. Where a line ends inside a chord of an arc, because something hides the rest, the arc goes on to its end.
-//! 5. An arc goes exactly through its first and last corner. It is written as cubics of up to 45 degrees.
+//! 1. From each corner the longest stretch is found: its length doubles while it fits, then a binary search
+//!    follows. Each attempt fits a circle to all corners by least squares (Kåsa). Every part of a stretch
+//!    that fits also fits, so the search finds the longest one.
+//! 2. A closed line is either one circle, or restarts at the end of a stretch, so that no arc is cut.
+//! 3. An arc that turns too little has an uncertain radius and may be part of an ellipse. It is left as it
+//!    is.
+//! 4. An open line may end inside a chord of an arc because something hides the rest. The arc then extends to
+//!    that end.
+//! 5. An arc passes exactly through its first and last corner. It is written as cubics of at most 45 degrees.
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
@@ -17,55 +21,57 @@ use kurbo::{BezPath, Point, Vec2};
 use crate::geometry::numbers::portable_math::{atan2, cos, sin, tan};
 use crate::geometry::plane::planar_distance::{length, nearest_centre};
 
-/// Fewest corners of a stretch, and of a circle.
+/// Minimum number of corners of an arc, and of a whole circle.
 const MIN_CORNERS: usize = 5;
 const MIN_OF_CIRCLE: usize = 16;
 
-/// The largest turn from chord to chord, radians: that of a polygon of 16 sides, and by how much rounding may widen it. One of 15 sides turns by
-/// 0.026 more.
+/// Largest turn from chord to chord, radians: that of a polygon with 16 sides, and how much rounding may add.
+/// A polygon with 15 sides turns by 0.026 more.
 const MAX_STEP: f64 = TAU / 16.0;
 const MAX_WIDER: f64 = 0.02;
 
-/// The radius of an arc is uncertain by so many times the rounding, divided by the square of the angle: the height of an arc over its chord is
-/// an eighth of its radius times that square.
+/// Factor in the error of an arc's radius: factor × rounding ÷ angle². An arc's height over its chord is
+/// radius × angle² ÷ 8.
 const UNCERTAIN: f64 = 8.0;
 
-/// An arc that turns by this much is one whatever the rounding, radians: over an eighth of a turn an ellipse that is a tenth longer than wide is off
-/// each circle by a thousandth of its length. A little less for rounding.
+/// Minimum turn of a stretch that is an arc for any rounding, radians.
+///
+/// Over an eighth of a turn, an ellipse that is a tenth longer than wide deviates from every circle by a
+/// thousandth of its length. The factor 0.999 allows for rounding.
 const CERTAIN_TURN: f64 = FRAC_PI_4 * 0.999;
 
-/// How near corners are to circles, user units.
+/// Tolerances of the circle test, user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Nearness {
-    /// How far the rounding of the file moves a corner.
+    /// How far the rounding of the file may move a corner.
     pub rounding: f64,
-    /// By how much the radius may be uncertain.
+    /// Largest error of an arc's radius.
     pub radius: f64,
 }
 
 /// A stretch of a polyline on one circle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Arc {
-    /// Its first and its last corner. Those of a closed line count on after its end.
+    /// First and last corner. In a closed line the indices continue past its end.
     pub first: usize,
     pub last: usize,
     pub centre: Point,
     pub radius: f64,
-    /// The angle by which it turns, radians, positive from x to y; a full turn for a whole circle.
+    /// Turning angle in radians, positive from x to y; a full turn for a whole circle.
     pub turn: f64,
 }
 
 impl Arc {
-    /// Whether it is a whole circle.
+    /// Whether the arc is a whole circle.
     pub fn is_circle(&self) -> bool {
         self.turn.abs() >= TAU
     }
 
-    /// Adds it to a path that stands at its first corner; `end` is its last one.
+    /// Appends the arc to a path that ends at its first corner; `end` is its last corner.
     pub fn add(&self, start: Point, end: Point, path: &mut BezPath) {
         let count = (self.turn.abs() / FRAC_PI_4 - 1e-9).ceil().max(1.0);
         let step = self.turn / count;
-        // The length of a handle for a circle of radius 1.
+        // Handle length for a circle of radius 1.
         let handle = 4.0 / 3.0 * tan(step / 4.0);
         let out = start - self.centre;
         let at = |k: f64| {
@@ -81,7 +87,7 @@ impl Arc {
     }
 }
 
-/// The arcs of a polyline, in its order. A closed line is to be begun at the first corner of the first one.
+/// Arcs of a polyline, in its order. A closed line has to start at the first corner of the first arc.
 pub(crate) fn arcs(points: &[Point], closed: bool, near: Nearness) -> Vec<Arc> {
     let n = points.len();
     if n < MIN_CORNERS || !points.iter().all(|p| p.is_finite()) {
@@ -93,7 +99,8 @@ pub(crate) fn arcs(points: &[Point], closed: bool, near: Nearness) -> Vec<Arc> {
     if let Some(circle) = whole(points, near) {
         return vec![circle];
     }
-    // Twice round: the first stretch that ends before the second round ends where one does.
+    // The points twice: the first stretch that ends before the last point ends where a stretch of the closed
+    // line does.
     let twice: Vec<Point> = points.iter().chain(points).copied().collect();
     let Some(begin) = longest_from(&twice, near).map(|arc| arc.last).find(|last| last + 1 < twice.len())
     else {
@@ -105,7 +112,8 @@ pub(crate) fn arcs(points: &[Point], closed: bool, near: Nearness) -> Vec<Arc> {
     found.into_iter().map(|arc| Arc { first: arc.first + begin, last: arc.last + begin, ..arc }).collect()
 }
 
-/// Takes the ends of an open line into the arcs next to them, if they lie inside a chord of these: such an end is moved onto the arc.
+/// Extends the first and last arc of an open line to its ends, if these lie inside a chord. Such an end moves
+/// onto the arc.
 pub(crate) fn extend_to_ends(points: &mut [Point], arcs: &mut [Arc], near: Nearness) {
     let n = points.len();
     if let Some(arc) = arcs.last_mut().filter(|arc| arc.last + 2 == n)
@@ -122,7 +130,7 @@ pub(crate) fn extend_to_ends(points: &mut [Point], arcs: &mut [Arc], near: Nearn
     }
 }
 
-/// Where the end of a line is on an arc that goes on so from its corner, and the angle from there.
+/// Position of a line's end on the arc that continues past `corner`, and the angle from that corner.
 fn onto_arc(arc: &Arc, [corner, end]: [Point; 2], turn: f64, near: Nearness) -> Option<(Point, f64)> {
     let (a, b) = (corner - arc.centre, end - arc.centre);
     let step = atan2(a.cross(b), a.dot(b));
@@ -135,7 +143,7 @@ fn onto_arc(arc: &Arc, [corner, end]: [Point; 2], turn: f64, near: Nearness) -> 
     is_on.then(|| (arc.centre + b * (arc.radius / length(b)), step))
 }
 
-/// The whole circle that closed points are on.
+/// The circle through all corners of a closed line, if they lie on one.
 fn whole(points: &[Point], near: Nearness) -> Option<Arc> {
     if points.len() < MIN_OF_CIRCLE {
         return None;
@@ -147,7 +155,7 @@ fn whole(points: &[Point], near: Nearness) -> Option<Arc> {
     is_round.then(|| Arc { first: 0, last: points.len(), centre, radius, turn: TAU.copysign(turn) })
 }
 
-/// The arcs among the longest stretches of an open line, one after the other.
+/// Certain arcs among the longest stretches of an open line, in order.
 fn stretches(points: &[Point], near: Nearness) -> Vec<Arc> {
     let is_certain = |arc: &Arc| {
         let turn = arc.turn.abs();
@@ -156,13 +164,14 @@ fn stretches(points: &[Point], near: Nearness) -> Vec<Arc> {
     longest_from(points, near).filter(is_certain).map(|arc| through_ends(arc, points)).collect()
 }
 
-/// The longest stretches of an open line, one after the other.
+/// Longest stretches of an open line, in order.
 fn longest_from(points: &[Point], near: Nearness) -> impl Iterator<Item = Arc> {
     let mut from = 0;
     std::iter::from_fn(move || {
         while from + MIN_CORNERS <= points.len() {
             if let Some(arc) = longest(points, from, near) {
-                // A point next to an arc that is nearly on it, such as an end inside a chord, is none of it.
+                // Starting one point later may reach farther: a line's end inside a chord is nearly on the
+                // arc, but not part of it.
                 let next = longest(points, from + 1, near).filter(|next| next.last > arc.last);
                 let arc = next.unwrap_or(arc);
                 from = arc.last;
@@ -174,7 +183,7 @@ fn longest_from(points: &[Point], near: Nearness) -> impl Iterator<Item = Arc> {
     })
 }
 
-/// The longest stretch from a corner.
+/// Longest stretch that starts at a corner.
 fn longest(points: &[Point], first: usize, near: Nearness) -> Option<Arc> {
     let attempt = |last: usize| {
         let (centre, radius, turn) = circle(points.get(first..=last)?, near.rounding)?;
@@ -200,7 +209,8 @@ fn longest(points: &[Point], first: usize, near: Nearness) -> Option<Arc> {
     Some(best)
 }
 
-/// The circle that all points are on within `rounding`, each farther round than the one before, and the angle from the first to the last.
+/// Centre, radius and turning angle of the circle that holds all points within `rounding`. Each point must
+/// lie farther round than the one before.
 fn circle(points: &[Point], rounding: f64) -> Option<(Point, f64, f64)> {
     let centre = nearest_centre(points)?;
     let radius = points.iter().map(|p| length(*p - centre)).sum::<f64>() / points.len() as f64;
@@ -220,7 +230,7 @@ fn circle(points: &[Point], rounding: f64) -> Option<(Point, f64, f64)> {
     Some((centre, radius, turn))
 }
 
-/// The arc with its centre moved so that it goes through both end corners.
+/// Moves the centre of an arc so that the circle passes through both end corners.
 fn through_ends(arc: Arc, points: &[Point]) -> Arc {
     let (start, end) = (points[arc.first], points[arc.last]);
     let (middle, chord) = (start.midpoint(end), end - start);
@@ -232,13 +242,13 @@ fn through_ends(arc: Arc, points: &[Point]) -> Arc {
     let centre = middle + across * (arc.centre - middle).dot(across);
     let (a, b) = (start - centre, end - centre);
     let turn = atan2(a.cross(b), a.dot(b));
-    // By the way round that the corners go.
+    // Of the three possible angles, the one nearest to that of the corners.
     let turns = [turn, turn + TAU, turn - TAU];
     let nearest = turns.into_iter().min_by(|a, b| (a - arc.turn).abs().total_cmp(&(b - arc.turn).abs()));
     Arc { centre, radius: length(a), turn: nearest.unwrap_or(turn), ..arc }
 }
 
-/// The path of a whole circle, begun at a corner.
+/// Path of a whole circle that starts at a corner.
 pub(crate) fn circle_path(arc: &Arc, corner: Point) -> BezPath {
     let out = corner - arc.centre;
     let start = arc.centre + out * (arc.radius / length(out).max(f64::MIN_POSITIVE));

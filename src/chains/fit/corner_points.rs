@@ -1,17 +1,17 @@
-//! Finds the corners of a jagged line: where it turns for good, not from one triangle to the next.
+//! Corner detection on jagged lines: where a line turns lastingly, and not only from one triangle to the
+//! next.
 
 use crate::geometry::plane::planar_distance::length;
 use kurbo::{Point, Vec2};
 
-/// Cosine of the turn (45 degrees) over the wide window that makes a corner.
+/// Cosine of the smallest turn of a corner (45 degrees) over the whole window.
 const WIDE_COSINE: f64 = 0.707;
 
-/// Cosine of the turn (40 degrees) over the narrow window: a tight bend turns less here, a corner
-/// does not.
+/// Cosine of the smallest turn of a corner (40 degrees) over half the window. A tight bend turns less there.
 const NARROW_COSINE: f64 = 0.766;
 
-/// Indices of the corners of points spaced evenly by `spacing`, seen over `window`. Ends of an open
-/// line are not among them.
+/// Indices of the corners among points `spacing` apart, measured over `window`. The ends of an open line are
+/// excluded.
 pub(crate) fn corners(points: &[Point], closed: bool, spacing: f64, window: f64) -> Vec<usize> {
     let n = points.len();
     let wide = ((window / spacing).round() as usize).max(1);
@@ -25,7 +25,7 @@ pub(crate) fn corners(points: &[Point], closed: bool, spacing: f64, window: f64)
         if turns[i] > WIDE_COSINE || cosine(points, closed, i, narrow) > NARROW_COSINE {
             continue;
         }
-        // Only the sharpest point within a window is the corner.
+        // Non-maximum suppression: only the sharpest point within a window is a corner.
         let sharpest = (1..=wide).all(|k| {
             let before = neighbour(n, closed, i, -(k as isize));
             let after = neighbour(n, closed, i, k as isize);
@@ -38,11 +38,11 @@ pub(crate) fn corners(points: &[Point], closed: bool, spacing: f64, window: f64)
     found
 }
 
-/// Cosine of the turn between the chords that reach `reach` points back and ahead.
+/// Cosine of the turn between the chords to the points `reach` before and after.
 fn cosine(points: &[Point], closed: bool, i: usize, reach: usize) -> f64 {
     let n = points.len();
     let reach = reach as isize;
-    // Near the end of an open line chords are shorter, down to half a window.
+    // Near the ends of an open line chords are shorter, down to half the window.
     let step = (1..=reach)
         .rev()
         .take_while(|k| 2 * k >= reach)

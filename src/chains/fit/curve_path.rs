@@ -1,8 +1,8 @@
-//! Draws a finished line: straight pieces as straight segments, curved ones as fitted Béziers.
+//! Path of a finished line: straight pieces become segments, and curved pieces fitted Béziers.
 //!
-//! A polyline counts as a tessellated curve where it turns a little at every vertex and its sides
-//! lie so near to the circle of those turns that the eye cannot tell them apart; all else, and
-//! every larger turn, stays exactly what it is.
+//! A stretch of a polyline counts as a tessellated curve under two conditions. It turns only a little at
+//! every vertex, and each side deviates from the circle of those turns by no more than the tolerance.
+//! Everything else keeps its corners.
 
 use kurbo::{BezPath, Point, Vec2};
 
@@ -13,10 +13,10 @@ use crate::geometry::plane::planar_distance::{distance2, length};
 /// Cosine of the largest turn (20 degrees) within a tessellated curve.
 const STEP_COSINE: f64 = 0.9397;
 
-/// Fewest sides of a tessellated curve.
+/// Minimum number of sides of a tessellated curve.
 const LEAST_SIDES: usize = 4;
 
-/// The polyline itself.
+/// Path of straight segments through all points.
 pub(crate) fn polyline(line: &Line) -> BezPath {
     let mut path = BezPath::new();
     if let Some((first, rest)) = line.points.split_first() {
@@ -31,7 +31,7 @@ pub(crate) fn polyline(line: &Line) -> BezPath {
     path
 }
 
-/// Adds an open stretch of dense, smooth points to a path that stands at its first.
+/// Appends an open stretch of dense, smooth points to a path that ends at the first of them.
 pub(crate) fn add_smooth(points: &[Point], tolerance: f64, path: &mut BezPath) {
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
     let n = points.len();
@@ -45,7 +45,7 @@ pub(crate) fn add_smooth(points: &[Point], tolerance: f64, path: &mut BezPath) {
     fit(points, start, end, tolerance, path);
 }
 
-/// The path of a closed line of dense, smooth points without corners.
+/// Path of a closed line of dense, smooth points without corners.
 pub(crate) fn closed_smooth(points: &[Point], tolerance: f64) -> BezPath {
     let mut path = BezPath::new();
     let n = points.len();
@@ -66,7 +66,7 @@ fn is_straight(points: &[Point], tolerance: f64) -> bool {
     points.iter().all(|p| distance2(*p, *first, *last) <= tolerance * tolerance)
 }
 
-/// Adds an open exact polyline, with curves in place of its tessellated stretches.
+/// Appends an open exact polyline, with curves in place of its tessellated stretches.
 pub(crate) fn add_exact(points: &[Point], tolerance: f64, path: &mut BezPath) {
     let sides = points.len().saturating_sub(1);
     if sides < LEAST_SIDES {
@@ -86,7 +86,7 @@ pub(crate) fn add_exact(points: &[Point], tolerance: f64, path: &mut BezPath) {
             continue;
         }
         let stretch = &points[i..=i + run];
-        // A straight neighbour that the curve leaves without a corner gives the tangent.
+        // A straight neighbour without a corner in between gives the curve its tangent.
         let before = (i > 0).then(|| points[i] - points[i - 1]);
         let after = (i + run < sides).then(|| points[i + run + 1] - points[i + run]);
         let n = stretch.len();
@@ -97,7 +97,7 @@ pub(crate) fn add_exact(points: &[Point], tolerance: f64, path: &mut BezPath) {
     }
 }
 
-/// The path of a closed exact polyline.
+/// Path of a closed exact polyline, with curves in place of its tessellated stretches.
 pub(crate) fn closed_exact(line: &Line, tolerance: f64) -> BezPath {
     let points = &line.points;
     let n = points.len();
@@ -109,7 +109,7 @@ pub(crate) fn closed_exact(line: &Line, tolerance: f64) -> BezPath {
         path.move_to(points[0]);
         fit(&ring, seam, seam, tolerance, &mut path);
     } else {
-        // Begin at a corner or on a straight side, so that no curve is cut.
+        // Start at a corner or on a straight side, so that no curve is cut.
         let start = curved.iter().position(|c| !*c).map_or(0, |side| (side + 1) % n.max(1));
         let open = line.opened_at(start);
         let Some(first) = open.points.first() else { return path };
@@ -124,7 +124,7 @@ pub(crate) fn closed_exact(line: &Line, tolerance: f64) -> BezPath {
     path
 }
 
-/// How many sides from `i` on, at most `run`, follow without a corner between them.
+/// Number of sides from `i` on, at most `run`, without a corner between them.
 fn run_to_corner(points: &[Point], i: usize, run: usize) -> usize {
     (1..run).find(|k| turn(points, i + k) < STEP_COSINE).unwrap_or(run)
 }
@@ -134,11 +134,11 @@ fn turn(points: &[Point], i: usize) -> f64 {
     unit(points[i % n] - points[(i + n - 1) % n]).dot(unit(points[(i + 1) % n] - points[i % n]))
 }
 
-/// For each side, whether it is a chord of a curve.
+/// One flag for each side: whether it is a chord of a tessellated curve.
 fn curved_sides(points: &[Point], closed: bool, tolerance: f64) -> Vec<bool> {
     let n = points.len();
     let sides = if closed { n } else { n.saturating_sub(1) };
-    // Sine of half the turn at either end of a side, as a measure of the turn in radians.
+    // Turn at a vertex in radians, approximated by its chord; none at a corner.
     let bend = |i: usize| -> Option<f64> {
         if !closed && (i == 0 || i + 1 == n) {
             return None;
@@ -154,20 +154,21 @@ fn curved_sides(points: &[Point], closed: bool, tolerance: f64) -> Vec<bool> {
                 (Some(a), None) | (None, Some(a)) => a,
                 (None, None) => return false,
             };
-            // A chord of length L that turns by θ stands Lθ/8 off its circle.
+            // A chord of length L that turns by θ deviates from its circle by Lθ/8.
             length(points[(i + 1) % n] - points[i]) * turn / 8.0 <= tolerance
         })
         .collect()
 }
 
-/// Tangent at the end `a` of a curve through `a`, `b`, `c`: the chord turned on by half a step.
+/// Tangent at the end `a` of a curve through `a`, `b`, `c`: the chord, rotated by half a step.
 fn outward(a: Point, b: Point, c: Point) -> Vec2 {
     let (chord, next) = (unit(b - a), unit(c - b));
     let (la, lb) = (length(b - a), length(c - b));
     unit(chord - (next - chord) * (la / (la + lb).max(f64::MIN_POSITIVE)))
 }
 
-/// The direction of a straight neighbour if the curve runs into it without a corner.
+/// Direction of a straight neighbour if the curve meets it without a corner, otherwise the curve's own
+/// direction.
 fn joined(neighbour: Option<Vec2>, own: Vec2) -> Vec2 {
     match neighbour.map(unit) {
         Some(straight) if straight.dot(own) > STEP_COSINE => straight,
@@ -175,7 +176,7 @@ fn joined(neighbour: Option<Vec2>, own: Vec2) -> Vec2 {
     }
 }
 
-/// Points along the sides too, so that a fit heeds the sides and not only the vertices.
+/// Adds points along the sides, so that the fit follows the sides and not only the vertices.
 fn subdivided(points: &[Point]) -> Vec<Point> {
     let mut dense = Vec::with_capacity(4 * points.len());
     for pair in points.windows(2) {

@@ -1,25 +1,26 @@
-//! Leaves out points that a line does without.
+//! Line simplification (Douglas-Peucker).
 //!
-//! Source: Douglas and Peucker, Algorithms for the reduction of the number of points required to
-//! represent a digitized line, Cartographica 1973; measured against the segment, not its line, so
-//! that a line that doubles back keeps its tip.
+//! Source: Douglas and Peucker, Algorithms for the reduction of the number of points required to represent a
+//! digitized line, Cartographica 1973. Deviations: distances are measured to the segment instead of the
+//! infinite line, so that a line that doubles back keeps its tip. The strength of the line is kept within a
+//! tolerance too.
 
 use kurbo::{Point, Vec2};
 
 use crate::chains::sampled_line::Line;
 
-/// Points this near to the straight line between their neighbours, in user units, are rounding.
+/// Largest distance of a collinear point from the line between its neighbours, user units.
 const COLLINEAR: f64 = 1e-9;
 
-/// Points between two that are enough for two threads, where each gets no less than one part in so many.
+/// Minimum number of points for which both halves run in parallel, and the largest ratio of the whole to its
+/// smaller half.
 const LONG: usize = 512;
 const EVEN: usize = 8;
 
-/// How much the strength of a line may be off where points are left out.
+/// Largest error of a line's strength where points are left out.
 const STRENGTH: f64 = 0.08;
 
-/// Leaves out the points that lie in line between their neighbours, and no others: a line that
-/// turns back stays as long as it is.
+/// Leaves out the points that are collinear with their neighbours. A line that doubles back keeps its length.
 pub(crate) fn straighten(line: Line) -> Line {
     if line.len() < 3 {
         return line;
@@ -54,8 +55,8 @@ pub(crate) fn straighten(line: Line) -> Line {
     line.pick(&kept)
 }
 
-/// Keeps the ends and every point without which the line would move by more than `tolerance`. A
-/// closed line keeps its first point and the one farthest from it.
+/// Simplifies a line within `tolerance`, and keeps the ends of an open line. A closed line keeps its first
+/// point and the point farthest from it.
 pub(crate) fn simplify(line: &Line, tolerance: f64) -> Line {
     let n = line.len();
     if n < 3 {
@@ -76,7 +77,7 @@ pub(crate) fn simplify(line: &Line, tolerance: f64) -> Line {
     line.pick(&kept)
 }
 
-/// Indices of the points that stay in an open line.
+/// Indices of the kept points of an open line.
 fn keep(line: &Line, tolerance2: f64) -> Vec<usize> {
     let n = line.len();
     let mut stays = vec![true; n];
@@ -87,14 +88,14 @@ fn keep(line: &Line, tolerance2: f64) -> Vec<usize> {
     (0..n).filter(|i| stays[*i]).collect()
 }
 
-/// Says which of the points between two that stay do so too.
+/// Marks the kept points between two kept points.
 fn split(line: &Line, tolerance2: f64, [mut a, mut b]: [usize; 2], mut between: &mut [bool]) {
     while let Some(i) = worst(line, a, b, tolerance2) {
         let (low, high) = between.split_at_mut(i - a - 1);
         let Some((stays, high)) = high.split_first_mut() else { return };
         *stays = true;
         let (below, above) = (i - a, b - i);
-        // Deep only where the halves are halves, and no deeper than their number has digits.
+        // Only near-even splits fork, so that the recursion depth stays logarithmic.
         if below.min(above) * EVEN >= b - a && b - a >= LONG {
             crate::parallel::join(
                 || split(line, tolerance2, [a, i], low),
@@ -112,7 +113,7 @@ fn split(line: &Line, tolerance2: f64, [mut a, mut b]: [usize; 2], mut between: 
     }
 }
 
-/// The first of the points between two others that is farthest off them, if that is too far.
+/// First of the points between two others with the largest error, if that exceeds the tolerance.
 fn worst(line: &Line, a: usize, b: usize, tolerance2: f64) -> Option<usize> {
     let chord = Chord::new(line, a, b);
     let mut worst = (tolerance2, None);
@@ -127,14 +128,14 @@ fn worst(line: &Line, a: usize, b: usize, tolerance2: f64) -> Option<usize> {
     worst.1
 }
 
-/// The straight way from one point of a line to another.
+/// Segment between two points of a line.
 struct Chord<'a> {
     line: &'a Line,
     from: Point,
     way: Vec2,
     length2: f64,
     strength: f64,
-    /// By how much the strength changes along it.
+    /// Change of strength along it.
     change: f64,
 }
 
@@ -145,7 +146,7 @@ impl<'a> Chord<'a> {
         Self { line, from, way, length2: way.hypot2(), strength, change }
     }
 
-    /// How far a point of the line is off, squared, and by how much its strength differs from what lies on the way.
+    /// Squared distance of a point from the segment, and the error of the interpolated strength.
     #[inline]
     fn off(&self, i: usize) -> (f64, f64) {
         let p = self.line.points[i];
@@ -166,7 +167,7 @@ mod tests {
     use crate::geometry::dice::Dice;
     use crate::geometry::plane::planar_distance::distance2;
 
-    /// The same, one stretch after the other, and with nothing known of a stretch beforehand.
+    /// Reference: the same recursion without parallel tasks.
     fn plain(line: &Line, [a, b]: [usize; 2], tolerance2: f64, stays: &mut Vec<usize>) {
         let off = |i: usize| {
             let [at, from, to] = [i, a, b].map(|k| line.samples[k].strength);

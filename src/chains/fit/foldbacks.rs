@@ -1,13 +1,15 @@
-//! Takes out the tiny folds of mesh contours: places where a line doubles back on itself.
+//! Removes tiny fold-backs of mesh contours.
 //!
-//! Where a contour runs along a row of nearly edge-on triangles it goes forth, back and forth again
-//! over the same ink; the shortcut between the two passes draws the same.
+//! Along a row of nearly edge-on triangles a contour runs forward, back and forward again over the same
+//! pixels. A shortcut between the two passes draws the same.
 
 use crate::chains::sampled_line::Line;
 use crate::geometry::plane::planar_distance::{distance2, length};
 
-/// Replaces each excursion of up to `reach` arc length that returns to within `tolerance` of where
-/// it left, never having been farther than `tolerance` from the shortcut or its own way back.
+/// Replaces fold-backs by shortcuts.
+///
+/// A fold-back is a stretch of at most `reach` arc length, clearly longer than its chord, that stays within
+/// `tolerance` of it.
 pub(crate) fn unfold(line: &Line, tolerance: f64, reach: f64) -> Line {
     let n = line.len();
     if n < 4 {
@@ -17,7 +19,7 @@ pub(crate) fn unfold(line: &Line, tolerance: f64, reach: f64) -> Line {
     let mut i = 0;
     while i + 1 < n {
         let mut next = i + 1;
-        // The farthest point from which the line has come back.
+        // The end of the longest fold-back that starts at `i`.
         let mut arc = 0.0;
         for j in i + 1..n {
             arc += length(line.points[j] - line.points[j - 1]);
@@ -29,8 +31,7 @@ pub(crate) fn unfold(line: &Line, tolerance: f64, reach: f64) -> Line {
                 next = j;
             }
         }
-        // The last point of an open line is its end and stays; a closed line has it as a neighbour
-        // of the first.
+        // The last point is always kept. In a closed line it is a neighbour of the first point.
         kept.push(next);
         i = next;
     }
@@ -38,7 +39,7 @@ pub(crate) fn unfold(line: &Line, tolerance: f64, reach: f64) -> Line {
     line.pick(&kept)
 }
 
-/// Whether all points between `i` and `j` lie near the shortcut between them.
+/// Whether all points between `i` and `j` are smooth and lie near the shortcut.
 fn is_thin(line: &Line, i: usize, j: usize, tolerance: f64) -> bool {
     let (a, b) = (line.points[i], line.points[j]);
     let near = tolerance * tolerance;

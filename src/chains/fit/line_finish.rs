@@ -1,4 +1,8 @@
 //! Makes the drawn curve and the points of a chain from the raw line of a route.
+//!
+//! 1. Stretches whose corners lie on a circle become arcs.
+//! 2. Stretches on smooth surfaces are smoothed between corners, then simplified and fitted.
+//! 3. All other stretches keep their exact corners, except that tessellated curves are fitted.
 
 use kurbo::{BezPath, Point};
 
@@ -12,40 +16,41 @@ use super::whittaker_smoothing::smooth;
 use crate::chains::sampled_line::Line;
 use crate::geometry::plane::planar_distance::length;
 
-/// Options in user units.
+/// Chain options in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Tolerances {
-    /// A CSS px.
+    /// One CSS px in user units.
     pub px: f64,
     pub smooth: f64,
     pub simplify: f64,
     pub tidy: f64,
-    /// Whether the line turns at a vertex only where what it shows does: no noise of triangles.
+    /// Whether the line has no triangle noise, so that every turn is a real one.
     pub clean: bool,
-    /// 0 when curves are not fitted.
+    /// Fit tolerance; 0 if no curves are fitted.
     pub fit: f64,
-    /// How near corners are to the circles that they make; `None` where no circles are sought.
+    /// Tolerances of arcs; `None` if no arcs are sought.
     pub circle: Option<Nearness>,
-    /// Whether the points are asked for too where a curve is fitted.
+    /// Whether points are needed in addition to a fitted curve.
     pub points: bool,
 }
 
-/// Spacing of the points that smoothing works on, px.
+/// Spacing of the resampled points that are smoothed, px.
 const SPACING_PX: f64 = 1.0;
 
-/// Length over which a turn must last to be a corner, px.
+/// Window for corner detection on smoothed lines, px.
 const CORNER_PX: f64 = 6.0;
 
-/// Length over which a turn of a line without noise is measured, px.
+/// Window for the turn of a line without noise, px.
 const SHARP_PX: f64 = 2.0;
 
-/// Points of a line that it is worth another thread for.
+/// Minimum number of points for which fitting and simplifying run in parallel.
 const LONG: usize = 256;
 
-/// Cosine of the turn (35 degrees) over that length that makes a corner.
+/// Cosine of the smallest turn (35 degrees) over that length that makes a corner.
 const SHARP_COSINE: f64 = 0.82;
 
-/// A finished line and its path, with the arcs that its corners lie on; the line has no points where a curve is fitted and they are not asked for.
+/// Finishes a line: its points and its path. The line has no points if a curve is fitted and no points are
+/// needed.
 pub(crate) fn finish(raw: Line, t: Tolerances) -> (Line, BezPath) {
     let Some(near) = t.circle else { return finish_between(raw, t) };
     let mut raw = straighten(raw);
@@ -72,7 +77,7 @@ pub(crate) fn finish(raw: Line, t: Tolerances) -> (Line, BezPath) {
     }
 }
 
-/// An open line with arcs, between which it is finished stretch by stretch.
+/// Finishes an open line with arcs. The stretches between arcs are finished one by one.
 fn with_arcs(raw: &Line, arcs: &[Arc], t: Tolerances) -> (Line, BezPath) {
     let mut line = Line::default();
     let mut path = BezPath::new();
@@ -100,7 +105,7 @@ fn with_arcs(raw: &Line, arcs: &[Arc], t: Tolerances) -> (Line, BezPath) {
     (line, path)
 }
 
-/// The same of a line without arcs.
+/// Finishes a line without arcs.
 fn finish_between(raw: Line, t: Tolerances) -> (Line, BezPath) {
     if t.smooth <= 0.0 || !raw.is_soft() {
         return exact(raw, t);
@@ -109,7 +114,7 @@ fn finish_between(raw: Line, t: Tolerances) -> (Line, BezPath) {
         let parts = |i: usize| !raw.soft[i] || is_sharp(&raw, i, t);
         return match (0..raw.len()).find(|i| parts(*i)) {
             None => closed(&raw, t),
-            // Begins with a stretch that is not smoothed, or at a corner, so that no smooth stretch is cut.
+            // Start at a hard stretch or at a corner, so that no smooth stretch is cut.
             Some(hard) => {
                 let (mut line, mut path) = open(&raw.opened_at(hard), t);
                 close(&mut line);
@@ -121,16 +126,16 @@ fn finish_between(raw: Line, t: Tolerances) -> (Line, BezPath) {
     open(&raw, t)
 }
 
-/// Drops the repeated end of a line that ends where it began.
+/// Closes a line that ends where it began, without the repeated end.
 fn close(line: &mut Line) {
     line.closed = true;
     line.pop();
 }
 
-/// A line nothing of which is smoothed.
+/// Finishes a line that is not smoothed anywhere.
 fn exact(raw: Line, t: Tolerances) -> (Line, BezPath) {
     let straightened = straighten(raw);
-    // Ends stay.
+    // A line of two points cannot be simplified.
     let simple =
         |line: Line| if t.simplify > 0.0 && line.len() > 2 { simplify(&line, t.simplify) } else { line };
     if t.fit <= 0.0 {
@@ -152,7 +157,7 @@ fn exact(raw: Line, t: Tolerances) -> (Line, BezPath) {
     (line, path)
 }
 
-/// A closed line that is smooth all round.
+/// Finishes a closed line that is smooth everywhere.
 fn closed(raw: &Line, t: Tolerances) -> (Line, BezPath) {
     let line = unfold(raw, t.smooth, t.tidy.max(4.0 * t.smooth));
     let (dense, spacing) = resample(&line, SPACING_PX * t.px);
@@ -174,8 +179,8 @@ fn closed(raw: &Line, t: Tolerances) -> (Line, BezPath) {
     (line, path)
 }
 
-/// The points that stay of a line, where they are needed, and the curve through all of them where one is fitted: each is made
-/// without the other.
+/// The simplified points, if needed, and the curve fitted through all points. Both use the dense line, so
+/// they can run in parallel.
 fn simple_and_fitted<P: Send>(
     dense: &Line,
     fits: bool,
@@ -187,7 +192,7 @@ fn simple_and_fitted<P: Send>(
     if dense.len() < LONG { (simple(), fitted()) } else { crate::parallel::join(simple, fitted) }
 }
 
-/// An open line, in stretches that are smooth and stretches that are exact.
+/// Finishes an open line stretch by stretch, each either smooth or exact.
 fn open(raw: &Line, t: Tolerances) -> (Line, BezPath) {
     let mut line = Line::default();
     let mut path = BezPath::new();
@@ -218,7 +223,7 @@ fn is_sharp(raw: &Line, i: usize, t: Tolerances) -> bool {
         return false;
     }
     let n = raw.len();
-    // The chord to where the line is so far away, one way round or the other.
+    // Chord to the first point at distance `SHARP_PX`, in one direction along the line.
     let chord = |step: usize| {
         let ends_at = |k: usize| !raw.closed && (if step == 1 { i + k == n - 1 } else { i == k });
         let at = |k: usize| raw.points[(i + k * step) % n];
@@ -235,7 +240,7 @@ fn is_sharp(raw: &Line, i: usize, t: Tolerances) -> bool {
     -ahead.dot(back) < SHARP_COSINE * length(ahead) * length(back)
 }
 
-/// A smooth open stretch: cut at its corners, each part smoothed.
+/// Finishes a smooth open stretch: cut at its corners, and each part smoothed.
 fn soft_stretch(raw: &Line, t: Tolerances) -> (Line, BezPath) {
     let line = unfold(raw, t.smooth, t.tidy.max(4.0 * t.smooth));
     let (dense, spacing) = resample(&line, SPACING_PX * t.px);
@@ -245,7 +250,7 @@ fn soft_stretch(raw: &Line, t: Tolerances) -> (Line, BezPath) {
     between(&dense, &cuts, t)
 }
 
-/// Corners are looked for on a line that is smoothed a little, as the raw one turns everywhere.
+/// Corners of a slightly smoothed copy, since the raw line turns at every vertex.
 fn find_corners(dense: &Line, spacing: f64, t: Tolerances) -> Vec<usize> {
     let n = dense.len();
     let mut points: Vec<Point> = dense.points.clone();
@@ -289,7 +294,7 @@ fn between(dense: &Line, cuts: &[usize], t: Tolerances) -> (Line, BezPath) {
     (line, path)
 }
 
-/// Adds a line that begins where the other ends.
+/// Appends a line that starts where the other ends.
 fn append(line: &mut Line, part: &Line) {
     for i in 0..part.len() {
         line.push_of(part.points[i], part.samples[i], part.soft[i], part.silhouette[i], part.part[i]);
@@ -314,7 +319,7 @@ mod tests {
             fit: 0.2,
             points: true,
         };
-        // Smooth all round, exact all round, and with a corner and a straight stretch; closed and open.
+        // Smooth everywhere, exact everywhere, and smooth from point 61 on; each closed and open.
         let kinds: [fn(usize) -> bool; 3] = [|_| true, |_| false, |i| i > 60];
         for (is_soft, closed) in kinds.into_iter().flat_map(|soft| [(soft, true), (soft, false)]) {
             for n in [12, 400] {

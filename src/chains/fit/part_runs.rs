@@ -1,8 +1,9 @@
-//! [`PartRuns`]: cuts a finished line where it goes on from one part of a body to the next.
+//! [`PartRuns`]: cuts a finished line where it passes from one part of a body to the next.
 //!
-//! A line along one surface is joined, smoothed and fitted as a whole, however the file splits the surface into parts. Only then
-//! it is cut, so that its pieces draw what the whole line does. Where parts meet is known on the raw line, and is found again on the
-//! finished one by how far along it lies, and how near.
+//! A line along one surface is joined, smoothed and fitted as a whole, however the file splits the surface
+//! into parts. Only then is it cut, so that its pieces draw exactly what the whole line does. The cut
+//! positions are known on the raw line. On the finished line they are the nearest points within a window of
+//! arc length.
 
 use kurbo::{BezPath, ParamCurve, ParamCurveArclen, ParamCurveNearest, PathSeg, Point};
 
@@ -10,40 +11,41 @@ use crate::chains::sampled_line::Line;
 use crate::geometry::plane::planar_distance::length;
 use crate::mesh::PartId;
 
-/// From one place to the next, smoothing shifts a place along a line by no more than this (px) and this share of the way.
+/// Largest shift of a cut along the line by smoothing: a length in px, plus a share of the way from the cut
+/// before.
 const SHIFT_PX: f64 = 4.0;
 const SHIFT_SHARE: f64 = 0.1;
 
-/// Lengths of curves are measured within this, px.
+/// Error of arc lengths, px.
 const LENGTH_PX: f64 = 0.01;
 
-/// Shares of a curve's parameter below this are no piece of it.
+/// Minimum parameter range of a piece of a curve.
 const LEAST_SHARE: f64 = 1e-9;
 
-/// The runs of a raw line that lie in one part each.
+/// Runs of a raw line that lie in one part each.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct PartRuns {
-    /// How far along the line each begins, where that is, and its part.
+    /// For each run: the arc length of its start, its start point and its part.
     runs: Vec<(f64, Point, PartId)>,
     length: f64,
     closed: bool,
     points: Vec<Point>,
 }
 
-/// The piece of a finished line in one part.
+/// Piece of a finished line in one part.
 pub(crate) struct Piece {
     pub line: Line,
     pub path: BezPath,
     pub part: PartId,
-    /// Whether it begins and ends where the whole line does.
+    /// Whether it starts and ends where the whole line does.
     pub is_end: [bool; 2],
 }
 
-/// A place on a line: a side of it, and where on that.
+/// Position on a line: the index of a side, and the parameter on it.
 type Place = (usize, f64);
 
 impl PartRuns {
-    /// Those of a raw line; `None` if all of it lies in one part.
+    /// Runs of a raw line; `None` if all of it lies in one part.
     pub fn of(line: &Line) -> Option<Self> {
         let n = line.len();
         let sides = if line.closed { n } else { n.saturating_sub(1) };
@@ -58,14 +60,14 @@ impl PartRuns {
             }
             at += length(line.points[(side + 1) % n] - line.points[side]);
         }
-        // Over the seam of a closed line the last run goes on in the first.
+        // In a closed line the last run continues in the first one.
         if line.closed && runs.len() > 1 && runs[0].2 == runs[runs.len() - 1].2 {
             runs.remove(0);
         }
         (at > 0.0).then(|| Self { runs, length: at, closed: line.closed, points: line.points.clone() })
     }
 
-    /// The pieces of the finished line. The line has no points where none are asked for.
+    /// Pieces of the finished line. Points are left out if the line has none.
     pub fn cut(mut self, line: &Line, path: &BezPath, px: f64) -> Vec<Piece> {
         let curve: Vec<PathSeg> = path.segments().collect();
         if self.closed {
@@ -102,7 +104,7 @@ impl PartRuns {
         (0..count).map(piece).filter(|piece| !piece.path.elements().is_empty()).collect()
     }
 
-    /// Measures a closed line from another place on it: finishing may begin elsewhere.
+    /// Measures a closed line from another start point, since finishing may start elsewhere.
     fn begin_at(&mut self, start: Point) {
         let n = self.points.len();
         let (mut at, mut nearest) = (0.0, (f64::INFINITY, 0.0));
@@ -122,9 +124,9 @@ impl PartRuns {
         self.runs.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
 
-    /// Where the runs begin on the finished line, ascending; `None` if that has no length.
+    /// Start positions of the runs on the finished line, ascending; `None` if the line has no length.
     fn places(&self, segments: &[PathSeg], px: f64) -> Option<Vec<Place>> {
-        // How far along the line each segment ends.
+        // Arc length at the end of each segment.
         let mut whole = 0.0;
         let ends: Vec<f64> = segments
             .iter()
@@ -137,7 +139,7 @@ impl PartRuns {
             return None;
         }
         let start = |i: usize| if i == 0 { 0.0 } else { ends[i - 1] };
-        // The place found last, how far along the finished line it is, and how far along the raw one.
+        // Last position found, and its arc lengths on the finished and on the raw line.
         let mut last: (Place, f64, f64) = ((0, 0.0), 0.0, 0.0);
         let mut places = Vec::with_capacity(self.runs.len());
         for (k, (at, point, _)) in self.runs.iter().enumerate() {
@@ -162,7 +164,7 @@ impl PartRuns {
     }
 }
 
-/// The sides of a polyline.
+/// Sides of a polyline as path segments.
 fn sides_of(line: &Line) -> Vec<PathSeg> {
     let n = line.len();
     let sides = if line.closed { n } else { n.saturating_sub(1) };
@@ -170,7 +172,8 @@ fn sides_of(line: &Line) -> Vec<PathSeg> {
     (0..sides).map(side).collect()
 }
 
-/// The stretches from one place to another, or to the end, and of a closed line on to the first place.
+/// Parameter ranges of the segments between two positions. Without `to` they reach the end of the line, and
+/// in a closed line on to the first position.
 fn stretches(count: usize, from: Place, to: Option<Place>, first: Option<Place>) -> Vec<(usize, f64, f64)> {
     let run = |from: Place, to: Place| {
         (from.0..=to.0.min(count.saturating_sub(1)))
@@ -247,7 +250,7 @@ mod tests {
         for closed in [true, false] {
             let line = ring(closed, |i| (i as u32 / 7) % 3);
             let path = polyline(&line);
-            // A closed line that was begun elsewhere, too.
+            // A closed line may also start elsewhere.
             for turned in if closed { vec![0, 25] } else { vec![0] } {
                 let mut finished = line.clone();
                 if closed {
@@ -261,7 +264,7 @@ mod tests {
                 assert!((sum - drawn(&path)).abs() < 1e-6, "{sum} {}", drawn(&path));
                 assert_eq!(pieces.len(), 9);
                 for piece in &pieces {
-                    // In the middle of each lies a side of its part.
+                    // The middle of each piece lies near a side of its part.
                     let middle = piece.line.points[piece.line.len() / 2];
                     let near = |i: &usize| length(line.points[*i] - middle);
                     let at = (0..60).min_by(|a, b| near(a).total_cmp(&near(b))).unwrap();

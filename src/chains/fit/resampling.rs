@@ -1,10 +1,11 @@
-//! Puts points on a line at even spacing.
+//! Resamples a line at even spacing.
 
 use crate::chains::sampled_line::Line;
 use crate::geometry::plane::planar_distance::length;
 
-/// Evenly spaced points, ends included, no farther apart than `spacing`; a closed line keeps its
-/// first point. Returns the line and its actual spacing.
+/// Evenly spaced points at most `spacing` apart, ends included. Returns the line and its actual spacing.
+///
+/// A closed line keeps its first point.
 pub(crate) fn resample(line: &Line, spacing: f64) -> (Line, f64) {
     let n = line.len();
     let sides = if line.closed { n } else { n.saturating_sub(1) };
@@ -41,7 +42,7 @@ pub(crate) fn resample(line: &Line, spacing: f64) -> (Line, f64) {
         even.part.push(line.part[i]);
     }
     if !line.closed {
-        // Ends stay to the bit.
+        // The last point stays exact to the bit.
         if let (Some(to), Some(from)) = (even.points.last_mut(), line.points.last()) {
             *to = *from;
         }

@@ -1,21 +1,20 @@
-//! Draws a smooth line through a tube round a jagged one.
+//! Smooths a jagged line within a tube around it (Whittaker smoother).
 //!
-//! A smoothing spline in its discrete form: the points x that minimise
-//! `Σ w |x − p|² + λ Σ |second difference of x|²` for evenly spaced points p of the line. Unlike
-//! averaging it does not shrink bends. Weights rise where x strays farther than the tolerance, so
-//! that the line is as smooth as the tube allows, and what still strays is pulled to its wall.
-//! Source: Eilers, A perfect smoother, Analytical Chemistry 2003; Whittaker 1923.
+//! The result minimises `Σ w |x − p|² + λ Σ |second difference of x|²` over evenly spaced points p of the
+//! line. Unlike averaging, it does not shrink bends. Weights rise where x deviates by more than the
+//! tolerance, so the line is as smooth as the tube allows. Points that still deviate are pulled back to the
+//! wall of the tube. Source: Eilers, A perfect smoother, Analytical Chemistry 2003; Whittaker 1923.
 
 use crate::geometry::plane::planar_distance::length;
 use kurbo::{Point, Vec2};
 
-/// Rounds of raising weights where the line strays.
+/// Maximum number of rounds of raising weights.
 const ROUNDS: usize = 6;
 
-/// Waves shorter than this many spacings are flattened by half at weight 1.
+/// Wavelength, in spacings, that is damped by half at weight 1.
 const CUTOFF: f64 = 36.0;
 
-/// Smooths evenly spaced points, moving none by more than `tolerance`. Ends of an open line stay.
+/// Smooths evenly spaced points and moves none by more than `tolerance`. The ends of an open line stay.
 pub(crate) fn smooth(points: &[Point], closed: bool, tolerance: f64) -> Vec<Point> {
     let n = points.len();
     if n < 3 || tolerance <= 0.0 {
@@ -24,7 +23,7 @@ pub(crate) fn smooth(points: &[Point], closed: bool, tolerance: f64) -> Vec<Poin
     if !closed {
         return solve(points, tolerance, true);
     }
-    // A closed line is unrolled by more than the reach of the smoothing on either side.
+    // A closed line is extended on both sides by more than the reach of the smoother.
     let margin = (4.0 * CUTOFF) as usize;
     let unrolled: Vec<Point> =
         (0..n + 2 * margin).map(|k| points[(k + n * (margin / n + 1) - margin) % n]).collect();
@@ -72,15 +71,15 @@ fn solve(points: &[Point], tolerance: f64, pinned: bool) -> Vec<Point> {
     smooth
 }
 
-/// Solves `(W + λ DᵀD) x = W p`, D the second differences: a matrix of five diagonals, factored
-/// into L D Lᵀ and solved in one pass each way.
+/// Solves `(W + λ DᵀD) x = W p`, with D the second differences. The matrix has five diagonals and is factored
+/// into L D Lᵀ.
 fn whittaker(points: &[Point], weights: &[f64], stiffness: f64) -> Vec<Point> {
     let n = points.len();
     let mut diagonal = vec![0.0; n];
     let mut one = vec![0.0; n];
     let mut two = vec![0.0; n];
     let mut x: Vec<Vec2> = vec![Vec2::ZERO; n];
-    // Row i of DᵀD sums the second differences i−2, i−1 and i that hold the point.
+    // Row i of DᵀD sums the second differences i−2, i−1 and i that contain the point.
     let holds = |k: isize| if k >= 0 && (k as usize) + 2 < n { 1.0 } else { 0.0 };
     for i in 0..n {
         let k = i as isize;

@@ -1,9 +1,9 @@
-//! [`Step`]: a view edge as a line passes it, and the order of such that no map decides.
+//! [`Step`]: a view edge with a direction, and a total order of such steps that depends on geometry only.
 
 use crate::geometry::plane::planar_distance::length;
 use crate::visibility::{ViewMap, ViewVertexId};
 
-/// One edge of a route and the sense it is passed in.
+/// Edge of a route, with its direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Step {
     pub edge: u32,
@@ -11,7 +11,7 @@ pub(crate) struct Step {
 }
 
 impl Step {
-    /// The same edge passed the other way.
+    /// The same edge in the other direction.
     pub fn turned(self) -> Self {
         Self { reversed: !self.reversed, ..self }
     }
@@ -32,7 +32,7 @@ impl Step {
     }
 }
 
-/// Orders steps by where they begin and end, then by segment: the numbers of segments change with what else is
+/// Orders steps by start, end and segment. Segments come last because their numbers depend on what else is
 /// drawn.
 pub(crate) fn order(map: &ViewMap, a: Step, b: Step) -> std::cmp::Ordering {
     let segment = |s: Step| map.edges[s.edge as usize].segment;

@@ -1,4 +1,4 @@
-//! [`Class`]: what must be equal of view edges that join into one line.
+//! [`Class`]: the properties that view edges must share to be joined into one chain.
 
 use crate::lines::LineKind;
 use crate::mesh::components::bodies::body_of;
@@ -6,11 +6,11 @@ use crate::mesh::{MaterialId, PartId};
 use crate::surface::Origin;
 use crate::visibility::{ViewEdge, ViewMap};
 
-/// Edges of equal class may join into one chain.
+/// Class of a view edge. Only edges of equal class are joined.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Class {
     pub kind: LineKind,
-    /// The first part of the body: a line goes on from part to part of one surface.
+    /// First part of the body. A line may continue from part to part of one surface.
     pub body: PartId,
     pub material: MaterialId,
     pub hidden: bool,
@@ -20,7 +20,8 @@ pub(crate) struct Class {
 }
 
 impl Class {
-    /// The class of an edge as the view map has it. Hidden pieces of any invisibility are one class.
+    /// Class of an edge in the view map. All hidden edges are equal in this respect, for any invisibility
+    /// above 0.
     pub fn of(map: &ViewMap, edge: &ViewEdge) -> Self {
         Self {
             kind: edge.kind,
@@ -33,7 +34,7 @@ impl Class {
         }
     }
 
-    /// The class without what may change along one line of the surface.
+    /// Class without the properties that may change along one line of the surface.
     pub fn of_source(map: &ViewMap, edge: &ViewEdge) -> Self {
         Self { hidden: false, silhouette: false, both_seen: false, ..Self::of(map, edge) }
     }

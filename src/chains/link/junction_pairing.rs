@@ -1,4 +1,7 @@
-//! Which ends of view edges continue each other: what of one class meets at a vertex, straight through junctions.
+//! Junction pairing: which ends of view edges continue each other at their vertices.
+//!
+//! Two ends that are the only ones of their class at a vertex form a pair. Where more meet, ends of one
+//! feature segment are paired first, and then the pairs that turn least.
 
 use crate::parallel::prelude::*;
 use kurbo::Vec2;
@@ -8,24 +11,24 @@ use super::edge_class::Class;
 use crate::geometry::lists::csr_lists::{Grouped, grouped};
 use crate::visibility::ViewMap;
 
-/// The end that nothing continues.
+/// Marks an end that nothing continues.
 pub(crate) const NONE: u32 = u32::MAX;
 
-/// Beyond this many ends at a vertex only pieces of one segment are paired: nothing continues
-/// through the tip of a fan.
+/// Maximum number of ends of one class at a vertex that are paired by direction. At larger fans only pieces
+/// of one segment are paired.
 const MOST_ENDS: usize = 48;
 
-/// Cosine of the sharpest turn (50 degrees) a line takes at a junction of its own class.
+/// Cosine of the sharpest turn (50 degrees) of a line at a junction of lines of its class.
 const JUNCTION_COSINE: f64 = 0.643;
 
-/// Vertices that one task looks at.
+/// Vertices per task.
 const CHUNK: usize = 4096;
 
-/// Edge ends around each vertex; end `2e` is the start of edge `e`, `2e + 1` its end.
+/// Edge ends at each vertex: end `2e` is the start of edge `e`, and `2e + 1` its end.
 struct Ends(Grouped<u32>);
 
 impl Ends {
-    /// Collects the ends of the edges that `keep` admits.
+    /// Collects the ends of the edges that `keep` accepts.
     fn new(map: &ViewMap, keep: impl Fn(usize) -> bool) -> Self {
         Self(grouped(map.vertices.len(), |put| {
             for (e, edge) in map.edges.iter().enumerate().filter(|(e, _)| keep(*e)) {
@@ -40,18 +43,18 @@ impl Ends {
     }
 }
 
-/// What meets at some vertices.
+/// Ends that meet at a range of vertices.
 #[derive(Debug, Default)]
 struct Met {
-    /// Two ends that nothing else of their class meets.
+    /// Pairs that are the only two of their class at a vertex.
     pairs: Vec<[u32; 2]>,
-    /// Ends of which more meet, group by group, and where each group ends.
+    /// Groups of three or more ends of one class at a vertex, concatenated, and the index after each group.
     crowds: Vec<u32>,
     crowd_ends: Vec<usize>,
 }
 
 impl Met {
-    /// What meets at the vertices of a chunk.
+    /// Ends that meet at a range of vertices.
     fn at(vertices: std::ops::Range<usize>, ends: &Ends, classes: &[Option<Class>]) -> Self {
         let mut met = Self::default();
         let mut rest: Vec<u32> = Vec::new();
@@ -91,7 +94,7 @@ impl Met {
         met
     }
 
-    /// The pairs that crowds are made of, where `partner` knows all other pairs.
+    /// Pairs within the groups. `partner` must hold all simple pairs.
     fn matched(mut self, map: &ViewMap, partner: &[u32], window: f64) -> Vec<[u32; 2]> {
         let step = |end: u32| Step { edge: end / 2, reversed: end % 2 == 1 };
         let mut junction = Junction::default();
@@ -99,7 +102,7 @@ impl Met {
         let mut begin = 0;
         for end in self.crowd_ends {
             let crowd = &mut self.crowds[begin..end];
-            // Junctions of equal turns are paired by what the edges are, not by where they are in the map.
+            // Equal turns are ordered by geometry, not by position in the map.
             crowd.sort_by(|a, b| order(map, step(*a), step(*b)));
             junction.straightest(map, crowd, partner, window, &mut matched);
             begin = end;
@@ -108,8 +111,8 @@ impl Met {
     }
 }
 
-/// The end that continues each end of the edges that have a class, or [`NONE`]; `window` is the length over which directions
-/// are measured at junctions.
+/// Partner of each end of the edges that have a class, or [`NONE`]. `window` is the length for measuring
+/// directions at junctions.
 pub(crate) fn partners(map: &ViewMap, classes: &[Option<Class>], window: f64) -> Vec<u32> {
     let ends = Ends::new(map, |e| classes[e].is_some());
     let mut partner = vec![NONE; 2 * map.edges.len()];
@@ -121,7 +124,7 @@ pub(crate) fn partners(map: &ViewMap, classes: &[Option<Class>], window: f64) ->
         partner[b as usize] = a;
     };
     met.iter().flat_map(|met| &met.pairs).for_each(|pair| join(*pair));
-    // Directions are all taken before any junction is paired, so that no order matters.
+    // All directions are measured before any junction is paired, so the result does not depend on the order.
     let matched: Vec<Vec<[u32; 2]>> =
         met.into_par_iter().with_max_len(1).map(|met| met.matched(map, &partner, window)).collect();
     for [a, b] in matched.into_iter().flatten() {
@@ -135,7 +138,7 @@ fn class(classes: &[Option<Class>], end: u32) -> Option<Class> {
     classes[(end / 2) as usize]
 }
 
-/// Room for what is known of one junction after the other.
+/// Buffers that are reused from junction to junction.
 #[derive(Debug, Default)]
 struct Junction {
     directions: Vec<Vec2>,
@@ -144,7 +147,7 @@ struct Junction {
 }
 
 impl Junction {
-    /// Pairs ends of one class at a junction: pieces of one segment, then the smallest turns.
+    /// Pairs the ends of one class at a junction: pieces of one segment first, then the smallest turns.
     fn straightest(
         &mut self,
         map: &ViewMap,
@@ -185,8 +188,8 @@ impl Junction {
     }
 }
 
-/// Unit direction in which a line leaves the vertex at `end`, seen over `window`; zero if it does
-/// not leave at all.
+/// Unit direction of a line away from the vertex at `end`, measured over `window`; zero for a line without
+/// extent.
 fn direction(map: &ViewMap, end: u32, partner: &[u32], window: f64) -> Vec2 {
     let position = |end: u32| {
         let edge = &map.edges[(end / 2) as usize];
@@ -222,7 +225,7 @@ mod tests {
     use crate::surface::Origin;
     use crate::visibility::{ViewEdge, ViewVertex, ViewVertexId, ViewVertexKind};
 
-    /// So many edges between so many vertices, thrown by chance.
+    /// A random graph with the given numbers of vertices and edges.
     fn tangle(vertices: u64, edges: u64) -> ViewMap {
         let roll = |what: u64, k: u64, sides: u64| hash(what, &[k, vertices, edges]) % sides;
         let mut map = ViewMap::default();
@@ -255,7 +258,7 @@ mod tests {
         map
     }
 
-    /// The same, one vertex and one class after the other.
+    /// Reference: the same pairing, one vertex and one class at a time.
     fn plain(map: &ViewMap, classes: &[Option<Class>], window: f64) -> Vec<u32> {
         let step = |end: u32| Step { edge: end / 2, reversed: end % 2 == 1 };
         let all = || (0..2 * map.edges.len() as u32).filter(|end| class(classes, *end).is_some());

@@ -1,4 +1,4 @@
-//! Routes: view edges in the order in which one pen stroke passes them. Each edge is in exactly one route.
+//! Routes: view edges in the order of the pen stroke that passes them. Each edge is in exactly one route.
 //!
 //! 1. Edges get a class: kind, body, material and visibility. Only edges of one class are joined.
 //! 2. Two edges continue each other where they are the only ones of their class at a view vertex.

@@ -1,8 +1,8 @@
-//! [`Routes`]: which view edges follow each other, every edge in exactly one route.
+//! [`Routes`]: sequences of view edges that continue each other, with every edge in exactly one route.
 //!
-//! Two edges of one class continue each other where they are the only two of their class at a view
-//! vertex. Where more meet, pieces of one feature segment come first, then the straightest pairs,
-//! with directions taken over a few px so that the zigzag of small triangles has no say.
+//! Two edges of one class continue each other if they are the only ones of their class at a view vertex.
+//! Where more meet, pieces of one feature segment are paired first, then the straightest pairs. Directions
+//! are measured over a few px, so that the zigzag of small triangles does not count.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ use super::edge_class::Class;
 use super::junction_pairing::{NONE, partners};
 use crate::visibility::ViewMap;
 
-/// Edges in the order and sense in which lines pass through them.
+/// Edges in the order and direction of the lines through them.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Routes {
     steps: Vec<Step>,
@@ -26,7 +26,7 @@ struct Span {
     first: u32,
     end: u32,
     closed: bool,
-    /// The first of the feature segments it has pieces of.
+    /// Smallest feature segment of its edges.
     segment: u32,
 }
 
@@ -35,7 +35,7 @@ impl Routes {
         self.spans.len()
     }
 
-    /// The steps of a route and whether its end joins its beginning.
+    /// Steps of a route, and whether it is closed.
     pub fn get(&self, route: usize) -> (&[Step], bool) {
         let span = self.spans[route];
         (&self.steps[span.first as usize..span.end as usize], span.closed)
@@ -45,7 +45,7 @@ impl Routes {
         (0..self.len()).into_par_iter().with_min_len(CHUNK).map(|route| self.get(route))
     }
 
-    /// Changes each route, which must still follow each other as they were found.
+    /// Changes every route in place. The routes must still be stored one after another.
     fn each(&mut self, change: impl Fn(&mut [Step], &mut Span) + Sync) {
         let mut rest = &mut self.steps[..];
         let mut tasks = Vec::with_capacity(self.spans.len().div_ceil(CHUNK));
@@ -66,17 +66,17 @@ impl Routes {
     }
 }
 
-/// Routes that one task looks at.
+/// Routes per task.
 const CHUNK: usize = 1024;
 
-/// Joins the edges that have a class; `window` is the length over which directions are measured at
-/// junctions. The result does not depend on the order or sense of the edges, but for lines that
-/// coincide exactly.
+/// Joins the edges that have a class. `window` is the length for measuring directions at junctions.
+///
+/// The result does not depend on the order or direction of the edges, except for lines that coincide exactly.
 pub(crate) fn routes(map: &ViewMap, classes: &[Option<Class>], window: f64) -> Routes {
     let partner = partners(map, classes, window);
     let mut used: Vec<bool> = classes.iter().map(Option::is_none).collect();
     let mut routes = Routes { steps: Vec::with_capacity(map.edges.len()), spans: Vec::new() };
-    // Open routes start at the ends that nothing continues; what they leave is closed.
+    // Open routes start at unpaired ends; the remaining edges form closed routes.
     for open in [true, false] {
         for end in 0..partner.len() {
             if used[end / 2] || (open && partner[end] != NONE) {
@@ -110,7 +110,7 @@ pub(crate) fn routes(map: &ViewMap, classes: &[Option<Class>], window: f64) -> R
     routes
 }
 
-/// Turns a route to the sense, and a closed one to the start, that its edges alone decide.
+/// Gives a route a direction, and a closed route a start, that depend on its geometry only.
 fn make_canonical(map: &ViewMap, steps: &mut [Step], closed: bool) {
     let reverse = |steps: &mut [Step]| {
         steps.reverse();

@@ -1,10 +1,10 @@
-//! Laws of the whole stage on random walks over a coarse grid.
+//! Tests of the whole stage on random walks over a coarse grid.
 
 use super::*;
 use crate::chains::fit::douglas_peucker::simplify;
 use crate::geometry::numbers::noise::hash;
 
-/// What a set of chains draws, in an order of its own.
+/// Text form of everything that a set of chains draws, independent of order.
 fn drawing_of(chains: &[Chain]) -> Vec<String> {
     let mut drawn: Vec<String> = chains
         .iter()
@@ -20,7 +20,7 @@ fn drawing_of(chains: &[Chain]) -> Vec<String> {
     drawn
 }
 
-/// Seeded chance.
+/// Seeded random numbers.
 struct Dice {
     seed: u64,
     thrown: u64,
@@ -32,13 +32,13 @@ impl Dice {
         hash(self.seed, &[self.thrown])
     }
 
-    /// One of `0..count`.
+    /// A random number in `0..count`.
     fn below(&mut self, count: u64) -> i32 {
         (self.word() % count) as i32
     }
 }
 
-/// Random walks on a coarse grid: crossings, junctions, doubled edges and loops of every sort.
+/// Random walks on a coarse grid, with crossings, junctions, doubled edges and loops.
 fn walks(dice: &mut Dice) -> Vec<Polyline> {
     (0..1 + dice.below(7))
         .map(|_| {
@@ -55,7 +55,7 @@ fn walks(dice: &mut Dice) -> Vec<Polyline> {
         .collect()
 }
 
-/// Looks at many walks.
+/// Runs a check on 256 random drawings.
 fn all(check: impl Fn(&mut Dice, &[Polyline])) {
     for seed in 0..256 {
         let mut dice = Dice { seed, thrown: 0 };

@@ -1,4 +1,8 @@
-//! Drops second strokes: what of lines runs beside a longer one within a pen's width.
+//! Drops double lines: stretches that run parallel to a longer line within about a pen's width.
+//!
+//! 1. Every visible line is cut into pieces with a direction, stored in a grid.
+//! 2. A line is a double if longer, parallel lines run next to at least 80 % of its length.
+//! 3. Uncovered stretches of a double are still drawn if they are long or silhouette.
 
 use std::ops::RangeInclusive;
 
@@ -16,36 +20,37 @@ use crate::lines::LineKind;
 use crate::surface::Origin;
 use crate::visibility::ViewVertexId;
 
-/// Lines nearer than this part of the tidy length are double strokes.
+/// Largest distance between double lines, in tidy lengths.
 const DOUBLE: f64 = 0.3;
 
-/// Cosine of the largest angle (35 degrees) between strokes that count as parallel.
+/// Cosine of the largest angle (35 degrees) between parallel lines.
 const PARALLEL_COSINE: f64 = 0.82;
 
-/// Part of a line that must run beside others for the whole to be a double.
+/// Minimum share of a line that must run next to others for the line to be a double.
 const COVERED: f64 = 0.8;
 
-/// Length, in distances, over which the direction of a jagged line is taken.
+/// Window for the direction of a jagged line, in double distances.
 const WINDOW: f64 = 4.0;
 
-/// A line shorter than this many distances, or one of a rim that is, is a flake, and doubles another at this much more
-/// than the distance.
+/// Maximum length of a short overlap, in double distances, and how much larger its distance to other lines
+/// may be. For the side of a rim the length of the whole rim counts.
 const FLAKE: f64 = 21.0;
 const FLAKE_DISTANCE: f64 = 4.0;
 
-/// Part of a flake that may be silhouette.
+/// Maximum share of silhouette in a short overlap.
 const OUTLINE: f64 = 0.25;
 
-/// What of a double runs by itself for more than so many distances is drawn, and all of it that is outline.
+/// Minimum length of an uncovered stretch of a double that is still drawn, in double distances. One that
+/// contains silhouette is drawn if the silhouette is longer than one distance.
 const BARE: f64 = 10.0;
 
-/// Lines that one task looks at, at least.
+/// Minimum number of lines per task.
 const MIN_LINES: usize = 8;
 
-/// Part of the distance by which lines beside each other may miss each other lengthwise.
+/// Largest lengthwise offset between parallel lines, as a share of the distance.
 const ABREAST: f64 = 0.3;
 
-/// A piece of a visible line in a bucket of the page.
+/// Straight piece of a visible line, with its smoothed direction.
 #[derive(Debug, Clone, Copy)]
 struct LinePiece {
     line: u32,
@@ -54,7 +59,7 @@ struct LinePiece {
     direction: Vec2,
 }
 
-/// Pieces by square cells of the page.
+/// Pieces of lines by square cells of the page.
 struct Buckets {
     cell: f64,
     corner: Point,
@@ -63,9 +68,11 @@ struct Buckets {
     pieces: Grouped<u32>,
 }
 
-/// Leaves out smooth contours and noisy creases that double a longer visible line within so many tidy lengths,
-/// but for what of them runs by itself. A line that may go for noise stands for no other; the middle line of a rounding gives way
-/// to any other line, and none to it.
+/// Drops smooth contours, and creases of scans and roundings, that double a longer visible line. Their
+/// uncovered stretches are kept.
+///
+/// A line that may be noise covers no other. The middle line of a rounding gives way to any other line and
+/// covers none of them.
 pub(crate) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: &mut Bin) {
     let distance = DOUBLE * tidy;
     if !raws.par_iter().any(is_suspect) {
@@ -93,15 +100,15 @@ pub(crate) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64
     let rims = Rims::of(raws, &lengths);
     let may_go: Vec<bool> = raws.iter().map(|raw| may_be_noise(raw, tidy)).collect();
     let roundings: Vec<bool> = raws.iter().map(is_rounding).collect();
-    // Which sides of a line run by themselves, if it is a double. Only longer lines make it one, so that it does not matter which of
-    // those are doubles themselves: of lines beside each other the longest is left.
+    // For each side of a double, whether it is uncovered; none for other lines. Only longer lines cover a
+    // line, so it does not matter whether these are doubles: the longest of several parallel lines is kept.
     let alone = |i: usize| -> Option<Vec<bool>> {
         if !is_suspect(&raws[i]) {
             return None;
         }
         let own = &pieces[spans[i]..spans[i + 1]];
         let total = lengths[i];
-        // The shorter, the more likely a flake; but a gap in the outline is worse.
+        // A short line is more likely an artefact, but a gap in the silhouette would be worse.
         let whole = rims.length(&raws[i], total);
         let flake = whole < FLAKE * distance && raws[i].silhouette_part() < OUTLINE;
         let distance = if flake { FLAKE_DISTANCE * distance } else { distance };
@@ -159,8 +166,7 @@ pub(crate) fn drop_doubles(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64
     *raws = kept;
 }
 
-/// The lengths of lines that begin and end in the same two places, such as the near and the far side of the rim of a
-/// hole: together they are as long as the rim.
+/// Total lengths of lines with the same two end vertices, such as the near and the far side of a hole's rim.
 struct Rims(FxHashMap<[ViewVertexId; 2], f64>);
 
 impl Rims {
@@ -177,18 +183,19 @@ impl Rims {
         [a.min(b), a.max(b)]
     }
 
-    /// The length of the rim of which a line is a side; its own if it is none.
+    /// Length of the rim that a line is a side of, or its own length.
     fn length(&self, raw: &Raw, own: f64) -> f64 {
         if raw.is_ring() { own } else { self.0.get(&Self::key(raw)).copied().unwrap_or(own) }
     }
 }
 
-/// What of a double is drawn: runs of sides that are alone and long, or that are outline for more than a distance.
+/// Stretches of a double that are drawn: long uncovered runs, and runs with silhouette longer than
+/// `distance`.
 fn parts_alone(raw: &Raw, alone: &[bool], distance: f64) -> Vec<Raw> {
     if !alone.contains(&true) {
         return Vec::new();
     }
-    // A ring is opened where it is not alone.
+    // A closed line is opened at a covered side.
     let start = if raw.line.closed { alone.iter().position(|alone| !alone).unwrap_or(0) } else { 0 };
     let open = if raw.line.closed { raw.line.opened_at(start) } else { raw.line.clone() };
     let is_alone = |side: usize| alone.get((side + start) % alone.len()).copied().unwrap_or(false);
@@ -207,7 +214,7 @@ fn parts_alone(raw: &Raw, alone: &[bool], distance: f64) -> Vec<Raw> {
         if all > BARE * distance || outline > distance {
             let ends = [first == 0, last + 1 == sides];
             let covered = [0, 1].map(|end| !raw.line.closed && ends[end] && raw.covered[end]);
-            // Where it was cut another line runs on, so that its vertices stay joined.
+            // Another line continues at the cut, so the vertices keep their degree.
             let part =
                 Raw { line: open.slice(first, last + 1), covered, vertices: Vec::new(), ..raw.clone() };
             parts.push(part);
@@ -217,7 +224,7 @@ fn parts_alone(raw: &Raw, alone: &[bool], distance: f64) -> Vec<Raw> {
     parts
 }
 
-/// Whether a line may be a double at all: exact models draw every line they have.
+/// Whether a line may be a double. Lines of exact models are all drawn.
 fn is_suspect(raw: &Raw) -> bool {
     !raw.class.hidden
         && match raw.class.kind {
@@ -227,12 +234,12 @@ fn is_suspect(raw: &Raw) -> bool {
         }
 }
 
-/// Whether it is the middle line of a rounding: a crease on a surface that goes on over it.
+/// Whether a line is the middle line of a rounding: a crease on a surface that is smooth across it.
 fn is_rounding(raw: &Raw) -> bool {
     raw.class.kind == LineKind::Crease && raw.smooth && raw.class.origin != Origin::Scanned
 }
 
-/// The pieces of a line, with the direction each has over a few distances.
+/// Pieces of a line, each with its direction over a few distances.
 fn collect(index: u32, line: &Line, distance: f64) -> Vec<LinePiece> {
     let n = line.len();
     let sides = if line.closed { n } else { n - 1 };
@@ -254,10 +261,10 @@ fn collect(index: u32, line: &Line, distance: f64) -> Vec<LinePiece> {
     pieces
 }
 
-/// Pieces that one task looks at.
+/// Pieces per task.
 const PIECES: usize = 1 << 10;
 
-/// Cells for each piece, at most.
+/// Maximum number of grid cells per piece.
 const CELLS_OF_PIECE: usize = 8;
 
 impl Buckets {
@@ -269,7 +276,7 @@ impl Buckets {
             low = Point::new(low.x.min(p.x), low.y.min(p.y));
             high = Point::new(high.x.max(p.x), high.y.max(p.y));
         }
-        // Giant pages get larger cells rather than more than a million, and few pieces do with few.
+        // At most a million cells on giant pages, and few cells for few pieces.
         let (width, height) = (high.x - low.x, high.y - low.y);
         let of_piece = (width * height / (CELLS_OF_PIECE * pieces.len()) as f64).sqrt();
         let cell = cell.max(width / 1000.0).max(height / 1000.0).max(of_piece);
@@ -291,7 +298,7 @@ impl Buckets {
         Some(buckets)
     }
 
-    /// Columns and rows of the box round two points, widened by `margin`.
+    /// Column and row ranges of the bounding box of two points, widened by `margin`.
     fn range(&self, p: Point, q: Point, margin: f64) -> (RangeInclusive<usize>, RangeInclusive<usize>) {
         let column = |x: f64| (((x - self.corner.x) / self.cell).max(0.0) as usize).min(self.columns - 1);
         let row = |y: f64| (((y - self.corner.y) / self.cell).max(0.0) as usize).min(self.rows - 1);
@@ -301,8 +308,8 @@ impl Buckets {
         )
     }
 
-    /// Cells that a segment touches; long segments are taken in parts so that their boxes stay
-    /// small, and may give a cell twice.
+    /// Visits the cells that a segment touches. Long segments are taken in parts with small boxes, so a cell
+    /// may be visited twice.
     fn each_cell(&self, a: Point, b: Point, mut visit: impl FnMut(usize)) {
         let parts = ((length(b - a) / self.cell).ceil() as usize).clamp(1, 4096);
         for part in 0..parts {
@@ -315,7 +322,7 @@ impl Buckets {
         }
     }
 
-    /// Whether a parallel piece of an admitted line runs beside `point` within `distance`.
+    /// Whether a parallel piece of an admitted line lies within `distance` of `point`.
     fn beside(
         &self,
         pieces: &[LinePiece],
@@ -337,7 +344,7 @@ impl Buckets {
 }
 
 impl LinePiece {
-    /// Whether a point lies beside the piece rather than ahead of it or behind, but for `slack`.
+    /// Whether the projection of a point falls on the piece, within `slack`.
     fn is_abreast(&self, point: Point, slack: f64) -> bool {
         let side = self.b - self.a;
         let along = (point - self.a).dot(side);
@@ -381,7 +388,7 @@ mod tests {
 
     #[test]
     fn the_rim_of_a_small_hole_by_an_outline_is_no_flake() {
-        // Each side of the rim is as short as a flake, both together are not.
+        // Each side of the rim is short enough to be dropped, both together are not.
         let left = |far_ends: [u32; 2]| {
             let outline = contour(&[(0.0, 0.0), (200.0, 0.0)], [0, 1]);
             let near = contour(&[(50.0, 3.0), (65.0, 3.0)], [2, 3]);

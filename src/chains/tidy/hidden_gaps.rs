@@ -1,7 +1,7 @@
-//! Closes the tiny gaps in the visible part of a line.
+//! Bridges tiny hidden gaps in visible contours.
 //!
-//! Contours of meshes dip behind the folds of their own neighbourhood for a fraction of a px; a pen
-//! makes one line of them.
+//! For a fraction of a px, mesh contours dip behind folds of the surface next to them. A pen would draw one
+//! line.
 
 use crate::chains::link::directed_edge::Step;
 use crate::chains::link::edge_class::Class;
@@ -9,7 +9,7 @@ use crate::chains::link::routes::Routes;
 use crate::lines::LineKind;
 use crate::visibility::{Ahead, ViewMap, Way};
 
-/// A stretch of a route over which something stays the same.
+/// Run of route steps that are all hidden or all visible.
 #[derive(Debug, Clone, Copy)]
 struct Stretch {
     first: usize,
@@ -18,9 +18,10 @@ struct Stretch {
     value: bool,
 }
 
-/// Makes hidden stretches of smooth contours shorter than `gap` visible where the line is visible
-/// before and behind them, and nothing but their own surface hides them. `routes` must join edges
-/// regardless of visibility.
+/// Makes short hidden stretches of smooth contours visible.
+///
+/// A stretch must be shorter than `gap`, lie between visible stretches, and be hidden by its own surface
+/// only. `routes` must join edges regardless of visibility.
 pub(crate) fn bridge(
     map: &ViewMap,
     routes: &Routes,
@@ -41,13 +42,13 @@ pub(crate) fn bridge(
     }
 }
 
-/// A stretch that may be bridged.
+/// Hidden stretch that may be bridged.
 struct Gap {
     steps: Vec<Step>,
     way: Way,
 }
 
-/// The hidden stretches of a route shorter than `gap` that lie in visible ones of one smooth contour.
+/// Hidden stretches shorter than `gap` between visible stretches of one smooth contour.
 fn gaps(map: &ViewMap, steps: &[Step], closed: bool, gap: f64, classes: &[Option<Class>]) -> Vec<Gap> {
     let is_hidden = |step: &Step| class(classes, step).is_none_or(|c| c.hidden);
     if !steps.iter().any(is_hidden) {
@@ -66,7 +67,7 @@ fn gaps(map: &ViewMap, steps: &[Step], closed: bool, gap: f64, classes: &[Option
         if !run.value || !inner || run.length >= gap {
             continue;
         }
-        // Two crumbs do not make a line by what is between them.
+        // Two short pieces are not joined by a longer gap between them.
         if beside(i + count - 1).max(beside(i + 1)) < run.length {
             continue;
         }
@@ -91,8 +92,8 @@ impl Gap {
     }
 }
 
-/// The runs of equal value along a route. In a closed route the first run may begin before the
-/// route's start: its `end` then exceeds the number of steps.
+/// Runs of equal value along a route. In a closed route the last run may pass the start of the route: its
+/// `end` then exceeds the number of steps.
 fn runs(map: &ViewMap, steps: &[Step], closed: bool, value: impl Fn(&Step) -> bool) -> Vec<Stretch> {
     let n = steps.len();
     let start =

@@ -9,7 +9,7 @@
 //!
 //! Files, in reading order: [`tidy_passes`] the order of the steps; [`raw_line`] a line with what tidying
 //! needs; [`hidden_gaps`]; [`stitching`]; [`double_lines`]; [`short_lines`]; [`silhouette_runs`];
-//! [`removed_lines`] a report of what was dropped and why.
+//! [`removed_lines`] a report of dropped lines and the reasons.
 
 mod double_lines;
 mod hidden_gaps;

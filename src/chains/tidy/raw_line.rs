@@ -1,4 +1,4 @@
-//! [`Raw`]: the line of a route with what tidying has to know of it.
+//! [`Raw`]: the line of a route, with the properties that tidying needs.
 
 use crate::chains::link::edge_class::Class;
 use crate::chains::link::routes::Routes;
@@ -8,35 +8,35 @@ use crate::lines::LineKind;
 use crate::surface::Origin;
 use crate::visibility::{ViewEdge, ViewMap, ViewVertexId, ViewVertexKind};
 
-/// Degrees of a dihedral angle that on a scan may well be noise.
+/// Largest dihedral angle of a scan's crease that may be noise, degrees.
 const FAINT_DEG: f32 = 45.0;
 
-/// A line before it is smoothed.
+/// Line before smoothing.
 #[derive(Debug, Clone)]
 pub(crate) struct Raw {
     pub line: Line,
     pub class: Class,
-    /// Smallest number of surfaces that hide any of it.
+    /// Smallest number of surfaces in front of its hidden edges; 0 if it is visible.
     pub invisibility: u16,
-    /// Whether most of it lies on smooth surfaces.
+    /// Whether more than half of its edges lie on smooth surfaces.
     pub smooth: bool,
-    /// Where it begins and ends; twice the same vertex in a ring.
+    /// First and last view vertex; equal for a ring.
     pub ends: [ViewVertexId; 2],
-    /// The view vertices its pieces begin and end at, each piece's two.
+    /// Start and end vertex of each edge.
     pub vertices: Vec<ViewVertexId>,
-    /// Whether a surface covers the line at its first and last point, so that it ends in the
-    /// drawing, but not on the surface.
+    /// Whether a surface covers the line at its first and last point. There the line ends in the drawing, but
+    /// continues on the surface.
     pub covered: [bool; 2],
-    /// Length of a crease, each piece weighted by how much it turns beyond what may be noise; a
-    /// right angle counts once. 0 for other lines.
+    /// Weighted length of a crease; 0 for other lines. The weight grows from 0 at the noise angle to 1 at 90
+    /// degrees.
     pub pronounced: f64,
-    /// Smallest number of the feature segments that it has pieces of.
+    /// Smallest number of its feature segments.
     pub segment: u32,
 }
 
 impl Raw {
-    /// The line of a route; `None` for one seen end-on as a point. All of it counts as lying on a
-    /// smooth surface if it is a contour or crease of a scan.
+    /// Line of a route; `None` if the route projects to a point. Contours and creases of scans count as
+    /// smooth.
     pub fn of_route(map: &ViewMap, routes: &Routes, route: usize, classes: &[Option<Class>]) -> Option<Self> {
         let (steps, closed) = routes.get(route);
         let (first, last) = (steps.first()?, steps.last()?);
@@ -44,7 +44,7 @@ impl Raw {
         let noisy =
             class.origin == Origin::Scanned && matches!(class.kind, LineKind::Contour | LineKind::Crease);
         let line = Line::of_route(map, steps, closed, noisy);
-        // A closed line of two points runs there and back.
+        // A closed line of two points becomes an open one that runs there and back.
         let line = if closed && line.len() == 2 { line.opened_at(0) } else { line };
         if line.len() < 2 {
             return None;
@@ -81,20 +81,20 @@ impl Raw {
         }
     }
 
-    /// The part of it that has background behind it, 0 to 1.
+    /// Share of its length that is silhouette, 0 to 1.
     pub fn silhouette_part(&self) -> f64 {
         let sides = || self.line.points.windows(2).map(|pair| length(pair[1] - pair[0]));
         let silhouette = sides().zip(&self.line.silhouette).filter(|(_, is)| **is);
         silhouette.map(|(side, _)| side).sum::<f64>() / sides().sum::<f64>().max(f64::MIN_POSITIVE)
     }
 
-    /// Whether it ends where it began.
+    /// Whether it ends where it starts.
     pub fn is_ring(&self) -> bool {
         self.line.closed || self.ends[0] == self.ends[1]
     }
 }
 
-/// How many visible pieces come together at each view vertex.
+/// Number of visible edge ends at each view vertex.
 pub(crate) struct Degrees(Vec<u32>);
 
 impl Degrees {
@@ -109,22 +109,22 @@ impl Degrees {
         Self(degrees)
     }
 
-    /// Whether nothing but one line ends here.
+    /// Whether at most one line ends at the vertex.
     pub fn is_free(&self, vertex: ViewVertexId) -> bool {
         self.0[vertex.index()] <= 1
     }
 
-    /// Whether more than two lines end here, or a line passes through where another ends.
+    /// Whether more than two edge ends meet at the vertex.
     pub fn is_junction(&self, vertex: ViewVertexId) -> bool {
         self.0[vertex.index()] > 2
     }
 
-    /// Takes away a piece that ended here.
+    /// Removes one edge end at the vertex.
     pub fn cut_off(&mut self, vertex: ViewVertexId) {
         self.0[vertex.index()] = self.0[vertex.index()].saturating_sub(1);
     }
 
-    /// Takes away a line that is left out.
+    /// Removes all edges of a line that is dropped.
     pub fn leave_out(&mut self, raw: &Raw) {
         raw.vertices.iter().for_each(|vertex| self.cut_off(*vertex));
     }

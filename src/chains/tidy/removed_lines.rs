@@ -1,4 +1,4 @@
-//! [`Removed`]: what tidying leaves out and why, kept for those who ask.
+//! [`Removed`]: lines that tidying dropped, and why. Recorded on request only.
 
 use kurbo::Point;
 
@@ -6,24 +6,24 @@ use super::raw_line::{Degrees, Raw};
 use crate::lines::LineKind;
 use crate::surface::Origin;
 
-/// Why a line was left out.
+/// Why a line was dropped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Reason {
-    /// Short, and hangs on nothing.
+    /// Short and isolated.
     Crumb,
-    /// Short, and hangs on another line by one end.
+    /// Short, with one dangling end.
     Spur,
-    /// The stub of a line beyond the place where it is sewn to another.
+    /// Overhang of a line past the point where it is stitched to another.
     Stub,
-    /// A short ring.
+    /// A small ring.
     Loop,
-    /// Runs beside a longer line.
+    /// Runs next to a longer line.
     Double,
-    /// A crease of a scan that may be noise.
+    /// Crease of a scan that may be noise.
     Noise,
-    /// A line inside that is too short for how weak it is.
+    /// Interior line that is too short for its strength.
     Weak,
-    /// Less than a dot of the pen.
+    /// Shorter than a dot of the pen.
     Point,
 }
 
@@ -32,7 +32,7 @@ impl Reason {
     pub const ALL: [Self; 8] =
         [Self::Crumb, Self::Spur, Self::Stub, Self::Loop, Self::Double, Self::Noise, Self::Weak, Self::Point];
 
-    /// The class name in SVG.
+    /// Class name in SVG.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -47,7 +47,7 @@ impl Reason {
         }
     }
 
-    /// Why a line is a crumb that was found to be one.
+    /// Reason for a line that was found to be too short.
     pub(crate) fn of_crumb(raw: &Raw, degrees: &Degrees) -> Self {
         let ends = [0, 1].map(|side| raw.covered[side] || degrees.is_free(raw.ends[side]));
         match raw.class.kind {
@@ -60,30 +60,30 @@ impl Reason {
     }
 }
 
-/// A line or a part of one that was left out.
+/// A dropped line, or a dropped part of one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Removed {
     /// Points in user units of the page.
     pub points: Vec<Point>,
     /// Whether the last point joins the first.
     pub closed: bool,
-    /// What line it was.
+    /// Kind of line.
     pub kind: LineKind,
-    /// Why it went.
+    /// Why it was dropped.
     pub reason: Reason,
 }
 
-/// Where tidying puts what it leaves out; costs nothing where nobody asks.
+/// Log of dropped lines. Records nothing unless created by [`Bin::kept`].
 #[derive(Debug, Default)]
 pub(crate) struct Bin(Option<Vec<Removed>>);
 
 impl Bin {
-    /// A bin that keeps what is put into it.
+    /// A log that records lines.
     pub fn kept() -> Self {
         Self(Some(Vec::new()))
     }
 
-    /// Takes a whole line.
+    /// Records a whole line.
     pub fn put(&mut self, raw: &Raw, reason: impl FnOnce() -> Reason) {
         if let Some(kept) = &mut self.0 {
             let (points, closed) = (raw.line.points.clone(), raw.line.closed);
@@ -91,21 +91,21 @@ impl Bin {
         }
     }
 
-    /// Takes a part of a line.
+    /// Records a part of a line.
     pub fn put_part(&mut self, raw: &Raw, reason: Reason, points: impl FnOnce() -> Vec<Point>) {
         if let Some(kept) = &mut self.0 {
             kept.push(Removed { points: points(), closed: false, kind: raw.class.kind, reason });
         }
     }
 
-    /// Takes a piece that became part of no line.
+    /// Records a single edge that became part of no line.
     pub fn put_piece(&mut self, kind: LineKind, reason: Reason, ends: [Point; 2]) {
         if let Some(kept) = &mut self.0 {
             kept.push(Removed { points: ends.to_vec(), closed: false, kind, reason });
         }
     }
 
-    /// All that was put into it.
+    /// All records, in order.
     pub fn emptied(self) -> Vec<Removed> {
         self.0.unwrap_or_default()
     }

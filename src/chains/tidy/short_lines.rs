@@ -1,4 +1,8 @@
-//! Drops what no illustrator would draw: crumbs, spurs, tiny loops and creases that are noise.
+//! Drops short lines that no illustrator would draw: isolated dots, dangling ends, tiny loops and noisy
+//! creases.
+//!
+//! Lengths are in tidy lengths (option `tidy`). The thresholds depend on the kind of line, on whether its
+//! ends are free or covered, and on whether the surface is scanned.
 
 use crate::parallel::prelude::*;
 use rustc_hash::FxHashSet;
@@ -9,32 +13,31 @@ use crate::lines::LineKind;
 use crate::surface::Origin;
 use crate::visibility::ViewVertexId;
 
-/// A crease of a scan must be this many times longer than a crumb if it turns by a right angle; the
-/// fainter, the longer.
+/// Minimum weighted length of a scan's crease. A crease that turns by 90 degrees counts in full, a fainter
+/// one less.
 const NOISE: f64 = 5.0;
 
-/// A line of any kind that hangs on nothing is a dot if it is shorter than this many tidy lengths.
+/// Maximum length of an isolated line of any kind that counts as a dot.
 const DOT: f64 = 0.3;
 
-/// A contour of a scan that hangs on nothing must be this many times longer.
+/// Minimum length of a scan's contour that touches no other line.
 const FLOATING: f64 = 6.0;
 
-/// A contour of a scan that comes out from under something at one of its ends must be this many times longer.
+/// Minimum length of a scan's contour that a surface covers at one end.
 const PARTLY_COVERED: f64 = 2.5;
 
-/// A line shorter than so many tidy lengths has no length in a file: 0.01 px, the last decimal that is written.
+/// Minimum length of a line that has a length in a file: 0.01 px, the last decimal that is written.
 const UNWRITTEN: f64 = 0.0025;
 
-/// A line inside must be this many times longer than a crumb where it is as strong as can be; the
-/// weaker, the longer.
+/// Minimum weighted length of an interior line. A line of full strength counts in full, a weaker one less.
 const INSIDE: f64 = 5.0;
 
-/// Strength that a line inside must reach somewhere.
+/// Minimum of an interior line's greatest strength.
 const INSIDE_PEAK: f64 = 0.25;
 
-/// Leaves out every line that is a crumb.
+/// Drops every line that is too short, and logs it.
 pub(crate) fn drop_crumbs(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64, bin: &mut Bin) {
-    // All are judged before any goes, so that no order matters.
+    // All lines are tested before any is dropped, so the result does not depend on their order.
     let rims = Rims::of(raws);
     let left: &Degrees = degrees;
     let crumbs: Vec<bool> = raws.par_iter().map(|raw| is_crumb(raw, left, &rims, tidy)).collect();
@@ -52,12 +55,12 @@ pub(crate) fn drop_crumbs(raws: &mut Vec<Raw>, degrees: &mut Degrees, tidy: f64,
     });
 }
 
-/// Where contours begin and end.
+/// View vertices where visible contours start or end.
 struct Rims(FxHashSet<ViewVertexId>);
 
 impl Rims {
     fn of(raws: &[Raw]) -> Self {
-        // Only such are asked about.
+        // Only scanned creases are looked up.
         if !raws.par_iter().any(is_scanned_crease) {
             return Self(FxHashSet::default());
         }
@@ -67,14 +70,13 @@ impl Rims {
         Self(contours.flat_map(|raw| raw.ends).collect())
     }
 
-    /// Whether a line goes on as a contour at both its ends, as where one sees the near side of the rim of a hole, or only into it.
+    /// Whether contours continue a line at both its ends, as at the rim of a hole.
     fn holds(&self, raw: &Raw) -> bool {
         !raw.is_ring() && raw.ends.iter().all(|end| self.0.contains(end))
     }
 }
 
-/// Whether a line is a crease of a scan that turns too little for its length: it goes, unless contours go on at both
-/// its ends.
+/// Whether a line is a scan's crease that turns too little for its length.
 pub(crate) fn may_be_noise(raw: &Raw, tidy: f64) -> bool {
     is_scanned_crease(raw) && raw.pronounced < NOISE * tidy
 }
@@ -102,7 +104,7 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, rims: &Rims, tidy: f64) -> bool {
         return true;
     }
     if raw.is_ring() {
-        // A loop of two strokes' width is a blot.
+        // A loop of about two stroke widths would look like a blot.
         return match raw.class.kind {
             LineKind::Border => scanned,
             _ => raw.smooth && length < 2.0 * tidy,
@@ -113,7 +115,7 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, rims: &Rims, tidy: f64) -> bool {
     if length < DOT * tidy && ends[0] && ends[1] {
         return true;
     }
-    // A gap in the outline is worse than a crumb on it.
+    // A gap in the silhouette is worse than a short line on it.
     if raw.silhouette_part() > 0.5 {
         return false;
     }
@@ -125,15 +127,15 @@ fn is_crumb(raw: &Raw, degrees: &Degrees, rims: &Rims, tidy: f64) -> bool {
                 Origin::Scanned | Origin::Modelled if floating => PARTLY_COVERED * tidy,
                 _ => tidy,
             };
-            // Where it is the last piece of another line, round a corner, that line needs it.
+            // A short end of another line, round a corner, is kept.
             let spur = [0, 1].map(|side| !ends[side] && degrees.is_junction(raw.ends[side]));
             length < least && ((ends[0] && (ends[1] || spur[1])) || (ends[1] && spur[0]))
         }
         LineKind::Crease => {
-            // On exact models only what ends in the middle of a surface is doubtful.
+            // On exact models only creases with both ends inside a surface are doubtful.
             length < tidy && [0, 1].iter().all(|side| free[*side] && !raw.covered[*side])
         }
-        // A slit in a scan is a defect of its mesh; the edge of a sheet that comes out from under another is not.
+        // A slit in a scan is a mesh defect. The edge of a sheet that emerges from under another is not.
         LineKind::Border if scanned => {
             let is_whole = !raw.covered[0] && !raw.covered[1];
             free[0] && free[1] && (is_whole || length < PARTLY_COVERED * tidy)

@@ -1,38 +1,41 @@
-//! Cuts lines where silhouette turns into inner contour, but not where it only flickers, as the contours of rounded surfaces do.
+//! Cuts lines where they change between silhouette and inner contour.
+//!
+//! On rounded surfaces the property flickers, so runs that are too short are merged into their neighbours.
 
 use super::raw_line::Raw;
 use crate::chains::link::edge_class::Class;
 use crate::chains::sampled_line::Line;
 use crate::geometry::plane::planar_distance::length;
 
-/// A stretch of a line, from one side to another, that is silhouette or is not.
+/// Run of sides that are all silhouette, or all not.
 #[derive(Debug, Clone, Copy)]
 struct Stretch {
     first: usize,
     end: usize,
     length: f64,
     value: bool,
-    /// Whether all of it lies on edges that are meant to be sharp: it ends at computed places.
+    /// Whether all of it lies on sharp edges, where its ends are exact.
     is_hard: bool,
 }
 
-/// How short stretches of a line may be, user units.
+/// Minimum lengths of runs, user units.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Shortest {
-    /// On rounded surfaces, and where lines were found in images.
+    /// On rounded surfaces, and for lines found in the image.
     pub soft: f64,
-    /// On edges that are meant to be sharp.
+    /// On sharp edges.
     pub hard: f64,
 }
 
-/// The parts of a line that are silhouette throughout or nowhere, none shorter than `shortest` unless the whole line is; `None` for
-/// a line that is one such part itself and then knows which.
+/// Cuts a line into parts that are all silhouette, or all not, each of the minimum length.
+///
+/// Returns `None` for a line with a single part. Its class is then set.
 pub(crate) fn cut(raw: &mut Raw, shortest: Shortest) -> Option<Vec<Raw>> {
     if raw.line.silhouette.iter().all(|s| *s == raw.line.silhouette[0]) {
         raw.class.silhouette = raw.line.silhouette[0];
         return None;
     }
-    // A closed line begins where the value changes, so that no run goes over its seam.
+    // A closed line is opened where the value changes, so that no run passes its seam.
     let n = raw.line.len();
     let change = (0..n).find(|i| raw.line.silhouette[*i] != raw.line.silhouette[(i + n - 1) % n]);
     let opened = raw.line.closed.then(|| raw.line.opened_at(change.unwrap_or(0)));
@@ -50,7 +53,7 @@ pub(crate) fn cut(raw: &mut Raw, shortest: Shortest) -> Option<Vec<Raw>> {
     Some(runs.iter().enumerate().map(part).collect())
 }
 
-/// A part of a line; nobody asks any more which vertices are its own.
+/// Part of a line. Its vertices are not needed any more.
 fn with_silhouette(raw: &Raw, line: Line, silhouette: bool) -> Raw {
     Raw { line, class: Class { silhouette, ..raw.class }, vertices: Vec::new(), ..*raw }
 }
@@ -72,7 +75,7 @@ fn runs(line: &Line) -> Vec<Stretch> {
     runs
 }
 
-/// Joins the shortest run that is too short to its neighbours until all are long enough.
+/// Merges the shortest run below the minimum with its neighbours, until all runs are long enough.
 fn even(mut runs: Vec<Stretch>, shortest: Shortest) -> Vec<Stretch> {
     while runs.len() > 1 {
         let least = |run: &Stretch| if run.is_hard { shortest.hard } else { shortest.soft };
@@ -97,7 +100,7 @@ fn even(mut runs: Vec<Stretch>, shortest: Shortest) -> Vec<Stretch> {
 mod tests {
     use super::*;
 
-    /// The lengths of what is left of stretches that are silhouette by turns.
+    /// Lengths that remain of runs that alternate between silhouette and not.
     fn left(lengths: &[f64], is_hard: bool) -> Vec<f64> {
         let stretch = |(k, length): (usize, &f64)| Stretch {
             first: k,

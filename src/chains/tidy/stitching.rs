@@ -1,9 +1,15 @@
-//! Sews contours on smooth surfaces together where one ends on, or just short of, the beginning of
-//! the next.
+//! Stitches contours on smooth surfaces where one ends on, or just short of, the start of the next.
 //!
-//! The outline of a mesh is woven of many contours, each running out behind the next at a
-//! T-junction a px from where that one begins. In the drawing they are one line, and the stub
-//! before the junction is a spur.
+//! The contour of a mesh consists of many pieces. Each runs out behind the next at a T-junction, about a px
+//! from where that one starts. In the drawing they are one line, and the overhang before the junction is
+//! dropped.
+//!
+//! 1. Free ends of one class within reach are candidates, either uncut or with the overhang of one cut off.
+//! 2. A candidate must not turn sharply. Larger gaps must be straighter, and shorter than the lines that they
+//!    join.
+//! 3. Candidates hidden by another surface are dropped. The cheapest of the rest are taken first.
+//!
+//! All lengths are in tidy lengths (option `tidy`).
 
 use crate::parallel::prelude::*;
 use kurbo::{Point, Vec2};
@@ -15,36 +21,37 @@ use crate::chains::sampled_line::Line;
 use crate::geometry::plane::planar_distance::{distance2, length};
 use crate::visibility::{Ahead, Way};
 
-/// Tidy lengths that a stitch may jump when nothing is trimmed, and when a stub is.
+/// Largest gap without an overhang, and with one.
 const JUMP: f64 = 2.5;
 const JUMP_TRIMMED: f64 = 0.6;
 
-/// Tidy lengths beyond which a jump must go on more or less, straight, and dead straight between
-/// lines longer than itself.
+/// Gaps above these limits must be roughly straight, straight, and very straight between lines longer than
+/// the gap.
 const HOP: f64 = 0.35;
 const LEAP: f64 = 0.8;
 const FLIGHT: f64 = 1.5;
 
-/// Tidy lengths that a stub may have, and that directions are taken over.
+/// Longest overhang.
 const STUB: f64 = 8.0;
 
-/// Tidy lengths beyond which a stub must lie on the other line, and how near to it.
+/// An overhang longer than this must lie on the other line, within the second length. The third is the window
+/// for measuring directions.
 const LONG_STUB: f64 = 4.0;
 const LONG_STUB_NEAR: f64 = 0.3;
 const WINDOW: f64 = 1.5;
 
-/// Ends that one task looks at, at least.
+/// Minimum number of ends per task.
 const MIN_ENDS: usize = 16;
 
 /// Cosine of the sharpest turn (45 degrees) at a stitch.
 const STITCH_COSINE: f64 = 0.707;
 
-/// Cosines of the sharpest turns (53, 30 and 16 degrees) into and out of such jumps.
+/// Cosines of the sharpest turns (53, 30 and 16 degrees) into and out of gaps above the three limits.
 const HOP_COSINE: f64 = 0.6;
 const LEAP_COSINE: f64 = 0.866;
 const FLIGHT_COSINE: f64 = 0.96;
 
-/// A possible stitch between two ends (`2 * line + side`), the parts cut off either line.
+/// Candidate stitch between two ends (`2 * line + side`), with the cuts on both lines.
 #[derive(Debug, Clone, Copy)]
 struct Stitch {
     cost: f64,
@@ -55,7 +62,7 @@ struct Stitch {
 }
 
 impl Stitch {
-    /// Where the thread is laid.
+    /// The segment that the stitch adds, for the occlusion test.
     fn way(&self, raws: &[Raw]) -> Way {
         let cuts = [self.cut_a, self.cut_b];
         Way {
@@ -66,8 +73,7 @@ impl Stitch {
     }
 }
 
-/// What is left of a line at one end: it begins at `point` and goes on with point `next`, counted
-/// from that end.
+/// Start of a line after a cut: it starts at `point` and continues with point `next`, counted from that end.
 #[derive(Debug, Clone, Copy)]
 struct SeamEnd {
     point: Point,
@@ -76,8 +82,9 @@ struct SeamEnd {
     trimmed: f64,
 }
 
-/// Sews what can be sewn; lines keep the order and sense of the first of those they are made of.
-/// No thread is laid behind another surface than theirs.
+/// Stitches lines where possible. A stitched line takes the place and direction of its first piece.
+///
+/// No stitch passes behind another surface.
 pub(crate) fn stitch(
     mut raws: Vec<Raw>,
     degrees: &mut Degrees,
@@ -108,7 +115,7 @@ pub(crate) fn stitch(
         if used[i] {
             continue;
         }
-        // Back to where the sewn line begins, then forth along all of it.
+        // Walk back to the start of the stitched line, then along all of it.
         let mut start = 2 * i;
         while let Some((other, _)) = link[start] {
             start = other ^ 1;
@@ -154,7 +161,7 @@ pub(crate) fn stitch(
     sewn
 }
 
-/// The cheapest stitches, each end in at most one.
+/// The cheapest stitches, with each end in at most one.
 fn choose(raws: &[Raw], degrees: &Degrees, tidy: f64, ahead: Option<&Ahead>) -> Vec<Stitch> {
     let mut ends: Vec<(Point, usize)> = Vec::new();
     for (i, raw) in raws.iter().enumerate() {
@@ -197,7 +204,7 @@ fn choose(raws: &[Raw], degrees: &Degrees, tidy: f64, ahead: Option<&Ahead>) -> 
     found
 }
 
-/// The better of the ways to sew two ends: as they are, or with the stub of either cut off.
+/// The cheapest way to stitch two ends: without a cut, or with the overhang of either line cut off.
 fn best(raws: &[Raw], a: usize, b: usize, tidy: f64) -> Option<Stitch> {
     let (from, to) = (Walk::new(&raws[a / 2].line, a), Walk::new(&raws[b / 2].line, b));
     let same = a / 2 == b / 2;
@@ -229,15 +236,15 @@ fn best(raws: &[Raw], a: usize, b: usize, tidy: f64) -> Option<Stitch> {
             _ => -1.0,
         };
         let aside = trimmed <= 0.0 && way.dot(ahead).min(-way.dot(back)) < least;
-        // A line that is mostly stub is another line.
+        // A line that is mostly overhang is a separate line.
         let eaten =
             |walk: &Walk, cut: &SeamEnd| cut.trimmed > 0.0 && walk.arc(2.0 * cut.trimmed) < 2.0 * cut.trimmed;
         let consumed = trimmed > LONG_STUB * tidy && (eaten(&from, &cut_a) || eaten(&to, &cut_b));
-        // Two crumbs do not make a line by what is between them.
+        // Two short lines are not joined by a longer gap.
         let far = length(jump);
         let arcs = [from.arc(1.5 * far), to.arc(1.5 * far)];
         let thin = arcs[0].max(arcs[1]) < far || (far > FLIGHT * tidy && arcs[0].min(arcs[1]) < 1.5 * far);
-        // A stub is cut off only where it runs beside the other line.
+        // An overhang is cut off only if it runs next to the other line.
         let apart = from.strays(&cut_a, &to, tidy) || to.strays(&cut_b, &from, tidy);
         (!bent && !aside && !thin && !consumed && !apart).then(|| Stitch {
             cost: length(jump) + 0.25 * trimmed,
@@ -250,7 +257,7 @@ fn best(raws: &[Raw], a: usize, b: usize, tidy: f64) -> Option<Stitch> {
     stitches.min_by(|s, u| s.cost.total_cmp(&u.cost))
 }
 
-/// A line walked from one of its ends.
+/// A line seen from one of its ends.
 struct Walk<'a> {
     line: &'a Line,
     backwards: bool,
@@ -269,7 +276,7 @@ impl<'a> Walk<'a> {
         self.line.points[self.index(k)]
     }
 
-    /// Arc length, counted up to `most`.
+    /// Arc length, but at most `most`.
     fn arc(&self, most: f64) -> f64 {
         let mut arc = 0.0;
         for k in 1..self.line.len() {
@@ -281,7 +288,7 @@ impl<'a> Walk<'a> {
         arc
     }
 
-    /// The cut at part `t` of the side after point `k`.
+    /// Cut at parameter `t` of the side after point `k`.
     fn cut(&self, k: usize, t: f64, trimmed: f64) -> SeamEnd {
         let sample = |k: usize| self.line.samples[self.index(k)];
         let point = if t > 0.0 { self.point(k).lerp(self.point(k + 1), t) } else { self.point(k) };
@@ -289,7 +296,7 @@ impl<'a> Walk<'a> {
         SeamEnd { point, sample, next: k + 1, trimmed }
     }
 
-    /// The cut nearest to `p` within the first `reach` of the line, but for its very end.
+    /// Cut nearest to `p` within the first `reach` of the line, the far end excluded.
     fn nearest(&self, p: Point, reach: f64) -> Option<SeamEnd> {
         let mut arc = 0.0;
         let mut least: Option<(f64, SeamEnd)> = None;
@@ -311,13 +318,13 @@ impl<'a> Walk<'a> {
         least.map(|l| l.1)
     }
 
-    /// Unit direction in which the line leaves a cut.
+    /// Unit direction of the line at a cut.
     fn direction(&self, cut: &SeamEnd, window: f64) -> Vec2 {
         let far = (cut.next..self.line.len()).find(|k| length(self.point(*k) - cut.point) >= window);
         crate::chains::fit::bezier_fit::unit(self.point(far.unwrap_or(self.line.len() - 1)) - cut.point)
     }
 
-    /// Whether what is cut off lies away from the beginning of the other line.
+    /// Whether any point that is cut off lies too far from the start of the other line.
     fn strays(&self, cut: &SeamEnd, other: &Walk, tidy: f64) -> bool {
         if cut.trimmed <= 0.0 {
             return false;
@@ -338,20 +345,20 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// Adds a line, walked backwards or not, without what is cut off at its beginning and end.
+/// Appends a line in either direction, without the parts cut off at its start and end.
 fn add(whole: &mut Line, line: &Line, backwards: bool, begin: Option<SeamEnd>, end: Option<SeamEnd>) {
     let n = line.len();
     let index = |k: usize| if backwards { n - 1 - k } else { k };
     let first = begin.map_or(0, |cut| cut.next);
     let last = n - end.map_or(0, |cut| cut.next);
-    // The side between two points that follow each other on the walk begins at the lesser of them.
+    // The side between two consecutive points has the smaller of their indices.
     let side_before = |k: usize| index(k.saturating_sub(1)).min(index(k.min(n - 1)));
     if let Some(cut) = begin {
         let side = side_before(first);
         whole.push_of(cut.point, cut.sample, true, line.silhouette[side], line.part[side]);
     }
     for k in first..last.max(first) {
-        // Walked backwards, the side after a point is the one before it.
+        // In reverse, the side after a point is the one before it.
         let side = if backwards { index(k).saturating_sub(1) } else { index(k) };
         let (soft, silhouette) = (line.soft[side], line.silhouette[side]);
         whole.push_of(line.points[index(k)], line.samples[index(k)], soft, silhouette, line.part[side]);

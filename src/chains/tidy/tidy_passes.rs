@@ -1,8 +1,9 @@
-//! Decides which lines are drawn and sews them together.
+//! Tidying passes: decides which lines are drawn, and stitches them together.
 //!
-//! Source: Bénard, Hertzmann and Kass, Computing smooth surface contours with accurate topology,
-//! ACM Transactions on Graphics 2014, section 6: lines without junctions that are short and end
-//! free, loop on themselves or lie beside others go, until none is left.
+//! Source: Bénard, Hertzmann and Kass, Computing smooth surface contours with accurate topology, ACM
+//! Transactions on Graphics 2014, section 6. Lines without junctions are removed if they are short with free
+//! ends, loop on themselves or run next to others. This repeats until nothing changes, here for at most three
+//! rounds.
 
 use crate::parallel::prelude::*;
 
@@ -19,24 +20,23 @@ use crate::lines::{HiddenLines, LineKind};
 use crate::surface::Origin;
 use crate::visibility::{Ahead, ViewEdge, ViewMap};
 
-/// Hidden gaps are bridged up to this part of the tidy length.
+/// Largest hidden gap that is bridged, in tidy lengths.
 const GAP: f64 = 0.6;
 
-/// The line on a rounded surface changes between silhouette and inner contour no more often than every so many tidy
-/// lengths.
+/// Minimum length of a silhouette or inner run on rounded surfaces, in tidy lengths.
 const SILHOUETTE: f64 = 3.0;
 
-/// The same on an edge that is meant to be sharp, where such stretches begin and end at computed places.
+/// Minimum length of such a run on sharp edges, where its ends are exact, in tidy lengths.
 const SILHOUETTE_OF_EDGE: f64 = 1.0;
 
-/// A line shorter than this many tidy lengths is less than a dot of the pen.
+/// Minimum length of a line, in tidy lengths; a shorter one is less than a dot of the pen.
 const POINT: f64 = 0.1;
 
-/// Rounds of dropping and sewing; each may free the ends of others.
+/// Maximum number of rounds of stitching and dropping. Each may free the ends of other lines.
 const ROUNDS: usize = 3;
 
-/// The tidied lines of a view map. Hidden ones are left out where they are not drawn; what else is
-/// left out goes to the bin.
+/// The tidied lines of a view map. Hidden lines are left out if they are not drawn; all other dropped lines
+/// are recorded in `bin`.
 pub(crate) fn tidied(
     map: &ViewMap,
     hidden: HiddenLines,
@@ -48,7 +48,7 @@ pub(crate) fn tidied(
     let mut classes: Vec<Option<Class>> = map.edges.par_iter().map(|e| Some(Class::of(map, e))).collect();
     if tidy > 0.0 {
         leave_out_needles(map, &mut classes, bin);
-        // Lines of other kinds have no gaps, and what continues a line is of its own kind.
+        // Only contours have such gaps, and contours are continued by contours only.
         let is_contour = |e: &ViewEdge| e.kind == LineKind::Contour;
         if map.edges.par_iter().any(|e| e.invisibility > 0 && e.smooth && is_contour(e)) {
             let source = |(e, class): (&ViewEdge, &Option<Class>)| {
@@ -65,7 +65,7 @@ pub(crate) fn tidied(
         } else if tidy > 0.0 {
             class.silhouette = false;
         } else {
-            // Nothing is taken for noise.
+            // Without tidying nothing counts as noise.
             class.origin = Origin::Constructed;
         }
     });
@@ -90,7 +90,7 @@ pub(crate) fn tidied(
     cut(raws, tidy, bin)
 }
 
-/// Lines without dots, cut where silhouette begins and ends.
+/// Drops dots, and cuts lines where they change between silhouette and inner contour.
 fn cut(mut raws: Vec<Raw>, tidy: f64, bin: &mut Bin) -> Vec<Raw> {
     let shortest = Shortest { soft: SILHOUETTE * tidy, hard: SILHOUETTE_OF_EDGE * tidy };
     let parts = |raw: &mut Raw| {
@@ -117,13 +117,13 @@ fn cut(mut raws: Vec<Raw>, tidy: f64, bin: &mut Bin) -> Vec<Raw> {
     all
 }
 
-/// Takes the sides of folds that are thinner than a pen from the lines, but for what of them is outline.
+/// Drops the sides of folds that are thinner than a pen, except silhouette.
 fn leave_out_needles(map: &ViewMap, classes: &mut [Option<Class>], bin: &mut Bin) {
     if map.needles.is_empty() {
         return;
     }
     for (edge, class) in map.edges.iter().zip(classes) {
-        // A gap in the outline is worse.
+        // A gap in the silhouette would be worse.
         if !edge.silhouette && map.needles.binary_search(&edge.segment).is_ok() {
             *class = None;
             if edge.invisibility == 0 {

@@ -1,7 +1,9 @@
-//! The canonical form of any SVG file: its paths begun and ordered as the exporter does, and all else as it was.
+//! Canonical form of an SVG file: paths start and sort as in the exporter, and everything else stays as it
+//! is.
 //!
-//! The text is edited in place: values of `d` and `data-axis` are replaced, and neighbouring paths that are painted alike
-//! change places. What cannot be told from attributes alone is only rounded, or left.
+//! The text is edited in place. Values of `d` and `data-axis` are replaced, and neighbouring paths of equal
+//! paint are sorted. Paths whose rendering cannot be derived from attributes alone are only rounded, or left
+//! unchanged.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -19,16 +21,19 @@ use crate::export::paths::canonical_path::{Canonical, Form};
 use crate::export::paths::path_piece::Step;
 use crate::export::svg::mark_order::Name;
 
-/// Steps times pieces of a path beyond which its relative coordinates might not read back exactly: sums of numbers of 53
-/// bits, each off by half a bit.
+/// Largest product of coordinate steps and path pieces for which relative coordinates read back exactly. Sums
+/// of 53-bit numbers are each off by half a bit.
 const MOST_STEPS: f64 = (1u64 << 50) as f64;
 
-/// An SVG file in the form that drawings are written in, so that a version control shows small differences: ordered
-/// marks, paths that begin at their least point, rounded numbers. The picture stays the same.
+/// Rewrites an SVG file in the form of this exporter, so that version control shows small differences. The
+/// picture stays the same.
 ///
-/// Paths are rounded to `precision` decimals, at most 8; `None`: to as many as the file has. Styles become attributes where all that
-/// they say can be said so; beside that only path data and the order of neighbouring paths painted alike are changed. Where scripts, other style sheets, references or animations might
-/// tell the difference, paths are only rounded; those with arcs or with moves that nothing is drawn from, and wrong ones, stay as they are.
+/// Marks are sorted, paths start at their least point, and numbers are rounded to `precision` decimals, at
+/// most 8. With `None` the number of decimals of the file is kept. Styles become attributes where that is
+/// exact. Otherwise only path data and the order of neighbouring paths of equal paint change.
+///
+/// Paths are only rounded where scripts, external style sheets, references or animations might depend on
+/// them. Invalid paths and paths with arcs or unused moves stay unchanged.
 ///
 /// ```
 /// let svg = |paths: &str| {
@@ -40,8 +45,8 @@ const MOST_STEPS: f64 = (1u64 << 50) as f64;
 /// ```
 ///
 /// # Errors
-/// Where the text is no SVG, or reading it might take more time or memory than its length accounts for. The error names
-/// no file.
+/// If the text is not SVG, or if reading it might take more time or memory than its length justifies. The
+/// error has no file name.
 pub fn canonical_svg(text: &str, precision: Option<u8>) -> Result<String, Error> {
     let plain = presentation_attributes::plain(text)?;
     let text = plain.as_deref().unwrap_or(text);
@@ -70,21 +75,21 @@ pub fn canonical_svg(text: &str, precision: Option<u8>) -> Result<String, Error>
     Ok(out)
 }
 
-/// The paths of a document, in its order.
+/// Paths of a document, in document order.
 struct Paths<'a, 'input> {
     found: Vec<Found<'a, 'input>>,
     afar: Afar<'a>,
-    /// Runs begun so far.
+    /// Number of runs so far.
     runs: usize,
-    /// Where the root begins: what comes before are declarations that elements may be made of.
+    /// Byte where the root element starts. Entity declarations before it may also contain elements.
     begin: usize,
 }
 
-/// A path.
+/// A path element of the document.
 struct Found<'a, 'input> {
     node: Node<'a, 'input>,
     leave: Leave,
-    /// The number of the run of paths that may be exchanged with this one.
+    /// Number of the run of paths that may be exchanged with this one.
     run: usize,
 }
 
@@ -98,10 +103,11 @@ impl<'a, 'input> Paths<'a, 'input> {
         paths
     }
 
-    /// Finds the paths in an element; no deeper than elements nest in files that are read.
+    /// Collects the paths of an element. The recursion is limited because files with deeper nesting are
+    /// refused.
     fn inside(&mut self, node: Node<'a, 'input>, around: &Look<'a>) {
         let look = around.inside(node, &self.afar);
-        // The paths before, as long as nothing parts them from what comes next.
+        // The previous path, while no other content separates it from the next one.
         let mut neighbour: Option<Node> = None;
         for child in node.children() {
             if child.is_text() && child.text().is_none_or(|text| text.trim().is_empty()) {
@@ -129,7 +135,7 @@ impl<'a, 'input> Paths<'a, 'input> {
         }
     }
 
-    /// Most decimals of a coordinate.
+    /// Largest number of decimals in any path data.
     fn decimals(&self) -> u8 {
         let data = |found: &Found| {
             let values = DATA.iter().filter_map(|name| found.node.attribute(*name));
@@ -139,20 +145,20 @@ impl<'a, 'input> Paths<'a, 'input> {
     }
 }
 
-/// Attributes that hold path data.
+/// Attributes that contain path data.
 const DATA: [&str; 2] = ["d", "data-axis"];
 
-/// A path as it is to be.
+/// A path after rewriting.
 struct Written<'a> {
-    /// The whole element.
+    /// Text of the whole element.
     element: Cow<'a, str>,
-    /// Where in it the path data is.
+    /// Byte range of the path data in `element`.
     data: Range<usize>,
-    /// Where the path begins.
+    /// Start point of the path.
     start: Option<Step>,
 }
 
-/// What paths are sorted by: as the exporter does.
+/// Sort key of a path, as in the exporter.
 fn key<'a>((written, found): (&'a Written, &'a Found)) -> (Name<'a>, Option<Step>, &'a str) {
     let of = |name| found.node.attribute(name);
     let name = Name {
@@ -164,13 +170,13 @@ fn key<'a>((written, found): (&'a Written, &'a Found)) -> (Name<'a>, Option<Step
     (name, written.start, written.element.get(written.data.clone()).unwrap_or_default())
 }
 
-/// Writes one element.
+/// Rewrites one path element.
 fn written<'a>(text: &'a str, found: &Found, decimals: Decimals) -> Written<'a> {
     let whole = found.node.range();
     let source = text.get(whole.clone()).unwrap_or_default();
     let mut written = Written { element: Cow::Borrowed(source), data: 0..0, start: None };
     let own = |attribute: &Attribute| attribute.namespace().is_none() && DATA.contains(&attribute.name());
-    // From the last to the first, so that places before stay what they are.
+    // Last attribute first, so that the ranges of earlier ones stay valid.
     let mut attributes: Vec<Attribute> = found.node.attributes().filter(own).collect();
     attributes.sort_by_key(|attribute| std::cmp::Reverse(attribute.range_value().start));
     for attribute in attributes {
@@ -197,7 +203,7 @@ fn written<'a>(text: &'a str, found: &Found, decimals: Decimals) -> Written<'a> 
     written
 }
 
-/// Where in its element the value of an attribute stands, if it stands between quotes there.
+/// Byte range of an attribute's value inside its element; `None` if it is not quoted there.
 fn value_range(text: &str, attribute: &Attribute, element: &Range<usize>) -> Option<Range<usize>> {
     let range = attribute.range_value();
     let quote = text.as_bytes().get(range.start.checked_sub(1)?)?;
@@ -206,7 +212,7 @@ fn value_range(text: &str, attribute: &Attribute, element: &Range<usize>) -> Opt
     (quoted && inside).then(|| range.start - element.start..range.end - element.start)
 }
 
-/// Path data in canonical form, and where it begins; no data where it is to stay as it is.
+/// Path data in canonical form and its start point. The data is `None` where it must stay unchanged.
 fn rewritten(data: &str, leave: Leave, decimals: Decimals) -> (Option<String>, Option<Step>) {
     let Some(read) = path_parser::read(data) else { return (None, None) };
     let mut canonical = Canonical::new(decimals);
@@ -226,7 +232,7 @@ fn rewritten(data: &str, leave: Leave, decimals: Decimals) -> (Option<String>, O
     (String::from_utf8(out).ok(), start)
 }
 
-/// Whether what is written reads back as the same steps.
+/// Whether the written text reads back as exactly the same steps.
 fn is_exact(path: &BezPath, decimals: Decimals) -> bool {
     let most = |points: &[Point]| points.iter().flat_map(|p| [p.x.abs(), p.y.abs()]).fold(0.0, f64::max);
     let elements = path.elements();

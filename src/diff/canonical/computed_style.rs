@@ -1,15 +1,15 @@
-//! [`Look`]: how an element is painted, as far as its attributes and those around it tell.
+//! How an element is painted, derived from its own attributes and those of its ancestors.
 
 use rustc_hash::FxHashSet;
 use usvg::roxmltree::{Attribute, Document, Node, NodeType};
 
 use crate::export::paths::canonical_path::Form;
 
-/// Elements whose content is drawn elsewhere, or not as it stands.
+/// Elements whose content is drawn elsewhere or in another form.
 const ELSEWHERE: [&str; 7] = ["defs", "symbol", "clipPath", "mask", "pattern", "marker", "glyph"];
-/// Elements that describe the one around them.
+/// Elements that only describe their parent.
 const DESCRIPTIONS: [&str; 3] = ["title", "desc", "metadata"];
-/// Beginnings of the names of properties that keep the place and colour of a mark its own.
+/// Prefixes of properties that affect neither the order nor the direction of a path.
 const HARMLESS: [&str; 17] = [
     "fill",
     "stroke",
@@ -29,19 +29,20 @@ const HARMLESS: [&str; 17] = [
     "overflow",
     "solid-",
 ];
-/// Attributes of editors that tell how a path's points came about.
+/// Attributes of editors that store how a path was made.
 const EDITED: [&str; 4] = ["nodetypes", "type", "original-d", "path-effect"];
 
-/// What a document says of its elements from afar.
+/// Properties of a document that affect elements at a distance.
 #[derive(Debug, Default)]
 pub(crate) struct Afar<'a> {
-    /// Whether a style sheet or a script may paint anything anew.
+    /// Whether style sheets or scripts may change any paint.
     sheets: bool,
-    /// Ids that are referred to.
+    /// Ids that are referenced.
     referred: FxHashSet<&'a str>,
 }
 
 impl<'a> Afar<'a> {
+    /// Collects style sheets, scripts and references of a document.
     pub fn of(document: &'a Document) -> Self {
         let mut afar = Self::default();
         for node in document.descendants() {
@@ -67,11 +68,11 @@ impl<'a> Afar<'a> {
     }
 }
 
-/// What may be done to a path.
+/// Rewrites of a path that keep the picture the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Leave {
     pub form: Form,
-    /// Whether every point must stay: something stands at them, or counts them.
+    /// Whether all points must stay, because markers or animations depend on them.
     pub all_points: bool,
 }
 
@@ -81,16 +82,16 @@ pub(crate) struct Look<'a> {
     fill: &'a str,
     stroke: &'a str,
     dashed: bool,
-    /// Whether all this may be otherwise after all.
+    /// Whether the other fields may be wrong.
     unsure: bool,
-    /// Whether the element is used elsewhere, moves, or bears markers.
+    /// Whether the element is used elsewhere, animated, or has markers.
     used: bool,
-    /// Whether the order and directions of the marks matter.
+    /// Whether the order and direction of the marks matter.
     ordered: bool,
 }
 
 impl<'a> Look<'a> {
-    /// What holds around the root.
+    /// Initial style at the root.
     pub fn new(afar: &Afar) -> Self {
         Self {
             fill: "black",
@@ -102,7 +103,7 @@ impl<'a> Look<'a> {
         }
     }
 
-    /// The look of an element inside one that looks so.
+    /// Style of a child element.
     pub fn inside(&self, node: Node<'a, '_>, afar: &Afar) -> Self {
         let mut look = self.clone();
         look.used |= ELSEWHERE.contains(&node.tag_name().name());
@@ -112,11 +113,11 @@ impl<'a> Look<'a> {
                 (None, "id") => look.used |= afar.referred.contains(attribute.value()),
                 (None, "d" | "style") => {}
                 (None, name) => look.set(name, attribute.value()),
-                // A path that is made of another one, or whose corners are listed.
+                // The path is generated from another path, or the editor lists its corners.
                 (Some(_), name) => look.used |= EDITED.contains(&name),
             }
         }
-        // Style wins over attributes.
+        // The `style` attribute has precedence over attributes.
         match declarations(node.attribute("style").unwrap_or_default()) {
             Some(list) => list.iter().for_each(|(name, value)| look.set(name, value)),
             None => look.unsure = true,
@@ -127,6 +128,7 @@ impl<'a> Look<'a> {
         look
     }
 
+    /// Applies a property to the style.
     fn set(&mut self, name: &str, value: &'a str) {
         let value = value.trim();
         let painting = match name {
@@ -136,7 +138,7 @@ impl<'a> Look<'a> {
                 false
             }
             _ => {
-                // Markers of the elements around are inherited.
+                // Markers are inherited from ancestors.
                 self.used |= name.starts_with("marker") && name != "markerUnits" && value != "none";
                 self.unsure |= name.starts_with("animation") || name.starts_with("transition");
                 false
@@ -145,7 +147,7 @@ impl<'a> Look<'a> {
         if !painting || value == "inherit" {
             return;
         }
-        // Variables, and words that only style sheets know.
+        // Variables, and keywords that exist in style sheets only.
         self.unsure |=
             value.is_empty() || value.contains("var(") || ["initial", "unset", "revert"].contains(&value);
         match name {
@@ -155,7 +157,7 @@ impl<'a> Look<'a> {
         }
     }
 
-    /// What may be done to a path that looks so.
+    /// Rewrites allowed for a path of this style.
     pub fn leave(&self, path: Node) -> Leave {
         let bears = path.children().filter(Node::is_element).any(|child| !describes(&child));
         let all_points = self.used || bears;
@@ -170,8 +172,8 @@ impl<'a> Look<'a> {
         Leave { form, all_points }
     }
 
-    /// Whether a path that looks so may change places with one that is painted alike: it has one flat colour, and
-    /// nothing but its place and shape decides where.
+    /// Whether a path of this style may change places with a neighbour of equal paint. It needs one flat
+    /// colour and no property that depends on the order.
     pub fn may_be_exchanged(&self, path: Node) -> bool {
         let parent = path.parent_element().is_some_and(|p| matches!(p.tag_name().name(), "svg" | "g" | "a"));
         let one_colour = match (self.fill, self.stroke) {
@@ -190,7 +192,7 @@ impl<'a> Look<'a> {
     }
 }
 
-/// Whether two paths have the same attributes, but for what tells where and what they are, and dashes.
+/// Whether two paths have equal attributes, except for geometry, identity and dashes.
 pub(crate) fn painted_alike(a: Node, b: Node) -> bool {
     fn paints<'a>(node: Node<'a, '_>) -> Vec<(Option<&'a str>, &'a str, &'a str)> {
         let counts = |attribute: &Attribute| {
@@ -217,13 +219,13 @@ fn is_harmless(name: &str, value: &str) -> bool {
     HARMLESS.iter().any(|known| name.starts_with(known)) || matches!(value.trim(), "none" | "normal" | "auto")
 }
 
-/// A colour that is the same everywhere.
+/// Whether a paint is a single colour.
 fn is_flat(paint: &str) -> bool {
     let word = !paint.is_empty() && paint.bytes().all(|b| b.is_ascii_alphabetic());
     word || paint.starts_with('#') || paint.starts_with("rgb")
 }
 
-/// The declarations of a `style` attribute; `None` where they are more than a list of names and values.
+/// Declarations of a `style` attribute; `None` if it is more than a plain list.
 fn declarations(style: &str) -> Option<Vec<(&str, &str)>> {
     if style.contains("/*") || style.contains(['{', '}', '\\']) {
         return None;
@@ -234,7 +236,7 @@ fn declarations(style: &str) -> Option<Vec<(&str, &str)>> {
             let (name, value) = part.split_once(':')?;
             let name = name.trim();
             let value = value.split('!').next()?.trim();
-            // A semicolon inside of quotes or brackets would have cut it in two.
+            // A semicolon inside quotes or brackets would have split the value.
             let whole =
                 !value.contains(['"', '\'']) && value.matches('(').count() == value.matches(')').count();
             (whole && !name.starts_with("--") && !name.contains(|c: char| c.is_ascii_uppercase()))

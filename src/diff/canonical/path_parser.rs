@@ -1,27 +1,27 @@
-//! [`Read`]: path data as the grammar of SVG has it; what leaves the grammar is not read at all.
+//! Parser for SVG path data. Invalid data is rejected as a whole.
 
 use kurbo::{BezPath, Point, Vec2};
 
-/// The data of a path.
+/// Parsed path data.
 #[derive(Debug, Default)]
 pub(crate) struct Read {
-    /// What is drawn: lines and curves, absolute.
+    /// Lines and curves with absolute coordinates.
     pub path: BezPath,
-    /// Where the data begins.
+    /// Start point of the data.
     pub start: Option<Point>,
-    /// Whether there are arcs, which are not read, nor what follows them.
+    /// Whether there are arcs. Parsing stops at the first arc.
     pub has_arcs: bool,
-    /// Whether there are moves that nothing is drawn from.
+    /// Whether there are moves without a following segment.
     pub has_lone_moves: bool,
 }
 
-/// Reads the data; `None` where it is wrong.
+/// Parses path data; `None` if it is invalid.
 pub(crate) fn read(data: &str) -> Option<Read> {
     let mut reader = Reader { bytes: data.as_bytes(), at: 0 };
     let mut found = Read::default();
-    // Where the pen is, where the subpath began, and a move that nothing has been drawn from yet.
+    // Current point, start of the subpath, and a pending move.
     let (mut pen, mut start, mut move_to) = (Point::ZERO, Point::ZERO, None);
-    // The last control point, for the shorthand of curves of either kind.
+    // Last control point of each kind, for the shorthand curve commands.
     let (mut quad, mut cubic) = (None, None);
     let mut command = None;
     loop {
@@ -32,7 +32,7 @@ pub(crate) fn read(data: &str) -> Option<Read> {
                 reader.at += 1;
                 letter
             }
-            // Further arguments of the same command; a move goes on as lines.
+            // More arguments of the same command; after a move they are lines.
             _ => {
                 reader.comma();
                 match command? {
@@ -102,7 +102,7 @@ pub(crate) fn read(data: &str) -> Option<Read> {
             _ => return None,
         }
         if letter == b'Z' || letter == b'z' {
-            // What follows without a move begins here.
+            // Segments after a close without a move start here.
             reader.blanks();
             let next = reader.bytes.get(reader.at);
             if next.is_some_and(|next| !matches!(next, b'M' | b'm')) {
@@ -115,6 +115,7 @@ pub(crate) fn read(data: &str) -> Option<Read> {
     found.path.elements().iter().all(|element| element.is_finite()).then_some(found)
 }
 
+/// Reader of path data.
 struct Reader<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -126,7 +127,7 @@ impl Reader<'_> {
         self.at += rest.iter().take_while(|b| matches!(b, b' ' | b'\t' | b'\n' | b'\r' | 0x0c)).count();
     }
 
-    /// A comma, which may stand between numbers.
+    /// An optional comma between numbers.
     fn comma(&mut self) {
         self.blanks();
         if self.bytes.get(self.at) == Some(&b',') {
@@ -142,7 +143,7 @@ impl Reader<'_> {
         Some(Point::new(x, self.number()?))
     }
 
-    /// A point that another one follows.
+    /// A point followed by another point.
     fn next_point(&mut self) -> Option<Point> {
         let point = self.point()?;
         self.comma();

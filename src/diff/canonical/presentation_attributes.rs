@@ -1,4 +1,4 @@
-//! Styles as attributes: what `style` and style sheets say of how elements are painted, said in the words of SVG itself.
+//! Styles as presentation attributes: `style` attributes and style sheets are replaced by SVG attributes.
 
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -12,7 +12,7 @@ use crate::diff::markup::sheet_inlining::{after_name, edited};
 use crate::diff::markup::style_sheet::{self, Declaration};
 use crate::error::Error;
 
-/// Properties that are attributes as well, with the same values.
+/// Properties that also exist as attributes with the same values.
 const PROPERTIES: [&str; 50] = [
     "alignment-baseline",
     "baseline-shift",
@@ -66,11 +66,11 @@ const PROPERTIES: [&str; 50] = [
     "word-spacing",
 ];
 
-/// Declarations for one element: more are no drawing's.
+/// Most declarations of one element.
 const MOST_DECLARED: usize = 512;
 
-/// The file with its styles as attributes; `None` where it has none, or where not all that they say can be said so: rules for
-/// media or for states of a pointer, scripts, entities.
+/// The file with its styles as attributes. `None` if it has no styles, or if they cannot all be expressed as
+/// attributes: media rules, pointer states, scripts or entities.
 pub(crate) fn plain(text: &str) -> Result<Option<String>, Error> {
     let document = input_limits::parse(text)?;
     if text.contains("<!ENTITY")
@@ -95,7 +95,7 @@ fn has_style(node: &Node) -> bool {
     node.is_element() && is_svg(node) && (node.has_attribute("style") || node.tag_name().name() == "style")
 }
 
-/// Whether something may ask for styles later on.
+/// Whether scripts or animations may query styles later.
 fn is_moving(document: &Document) -> bool {
     document.descendants().any(|node| match node.node_type() {
         NodeType::PI => node.pi().is_some_and(|pi| pi.target == "xml-stylesheet"),
@@ -107,13 +107,15 @@ fn is_moving(document: &Document) -> bool {
     })
 }
 
+/// Edits of a file as byte ranges and their new text.
 struct Edits<'a> {
     text: &'a str,
     list: Vec<(Range<usize>, String)>,
 }
 
 impl Edits<'_> {
-    /// Collects what is to be edited in an element; false where something cannot be said in attributes.
+    /// Collects the edits of an element and its children; `false` if something cannot be expressed as
+    /// attributes.
     fn inside(&mut self, node: Node, cascade: &mut Cascade) -> Result<bool, Error> {
         let declared = cascade.enter(node)?;
         let fine = match is_svg(&node) {
@@ -136,6 +138,7 @@ impl Edits<'_> {
         Ok(true)
     }
 
+    /// Collects the edits of one element; `false` if its style cannot be expressed as attributes.
     fn element(&mut self, node: Node, declared: &[Declaration]) -> bool {
         let own = node.attributes().find(|a| a.namespace().is_none() && a.name() == "style");
         let style = own.map(|own| own.value()).unwrap_or_default();
@@ -161,8 +164,8 @@ impl Edits<'_> {
             PROPERTIES.contains(&declaration.name) && !words.contains(&value) && !computed
         };
         let (plain, rest): (Vec<Declaration>, Vec<Declaration>) = won.into_iter().partition(is_plain);
-        // What one style says for several properties would be said after them all; values that only style sheets know are
-        // for those who wrote them.
+        // A shorthand property would be written after its longhands and override them. Values that exist in
+        // style sheets only stay in the style.
         let several = |other: &Declaration| matches!(other.name, "font" | "marker" | "all" | "mask-image");
         let unsure = rest.iter().any(|other| several(other) || PROPERTIES.contains(&other.name));
         if unsure || plain.is_empty() {

@@ -1,10 +1,11 @@
-//! Drawings seen from another side, found before their marks are compared one by one.
+//! Detects a change of camera before marks are compared one by one.
 //!
-//! 1. Hardly any mark has an equal.
-//! 2. One affine map is fitted to the middles of the parts. A drawing that was moved, scaled or turned on the page ends here.
-//! 3. A part keeps its form if its longest line was only shifted, as where parts of the model moved. The others turned towards the camera
-//!    or away from it.
-//! 4. These parts lie off the map in more directions than an edit of the model explains.
+//! 1. Few marks have an equal in the other drawing.
+//! 2. One affine map is fitted to the middles of the parts. A drawing that was moved, scaled or rotated on
+//!    the page follows this map, and is rejected.
+//! 3. A part keeps its form if its longest line was only shifted, for example because the part moved in the
+//!    model. The other parts turned relative to the camera.
+//! 4. These parts are off the map in more directions than an edit of the model explains.
 
 use std::collections::BTreeMap;
 
@@ -17,31 +18,33 @@ use crate::diff::matching::equal_shapes::Parted;
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
-/// Fewest marks without an equal. Fewer are compared one by one in about half a second.
+/// Least number of marks without an equal. Smaller drawings are compared mark by mark in about half a second.
 const LEAST_MARKS: usize = 1000;
-/// At most one of this number of marks has an equal: lines on the axis of the turn do.
+/// At most one mark in this number may have an equal. Lines on the axis of rotation keep theirs.
 const MARKS_PER_EQUAL: usize = 20;
-/// Parts that go the same way, by this part of it and this many px.
+/// Largest difference between two shifts of equal direction, as a share of the shift.
 const SAME_WAY: f64 = 0.02;
+/// The same in px; both are added.
 const SAME_WAY_PX: f64 = 0.05;
 
-/// The lines of one part without an equal, in one picture.
+/// The lines of one part in one picture that have no equal.
 #[derive(Default)]
 struct PartLines<'a> {
-    /// The sum of the points of all paths, and their number.
+    /// Sum of the points of all paths, and their number.
     sum: Vec2,
     count: usize,
     longest: Option<(&'a BezPath, f64)>,
 }
 
 impl PartLines<'_> {
-    /// The mean of all points. Unlike the middle of a box it goes where an affine map takes it.
+    /// Mean of all points. Unlike the centre of a bounding box, it follows an affine map exactly.
     fn middle(&self) -> Point {
         (self.sum / self.count.max(1) as f64).to_point()
     }
 }
 
-/// The sentence for two drawings seen from two sides, and a finding that stands for all marks; none for all others, and for small ones.
+/// The cause and one finding for all marks if the camera changed. Returns `None` for small drawings and for
+/// all other changes.
 pub(crate) fn find(pictures: [&Picture; 2], parted: &Parted, reach: f64) -> Option<(Finding, Cause)> {
     let marks = parted.rest[0].len().max(parted.rest[1].len());
     if marks < LEAST_MARKS || parted.equal.len() * MARKS_PER_EQUAL > marks {
@@ -70,6 +73,7 @@ pub(crate) fn find(pictures: [&Picture; 2], parted: &Parted, reach: f64) -> Opti
     Some((finding, Cause { verdict: Verdict::Moved, sentence, findings: vec![0] }))
 }
 
+/// Collects the unequal lines of each part.
 fn lines_of_parts<'a>(picture: &'a Picture, rest: &[usize]) -> BTreeMap<&'a str, PartLines<'a>> {
     let mut parts: BTreeMap<&str, PartLines> = BTreeMap::new();
     let lines = rest.iter().filter_map(|index| picture.shapes.get(*index));
@@ -89,7 +93,7 @@ fn lines_of_parts<'a>(picture: &'a Picture, rest: &[usize]) -> BTreeMap<&'a str,
     parts
 }
 
-/// Whether one line lies like another one, shifted.
+/// Whether a line is a shifted copy of another line, point by point.
 fn is_shifted([old, new]: [&BezPath; 2], reach: f64) -> bool {
     let (old, new) = (points(old), points(new));
     let (Some(from), Some(to)) = (old.first(), new.first()) else { return false };
@@ -97,7 +101,7 @@ fn is_shifted([old, new]: [&BezPath; 2], reach: f64) -> bool {
     old.len() == new.len() && old.iter().zip(&new).all(|(p, q)| (*p + shift).distance(*q) <= 2.0 * reach)
 }
 
-/// The affine map that carries points to points, by least squares; none for points on one line.
+/// Affine map from points to points by least squares; `None` if the points are collinear.
 fn affine(pairs: &[[Point; 2]]) -> Option<impl Fn(Point) -> Point + use<>> {
     let count = pairs.len() as f64;
     let mean = |side: usize| pairs.iter().fold(Vec2::ZERO, |sum, pair| sum + pair[side].to_vec2()) / count;
@@ -127,7 +131,8 @@ mod tests {
     use crate::diff::{DiffOptions, compare};
     use crate::geometry::numbers::portable_math::{cos, sin};
 
-    /// Boxes of lines in space, drawn in parallel from a side turned by `degrees`; each moved along x by `apart` times its place.
+    /// Boxes of lines in space, in a parallel view rotated by `degrees`. Each box moves along x by `apart`
+    /// times its position.
     fn picture(degrees: f64, apart: f64, scale: f64) -> Picture {
         let (sin, cos) = (sin(degrees.to_radians()), cos(degrees.to_radians()));
         let mut paths = String::new();

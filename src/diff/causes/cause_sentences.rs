@@ -1,5 +1,5 @@
-//! [`Cause`]: what many findings follow from, in one sentence: a part that moved, a material in another colour, a part
-//! that is gone with what came to light behind it.
+//! Causes of many findings, one sentence each: a moved part, a recoloured material, or a removed part with
+//! the marks behind it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -13,30 +13,32 @@ use crate::diff::report::unit_format::Written;
 use crate::diff::shapes::picture::ShapeKind;
 use crate::drawing::LayerKind;
 
-/// What lies behind a part is seen this far (px), and this part of its size, round it: lines have widths, fills are cut there.
+/// Margin around a part in px. Changes inside it count as caused by the part, because lines have widths and
+/// fills are cut there.
 const ROUND_PART_PX: f64 = 4.0;
+/// Margin around a part as a share of its width plus height; both are added.
 const ROUND_PART: f64 = 0.1;
-/// And so much of it lies there.
+/// Least share of a finding's box inside that margin.
 const SHARE_ROUND_PART: f64 = 0.3;
-/// Colours that are told of a material.
+/// Most colour changes named per material.
 const COLOURS: usize = 2;
-/// Parts that are named.
+/// Most parts named per sentence.
 const NAMED: usize = 3;
-/// Parts go at most so many ways for each to be a cause.
+/// With more directions of motion than this, the camera moved instead of the parts.
 pub(crate) const MOST_WAYS: usize = 6;
-/// As few findings as this are told each.
+/// Up to this many findings are listed one by one.
 const FEW: usize = 2;
 
-/// A part and the motion that carries its marks.
+/// A part, and the motion that carries its marks.
 #[derive(Debug, Clone)]
 pub(crate) struct Mover {
     pub part: Arc<str>,
     pub motion: Motion,
-    /// The boxes round it, before and after.
+    /// Bounding boxes before and after.
     pub places: [Rect; 2],
 }
 
-/// The causes of the findings that no whole motion or loss of labels explains.
+/// Causes of the findings that are not explained by a motion of the whole drawing or by missing labels.
 pub(crate) fn causes(diff: &Diff, movers: &[Mover]) -> Vec<Cause> {
     let mut free: Vec<bool> = vec![true; diff.findings.len()];
     let mut causes = Vec::new();
@@ -52,7 +54,7 @@ pub(crate) fn causes(diff: &Diff, movers: &[Mover]) -> Vec<Cause> {
     causes
 }
 
-/// Takes the findings that are such and free.
+/// Claims the unclaimed findings that satisfy a condition.
 fn take(diff: &Diff, free: &mut [bool], is_such: impl Fn(&Finding) -> bool) -> Vec<usize> {
     let found: Vec<usize> =
         (0..free.len()).filter(|index| free[*index] && is_such(&diff.findings[*index])).collect();
@@ -60,12 +62,13 @@ fn take(diff: &Diff, free: &mut [bool], is_such: impl Fn(&Finding) -> bool) -> V
     found
 }
 
+/// The box of a finding as a rectangle.
 fn rect(finding: &Finding) -> Rect {
     let place = &finding.place;
     Rect::new(place.x, place.y, place.x + place.width, place.y + place.height)
 }
 
-/// Whether something lies round a part: a third of it in a box a little larger than the part's.
+/// Whether at least `SHARE_ROUND_PART` of a box is inside the margin around a part.
 fn holds(outer: &Rect, inner: Rect) -> bool {
     let round = ROUND_PART_PX + ROUND_PART * (outer.width() + outer.height());
     let outer = outer.inflate(round, round);
@@ -73,7 +76,8 @@ fn holds(outer: &Rect, inner: Rect) -> bool {
     outer.intersect(inner).area() >= SHARE_ROUND_PART * inner.area() && outer.overlaps(inner)
 }
 
-/// Whether a finding may follow from what comes, goes or moves near: another form, or another light.
+/// Whether a finding may follow from a nearby part that was added, removed or moved, by its form or its
+/// light.
 fn may_follow(finding: &Finding) -> bool {
     if is_of_hidden_lines(finding) {
         return true;
@@ -85,7 +89,8 @@ fn may_follow(finding: &Finding) -> bool {
     }
 }
 
-/// Whether a finding is about a hidden line (its dashes are fitted anew), or about a line that became visible or hidden.
+/// Whether a finding concerns a hidden line, whose dashes are fitted again, or a line that became visible or
+/// hidden.
 fn is_of_hidden_lines(finding: &Finding) -> bool {
     let hidden = LayerKind::HiddenLines.id();
     let is_hiding = |change: &Change| match change.what.as_str() {
@@ -96,7 +101,7 @@ fn is_of_hidden_lines(finding: &Finding) -> bool {
     finding.label.layer.as_ref() == hidden || finding.changes.iter().any(is_hiding)
 }
 
-/// Which parts the findings are of, in words: `3 marks of `base` and 1 of `lid``.
+/// The parts that findings belong to, such as ``3 marks of `base` ``.
 fn whose(diff: &Diff, list: &[usize]) -> String {
     let mut parts: BTreeMap<&str, usize> = BTreeMap::new();
     for finding in list.iter().filter_map(|index| diff.findings.get(*index)) {
@@ -112,7 +117,7 @@ fn whose(diff: &Diff, list: &[usize]) -> String {
     }
 }
 
-/// Parts that are wholly gone or wholly new, with what this brings to light or hides.
+/// Parts that were completely removed or added, with the changes around them.
 fn gone(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
     let mut causes = Vec::new();
     for (verdict, side) in [(Verdict::Removed, 1), (Verdict::Added, 0)] {
@@ -146,7 +151,7 @@ fn gone(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
     causes
 }
 
-/// How much ink some findings are about.
+/// Length of lines and area of fills of some findings, in words.
 fn ink(diff: &Diff, list: &[usize], unit: Written) -> String {
     let sum = |kind: ShapeKind| -> f64 {
         list.iter().map(|index| &diff.findings[*index]).filter(|f| f.kind == kind).map(|f| f.size).sum()
@@ -157,7 +162,8 @@ fn ink(diff: &Diff, list: &[usize], unit: Written) -> String {
     lines.into_iter().chain(fills).collect::<Vec<_>>().join(", ")
 }
 
-/// The sentence that the eye moved: parts move in more directions than an edit of the model explains. All other moves follow from it.
+/// The cause "another camera": parts move in more directions than an edit of the model explains. It claims
+/// all other changes of geometry.
 fn from_another_side(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Option<Cause> {
     let mut ways: Vec<Vec<&Mover>> = Vec::new();
     for mover in movers {
@@ -174,7 +180,7 @@ fn from_another_side(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Option
     Some(Cause { verdict: Verdict::Moved, sentence, findings })
 }
 
-/// Parts that moved, those that went the same way together, with what changed where they were and are.
+/// Moved parts, grouped by common motion, with the changes around their old and new places.
 fn moved(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Vec<Cause> {
     let unit = diff.unit();
     let mut own: Vec<(&Mover, Vec<usize>)> = Vec::new();
@@ -219,7 +225,7 @@ fn moved(diff: &Diff, movers: &[Mover], free: &mut [bool]) -> Vec<Cause> {
     causes.into_iter().map(tell).collect()
 }
 
-/// Whether two parts went the same way: at the corners of both, by a fiftieth of the way or what is not told.
+/// Whether two parts moved alike: at the corners of both boxes, within a fiftieth of the shift plus 0.05 px.
 fn same_way(a: &Mover, b: &Mover) -> bool {
     let corners = [a, b].into_iter().flat_map(|mover| mover.motion.ways(mover.places[0]));
     let others = [(a, b), (b, a)].into_iter().flat_map(|(from, other)| other.motion.ways(from.places[0]));
@@ -250,7 +256,7 @@ pub(crate) fn motion(motion: &Motion, place: Rect, unit: Written) -> String {
     words.join(", ")
 }
 
-/// Materials, or paints where no material is named, that have another colour.
+/// Materials that changed their colour; marks without a material form one group.
 fn recoloured(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
     let mut groups: BTreeMap<String, Vec<usize>> = BTreeMap::new();
     for (index, finding) in diff.findings.iter().enumerate().filter(|(index, _)| free[*index]) {
@@ -291,7 +297,8 @@ fn recoloured(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
     causes
 }
 
-/// Lines of more than one part that have another width, dash, end or corner: one sentence for each such change.
+/// Pen changes shared by lines of several parts: width, dash, ends, corners or colour. One sentence for each
+/// change.
 fn pens(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
     let mut groups: BTreeMap<&[Change], Vec<usize>> = BTreeMap::new();
     for (index, finding) in diff.findings.iter().enumerate().filter(|(index, _)| free[*index]) {
@@ -320,11 +327,11 @@ fn pens(diff: &Diff, free: &mut [bool]) -> Vec<Cause> {
 }
 
 impl Written {
-    /// A way in words: `3 px right, 4 px down`.
+    /// A shift in words: `3 px right, 4 px down`.
     fn sides(self, way: Vec2) -> String {
         let side = |value: f64, plus: &str, minus: &str| {
             let told = self.length(value.abs());
-            // What is told as nothing is nothing.
+            // A length that rounds to 0 is left out.
             let nothing = told.starts_with("0 ");
             (!nothing).then(|| format!("{told} {}", if value > 0.0 { plus } else { minus }))
         };

@@ -1,54 +1,55 @@
-//! [`Motion`]: one shift, turn and growth that carries marks of one drawing to their places in the other.
+//! One similarity (shift, rotation and scale) that carries marks of one drawing to the other.
 
 use kurbo::{Affine, BezPath, PathEl, Point, Rect, Vec2};
 
 use crate::diff::curves::segment::Segment;
 use crate::diff::curves::segment_clusters::Bundles;
 
-/// Motions that are tried: what carries single marks to their likes.
+/// Most pairs of marks used to compute candidate motions.
 const TRIED: usize = 48;
-/// Places that a motion is judged by.
+/// Number of sample points for scoring a motion.
 const JUDGED: usize = 600;
 
-/// A shift, a turn and a growth.
+/// A similarity and its score.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Motion {
     pub affine: Affine,
-    /// The share of the places of both drawings that it carries to something.
+    /// Share of the sample points of both drawings that it carries onto something. The smaller share of both
+    /// directions counts.
     pub share: f64,
 }
 
 impl Motion {
-    /// How much larger all becomes.
+    /// Scale factor.
     pub(crate) fn scale(&self) -> f64 {
         self.affine.determinant().abs().sqrt()
     }
 
-    /// The turn in degrees, clockwise on the page.
+    /// Rotation in degrees, clockwise on the page.
     pub(crate) fn turn(&self) -> f64 {
         let [a, b, ..] = self.affine.as_coeffs();
         crate::geometry::numbers::portable_math::atan2(b, a).to_degrees()
     }
 
-    /// How far a point goes.
+    /// Displacement of a point.
     pub(crate) fn of(&self, p: Point) -> Vec2 {
         self.affine * p - p
     }
 
-    /// How far what lies in a box goes, at its corners: the least and the most.
+    /// Displacements of the four corners of a box.
     pub(crate) fn ways(&self, place: Rect) -> [Vec2; 4] {
         let (x, y) = ([place.x0, place.x1], [place.y0, place.y1]);
         [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j): (usize, usize)| self.of(Point::new(x[i], y[j])))
     }
 }
 
-/// Marks of both drawings: paths that may be likes, in order, and polylines of all.
+/// Input for fitting: pairs of paths that may correspond, and all marks of both drawings as polylines.
 pub(crate) struct Marks<'a> {
     pub likes: Vec<[&'a BezPath; 2]>,
     pub lines: [Vec<Vec<Point>>; 2],
 }
 
-/// How much of both sides a motion carries to something of the other.
+/// Score of a motion, measured on both drawings.
 struct Judge {
     places: [Vec<Point>; 2],
     lines: [Lines; 2],
@@ -64,6 +65,7 @@ impl Judge {
         Some(Self { places, lines: [0, 1].map(|side: usize| Lines::new(&marks.lines[side])), reach })
     }
 
+    /// Scores a motion; `None` for extreme scale factors.
     fn judge(&self, affine: Affine) -> Option<Motion> {
         let Self { places, lines, reach } = self;
         let growth = affine.determinant().abs().sqrt();
@@ -80,14 +82,14 @@ impl Judge {
     }
 }
 
-/// The share of both sides that lies where something of the other does, without any motion.
+/// Share of both drawings that coincides with the other one without any motion.
 pub(crate) fn stays(marks: &Marks, reach: f64) -> f64 {
     Judge::new(marks, reach)
         .and_then(|judge| judge.judge(Affine::IDENTITY))
         .map_or(0.0, |motion| motion.share)
 }
 
-/// The motion that carries most of the one side to the other, within `reach`; shifts alone, unless `similar`.
+/// The motion with the highest score within `reach`: a similarity if `similar`, otherwise a shift.
 pub(crate) fn find(marks: &Marks, more: &[Affine], reach: f64, similar: bool) -> Option<Motion> {
     let judge = Judge::new(marks, reach)?;
     let judge = |affine: Affine| judge.judge(affine);
@@ -103,7 +105,7 @@ pub(crate) fn find(marks: &Marks, more: &[Affine], reach: f64, similar: bool) ->
         }
     }
     let best = best?;
-    // All likes that it carries to each other tell it more exactly.
+    // Refine the motion with all pairs that it carries onto each other.
     let (mut a, mut b) = (Vec::new(), Vec::new());
     for [old, new] in &marks.likes {
         let (old, new) = (points(old), points(new));
@@ -119,7 +121,7 @@ pub(crate) fn find(marks: &Marks, more: &[Affine], reach: f64, similar: bool) ->
     Some(refined.unwrap_or(best))
 }
 
-/// The shift, or shift, turn and growth, that carries points to points; the least squares.
+/// Least-squares similarity or shift from points to points.
 fn fit(a: &[Point], b: &[Point], similar: bool) -> Option<Affine> {
     if a.is_empty() || a.len() != b.len() {
         return None;
@@ -144,7 +146,7 @@ fn fit(a: &[Point], b: &[Point], similar: bool) -> Option<Affine> {
     Some(Affine::translate(mean_b - (linear * mean_a.to_point()).to_vec2()) * linear)
 }
 
-/// The points that a path is written with.
+/// All points of a path, including control points.
 pub(crate) fn points(path: &BezPath) -> Vec<Point> {
     let mut points = Vec::new();
     for element in path.elements() {
@@ -158,7 +160,7 @@ pub(crate) fn points(path: &BezPath) -> Vec<Point> {
     points
 }
 
-/// Places all over some lines, in equal distances.
+/// Evenly spaced points on all lines together.
 fn spread(lines: &[Vec<Point>]) -> Vec<Point> {
     let segments = || lines.iter().flat_map(|points| points.windows(2)).map(|pair| (pair[0], pair[1]));
     let length: f64 = segments().map(|(p, q)| p.distance(q)).sum();
@@ -176,7 +178,7 @@ fn spread(lines: &[Vec<Point>]) -> Vec<Point> {
     found
 }
 
-/// Lines that are asked whether something of them is near.
+/// Lines with an index for distance queries.
 struct Lines {
     segments: Vec<Segment>,
     bundles: Bundles,
@@ -191,12 +193,13 @@ impl Lines {
         Self { segments, bundles }
     }
 
+    /// Whether a point is within `reach` of the lines.
     fn has(&self, p: Point, reach: f64) -> bool {
         self.bundles.any(&self.segments, p, reach)
     }
 }
 
-/// The box round lines.
+/// Bounding box of lines.
 pub(crate) fn extent(lines: &[Vec<Point>]) -> Rect {
     let mut points = lines.iter().flatten();
     let Some(first) = points.next() else { return Rect::ZERO };

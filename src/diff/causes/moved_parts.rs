@@ -1,4 +1,4 @@
-//! Parts that moved as a whole: one shift, turn and growth carries most of what differs of each.
+//! Parts that moved as a whole: one similarity carries most of the changed marks of each part.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -11,19 +11,20 @@ use super::whole_motion;
 use crate::diff::findings::finding::{Finding, Verdict};
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
-/// The share of a part's marks without an equal that a motion must carry.
+/// Least share of a part's unequal marks that the motion must carry.
 const CARRIED: f64 = 0.5;
-/// A part of which so much lies where it lay did not move.
+/// A part with at least this share in its old place did not move.
 const STAYED: f64 = 0.9;
-/// What a shift leaves, as a part of its length: parts that come nearer grow a little.
+/// Largest residual of a shift as a share of its length. Parts that come closer to the camera grow a little.
 const OFF_OF_WAY: f64 = 0.1;
-/// Least and most of it (px).
+/// Least value of that residual in px.
 const LEAST_PX: f64 = 0.06;
+/// Greatest value of that residual in px.
 const MOST_PX: f64 = 1.0;
-/// Parts that are looked at, at most.
+/// Most parts examined.
 const MOST_PARTS: usize = 200;
 
-/// The parts of which more than one mark is elsewhere, and their motions.
+/// Parts with more than one changed mark, and their motions.
 pub(crate) fn movers(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], findings: &[Finding]) -> Vec<Mover> {
     let mut counts: BTreeMap<&Arc<str>, usize> = BTreeMap::new();
     for finding in findings {
@@ -37,17 +38,18 @@ pub(crate) fn movers(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], findings: 
     parts.filter_map(|(part, _)| mover(pictures, rest, part)).collect()
 }
 
+/// The motion of one part; `None` if it did not move as a whole.
 fn mover(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], part: &Arc<str>) -> Option<Mover> {
     let is_own = |shape: &&Shape| shape.kind != ShapeKind::Clip && shape.label.part.as_ref() == Some(part);
     let shapes = [0, 1].map(|side: usize| -> Vec<&Shape> {
         rest[side].iter().filter_map(|index| pictures[side].shapes.get(*index)).filter(is_own).collect()
     });
-    // Where most of it stayed, it did not move.
+    // A part whose marks mostly stayed did not move.
     for side in 0..2 {
         let all: Vec<&Shape> = pictures[side].shapes.iter().filter(is_own).collect();
         let length = |shapes: &[&Shape]| shapes.iter().map(|shape| shape.path.perimeter(1e-2)).sum::<f64>();
         let few = shapes[side].len() * 2 < all.len() || shapes[side].is_empty();
-        // A part whose longer lines stay has a hole that moved, or a boss.
+        // If the longer lines stayed, only a detail such as a hole or a boss moved.
         if few || length(&shapes[side]) * 2.0 < length(&all) {
             return None;
         }
@@ -62,7 +64,8 @@ fn mover(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], part: &Arc<str>) -> Op
         Some(shift) if shift.share >= CARRIED => shift,
         _ => motion::find(&marks, &[between], reach, true)?,
     };
-    // What is only cut otherwise, by what moves before it, lies where it lay: lines of one direction are carried along themselves.
+    // Lines that are only cut differently by a moving occluder did not move, although a motion along
+    // themselves fits as well.
     let stays = motion::stays(&marks, reach);
     if stays >= STAYED || found.share <= stays {
         return None;

@@ -1,4 +1,4 @@
-//! [`whole`]: whether one motion carries the whole of one drawing to the other: the page grew, or all was shifted or turned.
+//! Motion of the whole drawing: the page grew, or all marks were shifted or rotated.
 
 use std::sync::Arc;
 
@@ -11,25 +11,26 @@ use crate::diff::findings::finding::{Finding, Place, PlaceKey, Verdict};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
-/// Fewer marks than this move one by one.
+/// Fewest marks for a motion of the whole drawing.
 const FEWEST: usize = 3;
-/// The share of the marks that must have no equal for the whole to have moved, and of these the share that must be
-/// where the motion carries them.
+/// Least share of marks without an equal.
 const MOST_OF: f64 = 0.6;
+/// Least share of these marks that the motion must carry.
 const CARRIED: f64 = 0.7;
-/// A drawing made anew in another size is smoothed anew: its lines are this part of the page away from where they would be.
+/// A drawing rendered again in another size is smoothed again. Its lines may be off by this share of the
+/// page.
 const ANEW_OF_PAGE: f64 = 5e-4;
 
-/// The motion of the whole, and the old drawing as it carries it: shapes that have equals stay.
+/// A motion of the whole drawing. Shapes with equals stay.
 pub(crate) struct Whole {
     pub motion: Motion,
-    /// The old drawing, carried: with lines as wide as they were, and as wide as the motion makes them.
+    /// The old drawing after the motion: with unchanged line widths, and with scaled ones.
     pub carried: [Picture; 2],
-    /// What lies farther than this (px) from where it was carried is told.
+    /// Residuals above this, in px, are reported.
     pub reach: f64,
 }
 
-/// The motion that carries the shapes without an equal, if most have none.
+/// Motion that carries the shapes without an equal, if most shapes have none.
 pub(crate) fn whole(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], tolerance: f64) -> Option<Whole> {
     let counted = |side: usize| pictures[side].shapes.len();
     let many = |side: usize| {
@@ -41,7 +42,7 @@ pub(crate) fn whole(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], tolerance: 
     let [before, after] = pictures;
     let shapes = [0, 1].map(|side: usize| -> Vec<&Shape> {
         let drawn = rest[side].iter().filter_map(|index| pictures[side].shapes.get(*index));
-        // Paper is as large as the page, whatever lies on it.
+        // The paper has the size of the page, independent of the marks.
         drawn.filter(|shape| shape.kind != ShapeKind::Clip && shape.label.layer.as_ref() != "paper").collect()
     });
     let marks = marks([&shapes[0], &shapes[1]], tolerance);
@@ -68,7 +69,8 @@ pub(crate) fn whole(pictures: [&Picture; 2], rest: &[Vec<usize>; 2], tolerance: 
     Some(Whole { motion, carried, reach: told * motion.scale().max(1.0) })
 }
 
-/// The shift that each finding tells, if all that moved without exception went the same way, and it is nearly all of the drawing.
+/// Common shift of all findings, if every one is a shift by the same amount and they make up most of the
+/// drawing.
 pub(crate) fn together(
     findings: &mut [Finding],
     before: &Picture,
@@ -97,14 +99,14 @@ pub(crate) fn together(
     Some(Motion { affine: Affine::translate(mean), share: 1.0 })
 }
 
-/// What motions are found from.
+/// Input for fitting motions to these shapes.
 pub(crate) fn marks<'a>(shapes: [&[&'a Shape]; 2], tolerance: f64) -> Marks<'a> {
     let lines = shapes.map(|shapes| {
         let flat =
             shapes.iter().flat_map(|shape| flatten(&shape.path, tolerance, shape.kind != ShapeKind::Line));
         flat.map(|(points, _)| points).collect()
     });
-    // Likes are written alike: of one label, one paint and as many points, in the order of the file.
+    // Corresponding paths have the same label and kind and the same number of elements, in file order.
     type Key<'k> = (ShapeKind, &'k Label, usize);
     let key = |shape: &&'a Shape| -> Key<'a> { (shape.kind, &*shape.label, shape.path.elements().len()) };
     let mut waiting: FxHashMap<Key, Vec<&'a BezPath>> = FxHashMap::default();
@@ -113,11 +115,12 @@ pub(crate) fn marks<'a>(shapes: [&[&'a Shape]; 2], tolerance: f64) -> Marks<'a> 
     }
     let like = |shape: &&'a Shape| Some([&shape.path, waiting.get_mut(&key(shape))?.pop()?]);
     let mut likes: Vec<[&BezPath; 2]> = shapes[0].iter().filter_map(like).collect();
-    // Long ones tell more.
+    // Long paths first, because they determine a motion better.
     likes.sort_by_key(|[old, _]| std::cmp::Reverse(old.elements().len()));
     Marks { likes, lines }
 }
 
+/// A picture whose unequal shapes are moved, with line widths scaled by `wider`.
 fn carried(picture: &Picture, rest: &[usize], motion: &Motion, wider: f64, after: &Picture) -> Picture {
     let mut shapes = picture.shapes.to_vec();
     for index in rest {
@@ -136,7 +139,7 @@ fn carried(picture: &Picture, rest: &[usize], motion: &Motion, wider: f64, after
     }
 }
 
-/// A finding for each shape that was carried, but for those that are gone after all.
+/// A finding for each carried shape that was not removed.
 pub(crate) fn findings(before: &Picture, rest: &[usize], motion: &Motion, gone: &[Finding]) -> Vec<Finding> {
     let shifts = (motion.scale() - 1.0).abs() < 1e-6 && motion.turn().abs() < 1e-4;
     let gone: FxHashSet<(PlaceKey, &Label)> =
@@ -171,7 +174,7 @@ pub(crate) fn findings(before: &Picture, rest: &[usize], motion: &Motion, gone: 
     found
 }
 
-/// Whether a finding follows from the motion of the whole.
+/// Whether a finding follows from the motion of the whole drawing.
 pub(crate) fn is_carried(finding: &Finding) -> bool {
     finding.carried
 }
@@ -183,6 +186,7 @@ fn size(shape: &Shape) -> f64 {
     }
 }
 
+/// All points of a path except control points.
 fn ends(path: &BezPath) -> Vec<Point> {
     let of = |element: &PathEl| match *element {
         PathEl::MoveTo(p) | PathEl::LineTo(p) | PathEl::QuadTo(_, p) | PathEl::CurveTo(_, _, p) => Some(p),

@@ -1,4 +1,4 @@
-//! [`Teller`]: what findings are told from, and what those of lines and of regions have in common.
+//! Data and helpers shared by the findings about lines and regions.
 
 use crate::diff::curves::chain::Chain;
 use crate::diff::findings::finding::Change;
@@ -7,21 +7,21 @@ use crate::diff::shapes::ignore_options::Ignore;
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape};
 
-/// Both pictures, and their chains with what covers them.
+/// Both pictures with their chains and covers.
 pub(crate) struct Teller<'a> {
     pub pictures: [&'a Picture; 2],
     pub sides: &'a [Side; 2],
-    /// What does not count.
+    /// Aspects to ignore.
     pub ignore: Ignore,
 }
 
 impl<'a> Teller<'a> {
-    /// A shape that a chain is made of.
+    /// The first shape of a chain.
     pub(crate) fn shape(&self, side: usize, chain: &Chain) -> Option<&'a Shape> {
         self.pictures[side].shapes.get(*chain.shapes.first()?)
     }
 
-    /// What else differs between two shapes, of what counts.
+    /// Changed properties of a shape, without ignored ones.
     pub(crate) fn changes(&self, shapes: [Option<&Shape>; 2]) -> Vec<Change> {
         let mut changes = changes(shapes);
         changes.retain(|change| self.ignore.counts(&change.what));
@@ -29,19 +29,19 @@ impl<'a> Teller<'a> {
     }
 }
 
-/// The label of a finding: the old one, if there is an old one.
+/// Label of a finding: that of the old shape if there is one.
 pub(crate) fn label(shapes: [Option<&Shape>; 2]) -> Label {
     shapes.into_iter().flatten().next().map_or_else(Label::default, |shape| (*shape.label).clone())
 }
 
-/// What else differs between two shapes.
+/// Changed properties of a shape.
 fn changes(shapes: [Option<&Shape>; 2]) -> Vec<Change> {
     let [Some(old), Some(new)] = shapes else { return Vec::new() };
     let mut changes: Vec<Change> = Vec::new();
     for (what, was, is) in old.ink.changes(&new.ink) {
         changes.push(Change { what, old: was, new: is });
     }
-    // One of the two may be grouped by part, and have no layers at all.
+    // Drawings grouped by part have no layers.
     let layered = !old.label.layer.is_empty() && !new.label.layer.is_empty();
     let mut note = |what: &str, differs: bool, word: &dyn Fn(&Label) -> String| {
         if differs {

@@ -1,4 +1,4 @@
-//! Findings about lines: what became of each.
+//! Findings about lines.
 
 use crate::parallel::prelude::*;
 use kurbo::{BezPath, Rect, Shape as _};
@@ -10,19 +10,19 @@ use crate::diff::matching::chain_events::Event;
 use crate::diff::matching::chain_pairs::bounds;
 use crate::diff::shapes::picture::ShapeKind;
 
-/// One finding a line that something happened to.
+/// One finding for each change of a line.
 pub(crate) fn findings(teller: &Teller, events: Vec<Event>) -> Vec<Finding> {
     events.into_par_iter().map(|event| one(teller, event)).collect()
 }
 
-/// What became of one line.
+/// The finding for one change of a line.
 fn one(teller: &Teller, event: Event) -> Finding {
     let chain = |side: usize, index: Option<usize>| index.map(|index| &teller.sides[side].chains[index]);
     let (old, new) = (chain(0, event.old), chain(1, event.new));
     let shapes = [old.and_then(|c| teller.shape(0, c)), new.and_then(|c| teller.shape(1, c))];
     let length = |chain: Option<&Chain>| chain.map_or(0.0, Chain::length);
     let boxes = [(0, old), (1, new)].into_iter().filter_map(|(_, c)| Some(bounds(&c?.points)));
-    // Where only a piece differs, the piece is the place.
+    // If only a piece changed, its box is the place.
     let bare = [&event.gone, &event.added].into_iter().filter(|path| !path.elements().is_empty());
     let bare: Vec<Rect> = bare.map(BezPath::bounding_box).collect();
     let place = match event.verdict {

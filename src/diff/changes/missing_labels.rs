@@ -1,4 +1,4 @@
-//! Labels that another program left out: the one drawing has parts and classes, the other has none.
+//! Labels lost in another program: one drawing has parts and classes, the other has none.
 
 use std::sync::Arc;
 
@@ -9,7 +9,8 @@ use crate::diff::findings::finding::{Cause, Change, Finding, Place, Verdict};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
-/// The drawing that has labels, where the other one has none; layers alone are none, programs make their own.
+/// Index of the labelled drawing if the other one has no labels. Layers do not count, because programs create
+/// their own.
 pub(crate) fn lost(pictures: [&Picture; 2]) -> Option<usize> {
     let has = pictures.map(|picture| picture.shapes.iter().any(is_labelled));
     let drawn = pictures.iter().all(|picture| !picture.shapes.is_empty());
@@ -24,15 +25,16 @@ fn is_labelled(shape: &Shape) -> bool {
     shape.label.part.is_some() || !shape.label.classes.is_empty()
 }
 
-/// Places of findings are rounded by less than this.
+/// Positions in findings are rounded by less than this.
 const ROUNDED_PX: f64 = 0.02;
-/// Findings of one label that a mark is sought in, at most.
+/// Most findings of one label searched per mark.
 const MOST_PLACES: usize = 2000;
 
-/// A finding for each mark whose label is not in the other drawing, but for those that are only in the one.
+/// A finding for each mark whose label is missing in the other drawing, except marks that exist in one
+/// drawing only.
 pub(crate) fn findings(labelled: &Picture, others: &[Finding], side: usize) -> Vec<Finding> {
     let alone = [Verdict::Removed, Verdict::Added][side];
-    // Lines that are gone are told as joined: each of their pieces lies in the box of one.
+    // Removed lines are reported as joined chains. The box of a chain contains each of its pieces.
     let mut lonely: FxHashMap<&Label, Vec<Rect>> = FxHashMap::default();
     for finding in others.iter().filter(|finding| finding.verdict == alone) {
         let Place { x, y, width, height } = finding.place;
@@ -75,7 +77,7 @@ pub(crate) fn findings(labelled: &Picture, others: &[Finding], side: usize) -> V
     marks.filter_map(one).collect()
 }
 
-/// All of it in one sentence.
+/// The cause for all these findings.
 pub(crate) fn cause(findings: &[Finding], side: usize) -> Option<Cause> {
     let count = findings.len();
     let which = ["new", "old"][side];

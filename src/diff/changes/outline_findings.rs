@@ -1,5 +1,5 @@
-//! Findings about lines of varying width whose middle is the same: their outlines are covered as lines are, all at once,
-//! because programs put several outlines into one path.
+//! Findings about lines of varying width whose axis is unchanged. The outlines of all these lines are
+//! compared together, because programs may merge several outlines into one path.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ use crate::diff::shapes::ink::trimmed;
 use crate::diff::shapes::mark_groups::Groups;
 use crate::diff::shapes::picture::ShapeKind;
 
-/// One finding a line whose width varies differently.
+/// One finding for each line whose width varies differently.
 pub(crate) fn findings(teller: &Teller, groups: &Groups) -> Vec<Finding> {
     let rings = [0, 1].map(|side| rings(teller, side, groups));
     if rings.iter().all(Vec::is_empty) {
@@ -26,7 +26,7 @@ pub(crate) fn findings(teller: &Teller, groups: &Groups) -> Vec<Finding> {
     let grids = [0, 1].map(|side: usize| SegmentCells::new(&rings[side]));
     let all = |side: usize| (rings[side].as_slice(), firsts[side].as_slice());
     let covers = [cover(all(0), all(1), &grids[1], groups), cover(all(1), all(0), &grids[0], groups)];
-    // The lines that differ, by the old shape, and by how much.
+    // Largest difference for each old shape.
     let mut differ: BTreeMap<usize, f64> = BTreeMap::new();
     for side in 0..2 {
         for (ring, cover) in rings[side].iter().zip(&covers[side]).filter(|(_, cover)| !cover.is_whole()) {
@@ -53,7 +53,7 @@ pub(crate) fn findings(teller: &Teller, groups: &Groups) -> Vec<Finding> {
             return None;
         }
         if *wider > shape.ink.width {
-            // It is cut shorter, or goes on: both sides of an outline are as long as the line.
+            // The line is shorter or longer. Both sides of its outline have the length of the line.
             let new = cover.partners.first().and_then(|(new, ..)| {
                 teller.sides[1].chains.get(*new as usize).and_then(|new| new.shapes.first())
             });
@@ -89,7 +89,7 @@ pub(crate) fn findings(teller: &Teller, groups: &Groups) -> Vec<Finding> {
     told.collect()
 }
 
-/// The rings of the outlines of all lines that have no equal, each with its shape; in an order of their own.
+/// Rings of the outlines of all unequal lines, each with its shape, in sorted order.
 fn rings(teller: &Teller, side: usize, groups: &Groups) -> Vec<Chain> {
     let mut found = Vec::new();
     let mut seen: FxHashSet<usize> = FxHashSet::default();
@@ -105,7 +105,7 @@ fn rings(teller: &Teller, side: usize, groups: &Groups) -> Vec<Chain> {
     found
 }
 
-/// How far the bare stretches of a ring lie from another one.
+/// Largest distance of the uncovered runs of a ring from another ring.
 fn off(ring: &Chain, cover: &Cover, other: &Chain) -> f64 {
     let near = Near::new(other);
     let mut at = 0.0;

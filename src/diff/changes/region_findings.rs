@@ -1,4 +1,4 @@
-//! Findings about regions: what became of their borders, put together shape by shape.
+//! Findings about regions, from the changes of their borders.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,16 +11,16 @@ use crate::diff::findings::finding::{Finding, Place, Verdict};
 use crate::diff::matching::chain_events::Event;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
 
-/// Rings of a shape that may lie round another one of it, at most.
+/// Most rings of a shape tested for nesting.
 const MOST_RINGS: usize = 200;
 
-/// The rings of each shape of either side.
+/// Ring numbers of each shape, for both pictures.
 type OfShape = [FxHashMap<usize, Vec<usize>>; 2];
 
-/// One region before and after.
+/// Shape numbers of a region before and after.
 type Key = (Option<usize>, Option<usize>);
 
-/// One finding a region.
+/// One finding for each changed region.
 pub(crate) fn findings(teller: &Teller, borders: Vec<Event>) -> Vec<Finding> {
     let partner = Partners::of(teller, &borders);
     let mut by_shape: BTreeMap<Key, Vec<Event>> = BTreeMap::new();
@@ -46,10 +46,11 @@ pub(crate) fn findings(teller: &Teller, borders: Vec<Event>) -> Vec<Finding> {
     by_shape.into_iter().map(|(key, events)| one(teller, &of_shape, key, events, &mut areas)).collect()
 }
 
-/// For each shape of either side, the one of the other that most of its border coincides with or became.
+/// For each shape, the shape of the other picture that shares the longest border with it.
 struct Partners([BTreeMap<usize, usize>; 2]);
 
 impl Partners {
+    /// Finds partners by the common length of borders.
     fn of(teller: &Teller, borders: &[Event]) -> Self {
         let mut lengths: [BTreeMap<(usize, usize), f64>; 2] = Default::default();
         let mut add = |side: usize, from: Option<&usize>, to: Option<&usize>, length: f64| {
@@ -65,7 +66,7 @@ impl Partners {
                     let part = |side: usize, shape: Option<&usize>| {
                         teller.pictures[side].shapes.get(*shape?).and_then(|shape| shape.label.part.as_ref())
                     };
-                    // Neighbours share borders: a region that is gone did not become one of those around it.
+                    // Neighbours share borders: a removed region did not become its neighbour.
                     let own_part = part(side, chain.shapes.first()) == part(1 - side, other);
                     if own_part || length >= 0.9 * cover.length {
                         add(side, chain.shapes.first(), other, length);
@@ -94,7 +95,7 @@ impl Partners {
     }
 }
 
-/// What became of one region, from what became of its borders.
+/// The finding for one region, from the changes of its borders.
 fn one(
     teller: &Teller,
     of_shape: &OfShape,
@@ -114,7 +115,7 @@ fn one(
         (None, _) => Verdict::Added,
         _ if all(Verdict::Restyled) => Verdict::Restyled,
         _ if all(Verdict::Relabelled) => Verdict::Relabelled,
-        // All its borders moved, none stayed.
+        // All its borders moved and none stayed.
         _ if all(Verdict::Moved) && rings(0, old).is_none_or(|count| count <= events.len()) => Verdict::Moved,
         _ => Verdict::Reshaped,
     };
@@ -154,7 +155,8 @@ fn one(
     finding
 }
 
-/// How much larger a region became: by what became of each of its rings, so that it agrees with how far they went.
+/// Increase of the area of a region, from its changed rings only, so that it agrees with the reported
+/// distances.
 fn growth(teller: &Teller, of_shape: &OfShape, events: &[Event]) -> f64 {
     let ring = |side: usize, index: Option<usize>| -> f64 {
         let chains = &teller.sides[side].chains;
@@ -167,7 +169,7 @@ fn growth(teller: &Teller, of_shape: &OfShape, events: &[Event]) -> f64 {
     };
     let changed =
         events.iter().filter(|event| !matches!(event.verdict, Verdict::Restyled | Verdict::Relabelled));
-    // A ring may be told of from both sides.
+    // A ring may occur in the changes of both pictures.
     let rings: [BTreeSet<usize>; 2] = [
         changed.clone().filter_map(|event| event.old).collect(),
         changed.filter_map(|event| event.new).collect(),
@@ -176,7 +178,7 @@ fn growth(teller: &Teller, of_shape: &OfShape, events: &[Event]) -> f64 {
     area(1) - area(0)
 }
 
-/// The area of each shape that is asked for, measured once.
+/// Cache of shape areas.
 #[derive(Default)]
 struct Areas(FxHashMap<(usize, usize), f64>);
 

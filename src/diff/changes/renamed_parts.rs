@@ -1,4 +1,4 @@
-//! [`Renamed`]: parts that have another name in the new drawing.
+//! Parts that have another name in the new drawing.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -15,7 +15,7 @@ pub(crate) struct Renamed {
     pub findings: Vec<Finding>,
 }
 
-/// The parts that have another name, by what became of their marks; `None` where there are none.
+/// Finds renamed parts from the relabelled marks; `None` if there are none.
 pub(crate) fn renamed(pictures: [&Picture; 2], findings: &[Finding]) -> Option<Renamed> {
     let parts: [BTreeSet<&Arc<str>>; 2] =
         pictures.map(|picture| picture.shapes.iter().filter_map(|shape| shape.label.part.as_ref()).collect());
@@ -35,7 +35,7 @@ pub(crate) fn renamed(pictures: [&Picture; 2], findings: &[Finding]) -> Option<R
         }
     }
     names.retain(|old, _| !refused.contains(old));
-    // Two parts that became one are not one part by another name.
+    // Two parts that were merged are not one renamed part.
     let mut counts: BTreeMap<Arc<str>, usize> = BTreeMap::new();
     names.values().for_each(|new| *counts.entry(Arc::clone(new)).or_default() += 1);
     names.retain(|_, new| counts.get(new) == Some(&1));

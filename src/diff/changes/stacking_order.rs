@@ -1,4 +1,4 @@
-//! What lies over what: marks that stayed, and are painted in another order where they overlap.
+//! Changes in stacking order: unchanged marks that overlap and are painted in another order.
 
 use kurbo::{Point, Rect, Shape as _};
 
@@ -6,12 +6,12 @@ use crate::diff::curves::chain::flatten;
 use crate::diff::findings::finding::{Change, Finding, Place, Verdict};
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
-/// Pairs that are looked at, at most.
+/// Most pairs of marks tested.
 const MOST_PAIRS: usize = 50_000_000;
-/// Points along each side of the box that two regions share.
+/// Sample points along each side of the common box of two regions.
 const POINTS: usize = 8;
 
-/// Findings about marks that stayed: each is given by its places in both pictures.
+/// Findings about the stacking of unchanged marks; `stayed` holds their indexes in both pictures.
 pub(crate) fn findings(before: &Picture, after: &Picture, mut stayed: Vec<(usize, usize)>) -> Vec<Finding> {
     stayed.sort_unstable();
     stayed.dedup_by_key(|pair| pair.0);
@@ -48,16 +48,16 @@ pub(crate) fn findings(before: &Picture, after: &Picture, mut stayed: Vec<(usize
     found
 }
 
-/// Whether it can be seen which of two marks lies over the other.
+/// Whether the order of two marks is visible.
 fn matters(a: &Shape, b: &Shape) -> bool {
     let clip = a.kind == ShapeKind::Clip || b.kind == ShapeKind::Clip;
     let fills = a.kind == ShapeKind::Region || b.kind == ShapeKind::Region;
     !clip && fills && a.ink.paint != b.ink.paint
 }
 
-/// The fewest marks whose going elsewhere explains the new order: all but a longest rising run.
+/// Fewest marks whose move explains the new order: all except a longest increasing subsequence.
 fn out_of_order(stayed: &[(usize, usize)]) -> Vec<usize> {
-    // Patience sorting: the last item of the best run of each length, and for each item the one before it.
+    // Patience sorting: the last item of the best sequence of each length, and the predecessor of each item.
     let mut tails: Vec<usize> = Vec::new();
     let mut previous = vec![usize::MAX; stayed.len()];
     for (index, (_, new)) in stayed.iter().enumerate() {
@@ -79,7 +79,7 @@ fn out_of_order(stayed: &[(usize, usize)]) -> Vec<usize> {
     (0..stayed.len()).filter(|index| !rising[*index]).collect()
 }
 
-/// Whether two marks, at least one of them a region, have points in common.
+/// Whether two marks overlap. At least one of them must be a region.
 fn overlap(a: &Shape, b: &Shape, common: Rect) -> bool {
     let inside = |shape: &Shape, p: Point| match shape.even_odd {
         true => shape.path.winding(p) % 2 != 0,
@@ -99,7 +99,8 @@ fn overlap(a: &Shape, b: &Shape, common: Rect) -> bool {
     }
 }
 
-/// Whether some point of a line is such; its ends often lie on borders, and are not asked.
+/// Whether any inner point of a line's segments satisfies a condition. End points are skipped, because they
+/// often lie on borders.
 fn on_line(line: &Shape, is_such: impl Fn(Point) -> bool) -> bool {
     flatten(&line.path, 0.1, false)
         .iter()

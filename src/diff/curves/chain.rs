@@ -1,4 +1,4 @@
-//! [`Chain`]: shapes as polylines, joined where they were split.
+//! Shapes as polylines, joined where they were split.
 
 use crate::parallel::prelude::*;
 use kurbo::{PathEl, Point};
@@ -8,19 +8,20 @@ use crate::diff::shapes::mark_groups::Groups;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
 use crate::geometry::numbers::tolerance::{FLAT_OF_CURVE, FLAT_OF_TOLERANCE, JOIN_OF_TOLERANCE};
 
-/// A polyline in px, in a form that does not depend on how it was written: an open one begins at its lesser end, a
-/// closed one at its least point.
+/// A polyline in px, independent of how it was written: an open one starts at its lesser end, a closed one at
+/// its least point.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Chain {
     pub group: usize,
-    /// At least two points; a closed chain ends where it begins.
+    /// At least two points; in a closed chain the last point repeats the first.
     pub points: Vec<Point>,
     pub closed: bool,
-    /// The shapes it is made of.
+    /// Numbers of the shapes that form the chain.
     pub shapes: Vec<usize>,
 }
 
 impl Chain {
+    /// Length in px.
     pub(crate) fn length(&self) -> f64 {
         self.segments().map(|(p, q)| p.distance(q)).sum()
     }
@@ -29,7 +30,7 @@ impl Chain {
         self.points.windows(2).map(|pair| (pair[0], pair[1]))
     }
 
-    /// The chain in the form that does not depend on how it was written.
+    /// Normalises start and direction.
     fn in_order(mut self) -> Self {
         let less = |a: &Point, b: &Point| order(*a, *b).is_lt();
         if self.closed {
@@ -53,11 +54,12 @@ impl Chain {
     }
 }
 
+/// Order of points by x, then y.
 fn order(a: Point, b: Point) -> std::cmp::Ordering {
     a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
 }
 
-/// The chains of some shapes of a picture, in an order that does not depend on that of the shapes.
+/// Chains of some shapes of a picture, in an order independent of the order of the shapes.
 pub(crate) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups: &Groups) -> Vec<Chain> {
     let flat: Vec<Vec<Chain>> = shapes
         .par_iter()
@@ -91,7 +93,7 @@ pub(crate) fn of(picture: &Picture, shapes: &[usize], of_shape: &[usize], groups
     done
 }
 
-/// Sorts chains by where they are: copies of one chain are neighbours then.
+/// Sorts chains by position, so that copies of a chain are neighbours.
 pub(crate) fn sort(chains: &mut [Chain]) {
     let key = |chain: &Chain| chain.points.iter().map(|p| (p.x.to_bits(), p.y.to_bits())).collect::<Vec<_>>();
     chains.sort_by(|a, b| {
@@ -104,7 +106,8 @@ pub(crate) fn sort(chains: &mut [Chain]) {
     });
 }
 
-/// For each chain the first one that lies exactly where it does, of the same group: chains in order have their copies behind them.
+/// For each chain, the first one of the same group with identical points. Chains must be sorted, so that
+/// copies follow it.
 pub(crate) fn firsts(chains: &[Chain]) -> Vec<usize> {
     let mut firsts: Vec<usize> = Vec::with_capacity(chains.len());
     for (index, chain) in chains.iter().enumerate() {
@@ -118,7 +121,7 @@ pub(crate) fn firsts(chains: &[Chain]) -> Vec<usize> {
     firsts
 }
 
-/// The rings of an outline, in an order that does not depend on how it was written.
+/// Rings of an outline, in an order independent of how it was written.
 pub(crate) fn rings(outline: Option<&kurbo::BezPath>, tolerance: f64) -> Vec<Chain> {
     let flat =
         outline.map(|outline| flatten(outline, tolerance * FLAT_OF_TOLERANCE, true)).unwrap_or_default();
@@ -128,7 +131,8 @@ pub(crate) fn rings(outline: Option<&kurbo::BezPath>, tolerance: f64) -> Vec<Cha
     rings
 }
 
-/// The subpaths of a path as polylines, and whether each is closed.
+/// Subpaths of a path as polylines, each with a flag for closed ones. With `closes`, open subpaths are
+/// closed.
 pub(crate) fn flatten(path: &kurbo::BezPath, tolerance: f64, closes: bool) -> Vec<(Vec<Point>, bool)> {
     let mut found: Vec<(Vec<Point>, bool)> = Vec::new();
     let size = path.control_box().size();
@@ -139,7 +143,7 @@ pub(crate) fn flatten(path: &kurbo::BezPath, tolerance: f64, closes: bool) -> Ve
             if let Some((points, closed)) = found.last_mut() {
                 points.extend(points.first().copied());
                 *closed = true;
-                // What follows without a move begins at the same place.
+                // Segments after a close without a move start at the same point.
                 let start = points.first().copied();
                 found.extend(start.map(|start| (vec![start], false)));
             }
@@ -160,7 +164,7 @@ pub(crate) fn flatten(path: &kurbo::BezPath, tolerance: f64, closes: bool) -> Ve
             points.dedup();
         }
         if points.len() == 1 && !closes {
-            // A dot has two ends in one place.
+            // A dot has two equal points.
             points.extend(points.first().copied());
         }
     }
@@ -184,12 +188,13 @@ struct End {
 }
 
 impl End {
+    /// The other end of the same chain.
     fn other(self) -> Self {
         Self { last: !self.last, ..self }
     }
 }
 
-/// Joins chains of one group where the ends of just two of them meet within `reach`.
+/// Joins chains of one group where exactly two ends meet within `reach`.
 fn join(chains: Vec<Chain>, reach: f64) -> Vec<Chain> {
     let cell = |p: Point| ((p.x / reach).floor() as i64, (p.y / reach).floor() as i64);
     let place = |end: End| {
@@ -223,7 +228,7 @@ fn join(chains: Vec<Chain>, reach: f64) -> Vec<Chain> {
     }
     let mut used = vec![false; chains.len()];
     let mut joined = Vec::new();
-    // Open chains are walked from an end that nothing joins, what is left goes round.
+    // Start open chains at free ends; the remaining chains are closed.
     let starts = ends().filter(|end| !next.contains_key(end)).chain(ends());
     for start in starts.collect::<Vec<_>>() {
         if used[start.chain] {

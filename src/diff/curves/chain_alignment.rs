@@ -1,4 +1,4 @@
-//! [`Alignment`]: which point of one chain corresponds to which of another, and what motion carries them there.
+//! Correspondence of the points of two chains, and the motion between them.
 
 use kurbo::{Point, Vec2};
 
@@ -6,24 +6,26 @@ use super::chain::Chain;
 use super::hausdorff_distance::places;
 use super::segment::nearest_on;
 
-/// Places that are compared along each chain: enough for its points, within bounds.
+/// Fewest points compared along each chain. The number is about two per vertex, within bounds.
 const FEWEST: usize = 5;
+/// Most points compared along each chain.
 const MOST: usize = 33;
 
-/// Two chains laid beside each other by arc length; in px.
+/// Distances of two chains whose points correspond by arc length, in px.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Alignment {
-    /// The largest distance of corresponding places: the Fréchet distance or more.
+    /// Largest distance of corresponding points: an upper bound of the Fréchet distance.
     pub largest: f64,
-    /// How far places moved on average.
+    /// Mean shift from the first chain to the second.
     pub shift: Vec2,
-    /// The largest distance that the shift leaves.
+    /// Largest distance that remains after the shift.
     pub after_shift: f64,
-    /// The largest distance that the best shift, turn and growth leave.
+    /// Largest distance that remains after the best similarity (shift, rotation and scale).
     pub after_similarity: f64,
 }
 
-/// The alignment of two chains with the smallest largest distance; the same, but for its sign, either way round.
+/// Aligns two chains so that the largest distance is smallest, over both directions and several starts.
+/// Swapping the chains only changes signs.
 pub(crate) fn align(a: &Chain, b: &Chain) -> Alignment {
     let count = (a.points.len().max(b.points.len()) * 2 - 1).clamp(FEWEST, MOST);
     let on_a: Vec<Point> = places(a, count).collect();
@@ -36,7 +38,8 @@ pub(crate) fn align(a: &Chain, b: &Chain) -> Alignment {
         }
     };
     if a.closed && b.closed {
-        // Round chains may begin anywhere: at their least point, or where the other one's is nearest.
+        // Closed chains have no fixed start: try their least point, and the point nearest to the start of the
+        // other chain.
         let turned_b = on_a.first().map_or_else(|| on_b.clone(), |start| from_nearest(b, *start, count));
         let turned_a = on_b.first().map_or_else(|| on_a.clone(), |start| from_nearest(a, *start, count));
         for (a, b) in [(&on_a, &on_b), (&on_a, &turned_b), (&turned_a, &on_b)] {
@@ -54,7 +57,7 @@ fn reversed(points: &[Point]) -> Vec<Point> {
     points.iter().rev().copied().collect()
 }
 
-/// Places along a closed chain, from the one nearest to a point.
+/// Evenly spaced points along a closed chain, starting at its point nearest to `start`.
 fn from_nearest(chain: &Chain, start: Point, count: usize) -> Vec<Point> {
     let nearest = chain
         .segments()
@@ -71,13 +74,14 @@ fn from_nearest(chain: &Chain, start: Point, count: usize) -> Vec<Point> {
     places(&Chain { points, ..chain.clone() }, count).collect()
 }
 
+/// Distances of two point lists of equal length, before and after the best motions.
 fn measure(a: &[Point], b: &[Point]) -> Alignment {
     let count = a.len().min(b.len()).max(1) as f64;
     let mean =
         |points: &[Point]| points.iter().map(|p| p.to_vec2()).fold(Vec2::ZERO, |sum, v| sum + v) / count;
     let (mean_a, mean_b) = (mean(a), mean(b));
     let shift = mean_b - mean_a;
-    // As complex numbers: b - mean_b = turn (a - mean_a), turn by least squares.
+    // Points as complex numbers: b - mean_b = turn (a - mean_a), with `turn` by least squares.
     let (mut turn, mut size) = (Vec2::ZERO, 0.0);
     for (p, q) in a.iter().zip(b) {
         let (p, q) = (p.to_vec2() - mean_a, q.to_vec2() - mean_b);

@@ -1,4 +1,4 @@
-//! How far two polylines lie apart: the Hausdorff distance, and how far most of them does.
+//! Distance of two polylines: the Hausdorff distance and its 95th percentile.
 
 use kurbo::Point;
 
@@ -7,25 +7,27 @@ use super::segment::nearest_on;
 use super::segment_grid::SegmentCells;
 use crate::geometry::numbers::tolerance::DISTANCE_SHARE;
 
-/// Polylines of more segments are searched by a grid.
+/// Polylines with more points are searched with a grid.
 const FEW: usize = 48;
-/// Places along each polyline that percentiles are taken of: so many a point, within bounds.
+/// Sample points per vertex for percentiles, within bounds.
 const PLACES: usize = 8;
+/// Fewest sample points for percentiles.
 const FEWEST: usize = 20;
+/// Most sample points for percentiles.
 const MOST: usize = 128;
-/// Distances smaller than this (px) are not told apart.
+/// Resolution of distances in px.
 const LEAST_PX: f64 = 1e-4;
 
-/// How far two lines lie apart, in px.
+/// Distance of two chains in px.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct Apart {
-    /// The Hausdorff distance, at most [`DISTANCE_SHARE`] of itself too small.
+    /// Hausdorff distance, at most the share [`DISTANCE_SHARE`] of itself too small.
     pub largest: f64,
-    /// 95 % of both lines are nearer to the other one than this.
+    /// 95th percentile of the distance, over both lines.
     pub p95: f64,
 }
 
-/// The distances between two chains.
+/// Distances between two chains.
 pub(crate) fn apart(a: &Chain, b: &Chain) -> Apart {
     let (near_a, near_b) = (Near::new(a), Near::new(b));
     let largest = near_b.farthest(a, near_a.farthest(b, 0.0));
@@ -37,7 +39,7 @@ pub(crate) fn apart(a: &Chain, b: &Chain) -> Apart {
     Apart { largest: largest.max(p95), p95 }
 }
 
-/// Points in equal distances along a chain, from its start to its end.
+/// Evenly spaced points along a chain, from its start to its end.
 pub(crate) fn places(chain: &Chain, count: usize) -> impl Iterator<Item = Point> {
     let step = chain.length() / (count.max(2) - 1) as f64;
     let mut segments = chain.segments();
@@ -64,7 +66,7 @@ pub(crate) fn places(chain: &Chain, count: usize) -> impl Iterator<Item = Point>
     })
 }
 
-/// A chain that is asked for its nearest point.
+/// Nearest-point queries on a chain.
 pub(crate) struct Near<'a> {
     chain: &'a Chain,
     grid: Option<SegmentCells>,
@@ -101,10 +103,10 @@ impl<'a> Near<'a> {
         (index, squared.sqrt())
     }
 
-    /// The largest distance of a point of `other`, if it is above `known`; branch and bound.
+    /// Largest distance of a point of `other` if it exceeds `known`, by branch and bound.
     ///
-    /// Between two points the distance to one segment is convex, and that to the whole chain no larger: the larger of
-    /// the distances of both points to the segment nearest to either bounds all in between.
+    /// Between two points, the distance to one segment is convex, and the distance to the whole chain is no
+    /// larger. So the larger end distance to the segment nearest to either end bounds all points between.
     pub(crate) fn farthest(&self, other: &Chain, known: f64) -> f64 {
         let mut most = known;
         let to_segment = |p: Point, index: usize| match self.chain.points.get(index..index + 2) {
@@ -159,7 +161,7 @@ mod tests {
         assert!((apart(&line, &along).largest - 5.0).abs() < 1e-9);
         let roof = chain(&[(0.0, 0.0), (50.0, 40.0), (100.0, 0.0)]);
         assert!((apart(&line, &roof).largest - 40.0).abs() < 1e-9);
-        // The farthest point of the line is inside it: between the ends of two others.
+        // The farthest point of the line is in its middle, between two sides of the comb.
         let comb = chain(&[(0.0, 0.0), (0.0, 300.0), (100.0, 300.0), (100.0, 0.0)]);
         let wide = chain(&[(0.0, 0.0), (100.0, 0.0)]);
         let directed = Near::new(&comb).farthest(&wide, 0.0);

@@ -1,16 +1,17 @@
-//! The area of a region, holes taken out.
+//! Area of a region, without its holes.
 
 use kurbo::{Point, Shape as _};
 
 use super::chain::flatten;
 use crate::diff::shapes::picture::Shape;
 
-/// Regions of more rings are measured by the sum of their turns: telling which ring is in which would take longer.
+/// Regions with more rings are measured by their signed area. Nesting tests are quadratic in the number of
+/// rings.
 const MOST_RINGS: usize = 200;
-/// Curves are flattened within this (px): areas are told to a square px or so.
+/// Flatness of curves in px; areas are reported to about one square px.
 const FLAT_PX: f64 = 0.05;
 
-/// The area in square px.
+/// Area of a region in square px.
 pub(crate) fn area(shape: &Shape) -> f64 {
     let turned = || shape.path.area().abs();
     if !shape.even_odd || shape.path.elements().len() < 5 {
@@ -30,7 +31,7 @@ pub(crate) fn area(shape: &Shape) -> f64 {
     (0..rings.len()).map(signed).sum()
 }
 
-/// The area that a ring encloses.
+/// Area enclosed by a ring.
 pub(crate) fn ring_area(ring: &[Point]) -> f64 {
     ring.windows(2).map(|pair| pair[0].to_vec2().cross(pair[1].to_vec2())).sum::<f64>().abs() / 2.0
 }

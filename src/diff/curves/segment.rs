@@ -1,8 +1,8 @@
-//! [`Segment`]: a straight piece of a chain.
+//! Straight segments of chains.
 
 use kurbo::Point;
 
-/// A segment of a chain.
+/// A segment and the number of its chain.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Segment {
     pub chain: u32,
@@ -10,7 +10,7 @@ pub(crate) struct Segment {
     pub to: Point,
 }
 
-/// The point of a segment nearest to a point.
+/// The point of a segment nearest to a given point.
 pub(crate) fn nearest_on(from: Point, to: Point, p: Point) -> Point {
     let along = to - from;
     let length2 = along.hypot2();

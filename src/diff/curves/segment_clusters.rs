@@ -1,36 +1,38 @@
-//! [`Bundles`]: segments in a tree by where they begin and end, so that thousands that lie nearly on each other are asked as one.
+//! Tree of segments by both end points, so that thousands of nearly coincident segments are tested as one.
 
 use kurbo::{Point, Rect};
 
 use super::segment::{Segment, nearest_on};
 
-/// Segments of a leaf, at most.
+/// Most segments of a leaf.
 const LEAF: usize = 4;
 
-/// What a search comes to.
+/// One step of a search in [`Bundles`].
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Met {
-    /// Segments that all lie within `radius` of the one from `from` to `to`, point by point: are they to be looked into?
+    /// Segments that all lie within `radius` of the segment `from`–`to`, point by point. The visitor returns
+    /// whether to descend.
     Bundle { from: Point, to: Point, radius: f64 },
-    /// One segment, by its number: is that enough?
+    /// One segment, by its number. The visitor returns whether to stop.
     One(u32),
 }
 
-/// A tree over segments: halves by the coordinate of their ends in which they differ most.
+/// Binary tree of segments, halved along the end coordinate with the largest extent.
 #[derive(Debug)]
 pub(crate) struct Bundles {
     nodes: Vec<Node>,
-    /// The numbers of the segments, node by node.
+    /// Segment numbers, grouped by node.
     items: Vec<u32>,
 }
 
+/// A node of the tree.
 #[derive(Debug, Clone, Copy)]
 struct Node {
-    /// The boxes of the starts and of the ends.
+    /// Bounding boxes of the starts and of the ends.
     starts: Rect,
     ends: Rect,
     items: (usize, usize),
-    /// The second half's node; the first one's is the next. `None` for leaves.
+    /// Index of the second child; the first child is the next node. `None` for leaves.
     second: Option<usize>,
 }
 
@@ -44,6 +46,7 @@ impl Bundles {
         tree
     }
 
+    /// Adds the node of a range of `items` and its descendants.
     fn split(&mut self, segments: &[Segment], first: usize, last: usize) {
         let of = |item: u32| segments[item as usize];
         let bounds = |end: fn(&Segment) -> Point, items: &[u32]| {
@@ -71,7 +74,8 @@ impl Bundles {
         self.split(segments, middle, last);
     }
 
-    /// Goes through the bundles that are to be looked into, down to single segments, until one is enough; says whether one was.
+    /// Visits clusters and descends where the visitor returns `true`, until one segment stops the search.
+    /// Returns whether one did.
     pub(crate) fn search(&self, mut meet: impl FnMut(Met) -> bool) -> bool {
         let mut open = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
         while let Some(index) = open.pop() {
@@ -97,11 +101,11 @@ impl Bundles {
         false
     }
 
-    /// Whether one of these segments, of which the tree was made, is within `reach` of a point.
+    /// Whether any segment is within `reach` of a point. `segments` must be those of [`Self::new`].
     pub(crate) fn any(&self, segments: &[Segment], p: Point, reach: f64) -> bool {
         let within = |from: Point, to: Point, reach: f64| p.distance(nearest_on(from, to, p)) <= reach;
         self.search(|met| match met {
-            // A whiff more, for rounding.
+            // A small margin for rounding.
             Met::Bundle { from, to, radius } => within(from, to, (reach + radius) * (1.0 + 1e-9)),
             Met::One(item) => {
                 segments.get(item as usize).is_some_and(|segment| within(segment.from, segment.to, reach))
@@ -114,7 +118,7 @@ impl Bundles {
 mod tests {
     use super::*;
 
-    /// A fan from one point whose ends lie `step` px from each other.
+    /// Segments from one point whose ends are `step` px apart.
     fn fan(count: u32, step: f64) -> Vec<Segment> {
         let segment = |chain: u32| Segment {
             chain,

@@ -1,4 +1,4 @@
-//! [`SegmentCells`]: the segments of chains by place, for asking what is near.
+//! Uniform grid of the segments of chains, for queries of what is near.
 
 use std::sync::OnceLock;
 
@@ -9,13 +9,13 @@ use super::segment::Segment;
 use super::segment_clusters::Bundles;
 use crate::geometry::lists::csr_lists::{Grouped, grouped};
 
-/// Cells along the longer side, at most.
+/// Most cells along the longer side.
 const MOST_CELLS: f64 = 2048.0;
 
-/// Cells that a segment goes through, on average and about at most.
+/// Mean segment length in cells, at most. It limits the number of cells per segment.
 const CELLS_OF_SEGMENT: f64 = 16.0;
 
-/// More segments than this in the cells of one are a crowd.
+/// Above this number of candidate segments, the cluster tree is used instead.
 const CROWD: usize = 4096;
 
 /// Segments sorted into square cells.
@@ -26,18 +26,18 @@ pub(crate) struct SegmentCells {
     cell: f64,
     columns: usize,
     rows: usize,
-    /// The numbers of the segments that go through each cell.
+    /// Numbers of the segments that cross each cell.
     items: Grouped<u32>,
     bundles: OnceLock<Bundles>,
 }
 
 impl SegmentCells {
-    /// Sorts the segments of chains.
+    /// Builds the grid from the segments of chains.
     pub(crate) fn new(chains: &[Chain]) -> Self {
         Self::of(chains.iter().enumerate())
     }
 
-    /// Sorts the segments of chains, each with its number.
+    /// Builds the grid from the segments of chains with given numbers.
     pub(crate) fn of<'a>(chains: impl Iterator<Item = (usize, &'a Chain)>) -> Self {
         let segments: Vec<Segment> = chains
             .flat_map(|(chain, c)| {
@@ -54,7 +54,7 @@ impl SegmentCells {
             (low, high) = (Point::ZERO, Point::ZERO);
         }
         let side = (high.x - low.x).max(high.y - low.y).max(1.0);
-        // About a segment a cell, were they spread evenly; and long ones are not in too many.
+        // About one segment per cell if spread evenly, and a bounded number of cells per segment.
         let count = segments.len().max(1) as f64;
         let mean = segments.iter().map(|s| s.from.distance(s.to)).sum::<f64>() / count;
         let cell = (side / count.sqrt().ceil().clamp(1.0, MOST_CELLS)).max(mean / CELLS_OF_SEGMENT);
@@ -77,7 +77,7 @@ impl SegmentCells {
         grid
     }
 
-    /// Calls with each cell that may have something within `reach` of a segment.
+    /// Visits each cell that may contain points within `reach` of a segment.
     fn cells(&self, from: Point, to: Point, reach: f64, mut call: impl FnMut(usize)) {
         let (low, high) = if from.y <= to.y { (from, to) } else { (to, from) };
         let row = |y: f64| ((y - self.origin.y) / self.cell).floor();
@@ -90,7 +90,7 @@ impl SegmentCells {
         let slope = if high.y > low.y { (high.x - low.x) / (high.y - low.y) } else { 0.0 };
         let level = high.y - low.y <= self.cell * 1e-9;
         for y in first as usize..=last as usize {
-            // The part of the segment within reach of the row.
+            // Part of the segment within reach of the row.
             let bottom = self.origin.y + y as f64 * self.cell - reach;
             let top = bottom + self.cell + 2.0 * reach;
             let (x0, x1) = if level {
@@ -99,7 +99,7 @@ impl SegmentCells {
                 let x = |y: f64| low.x + (y.clamp(low.y, high.y) - low.y) * slope;
                 (x(bottom), x(top))
             };
-            // A whiff more, for rounding.
+            // A small margin for rounding.
             let slack = reach + self.cell * 1e-6;
             let left = column(x0.min(x1) - slack).max(0.0);
             let right = column(x0.max(x1) + slack).min(self.columns as f64 - 1.0);
@@ -109,8 +109,8 @@ impl SegmentCells {
         }
     }
 
-    /// The segments that may lie within `reach` of a segment, each once, in order; `false` where they are a crowd, which
-    /// [`Self::bundles`] are for.
+    /// Collects the segments that may lie within `reach` of a segment, each once, in order. Returns `false`
+    /// if there are too many; then use [`Self::bundles`].
     pub(crate) fn near(&self, from: Point, to: Point, reach: f64, found: &mut Vec<u32>) -> bool {
         found.clear();
         let mut cells = 0;
@@ -123,7 +123,7 @@ impl SegmentCells {
         if found.len() > CROWD {
             return false;
         }
-        // One cell's are in order.
+        // The segments of a single cell are already sorted.
         if cells > 1 {
             found.sort_unstable();
             found.dedup();
@@ -131,13 +131,15 @@ impl SegmentCells {
         true
     }
 
-    /// All segments by where they begin and end.
+    /// Cluster tree of all segments, built on first use.
     pub(crate) fn bundles(&self) -> &Bundles {
         self.bundles.get_or_init(|| Bundles::new(&self.segments))
     }
 
-    /// Calls with segments ever farther from a point, until the call says that all within a distance are enough:
-    /// it is asked after each ring of cells, with the distance within which all have been seen. So many are seen in all.
+    /// Visits segments in rings of cells around a point, nearest ring first.
+    ///
+    /// After each ring, `enough` receives the distance within which all segments were visited, and returns
+    /// whether to stop. The search also stops at distance `reach` or after `most_seen` segments.
     pub(crate) fn rings(
         &self,
         p: Point,

@@ -1,4 +1,4 @@
-//! [`Diff`] and its [`Finding`]s: what differs, one finding a mark.
+//! Result of a comparison: one [`Finding`] for each changed mark.
 
 use std::sync::Arc;
 
@@ -10,32 +10,32 @@ use super::pixel_count::PixelDiff;
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
 
-/// What became of a mark.
+/// How a mark changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
-    /// It is only in the first drawing.
+    /// Exists only in the first drawing.
     Removed,
-    /// It is only in the second drawing.
+    /// Exists only in the second drawing.
     Added,
-    /// It has another form: another length, another bend, a hole less.
+    /// Has another form: another length, another bend, one hole less.
     Reshaped,
-    /// It lies elsewhere, whole.
+    /// Moved as a whole.
     Moved,
-    /// It lies where it lay, and is painted differently.
+    /// Has the same place but another paint.
     Restyled,
-    /// It lies over a mark that lay over it, or under one that lay under it.
+    /// Is painted before or after a mark that overlaps it, in the opposite order.
     Restacked,
-    /// It looks as it did, and belongs to another part, class or layer.
+    /// Looks the same but has another part, class or layer.
     Relabelled,
-    /// The page itself has another size.
+    /// The page has another size.
     Page,
-    /// It looks different, though all marks were found as they were.
+    /// Looks different although all marks were found unchanged.
     Picture,
 }
 
 impl Verdict {
-    /// All verdicts, the gravest first.
+    /// All verdicts, the most serious first.
     pub const ALL: [Self; 9] = [
         Self::Page,
         Self::Removed,
@@ -48,7 +48,7 @@ impl Verdict {
         Self::Relabelled,
     ];
 
-    /// The word for it.
+    /// Name of the verdict, as in reports.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -65,48 +65,49 @@ impl Verdict {
     }
 }
 
-/// The first look at which two drawings are the same.
+/// The first test that two equal drawings pass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Stage {
-    /// The files are equal.
+    /// The files are equal byte for byte.
     Bytes,
-    /// Each mark has its equal, point for point; order, grouping and the look of numbers may differ.
+    /// The marks are equal point for point; order, grouping and number formats may differ.
     Structure,
-    /// Ink lies on the same places in both, within tolerance.
+    /// The marks are in the same places within tolerance.
     Geometry,
-    /// The marks differ but look the same: one picture, drawn in two ways.
+    /// The marks differ, but the pixels are the same.
     Picture,
 }
 
-/// One thing that is different about a mark beside its geometry.
+/// One changed property of a mark other than its geometry.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Change {
-    /// `colour`, `width`, `dash`, `tone`, `part`, `class`, ….
+    /// Name of the property: `colour`, `width`, `dash`, `tone`, `part`, `class`, ….
     pub what: String,
-    /// What it was.
+    /// Old value.
     pub old: String,
-    /// What it is.
+    /// New value.
     pub new: String,
 }
 
-/// Where a finding is: the box round both the old and the new mark, in px from the page's corner.
+/// Bounding box of the old and the new mark, in px from the page's upper left corner.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Place {
-    /// Left.
+    /// Left edge.
     pub x: f64,
-    /// Top.
+    /// Top edge.
     pub y: f64,
-    /// Width.
+    /// Width in px.
     pub width: f64,
-    /// Height.
+    /// Height in px.
     pub height: f64,
 }
 
-/// A place by the bits of its numbers.
+/// A [`Place`] by the bits of its numbers, as a hash key.
 pub(crate) type PlaceKey = [u64; 4];
 
 impl Place {
+    /// A rectangle rounded to a hundredth of a px.
     pub(crate) fn of(rect: Rect) -> Self {
         let round = |value: f64| (value * 100.0).round() / 100.0;
         Self {
@@ -117,54 +118,54 @@ impl Place {
         }
     }
 
-    /// It as a key.
+    /// The hash key of this box.
     pub(crate) fn key(&self) -> PlaceKey {
         [self.x, self.y, self.width, self.height].map(f64::to_bits)
     }
 
-    /// The middle.
+    /// Centre of the box.
     #[must_use]
     pub fn middle(&self) -> (f64, f64) {
         (self.x + self.width / 2.0, self.y + self.height / 2.0)
     }
 }
 
-/// What became of one mark; lengths in px, areas in square px.
+/// Change of one mark; lengths in px, areas in square px.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Finding {
-    /// What became of it.
+    /// How the mark changed.
     pub verdict: Verdict,
-    /// Line or region.
+    /// Line, region or clip.
     pub kind: ShapeKind,
-    /// What it is, or was before it was relabelled.
+    /// Label of the mark; for relabelled marks the old one.
     pub label: Label,
-    /// What else is different.
+    /// Changed properties.
     pub changes: Vec<Change>,
-    /// Where.
+    /// Bounding box of the change.
     pub place: Place,
-    /// Length of the line or area of the region: the old one, of what is added the new one.
+    /// Length of a line or area of a region: the old one, or the new one of an added mark.
     pub size: f64,
-    /// How much longer or larger it is now.
+    /// Increase of the length or area.
     pub growth: f64,
-    /// Length of what is gone of a line, and of what is new of it; 0 where it is told as a whole.
+    /// Removed and added length of a line; 0 where the line is reported as a whole.
     pub pieces: [f64; 2],
-    /// The material of the old mark, where the file names it.
+    /// Material of the old mark, where the file names it.
     pub material: Option<Arc<str>>,
-    /// The largest distance between old and new: the Hausdorff distance. 0 where there is only one.
+    /// Hausdorff distance between old and new; 0 if there is only one of them.
     pub largest: f64,
-    /// 95 % of it is nearer than this to what it was.
+    /// 95th percentile of the distance.
     pub p95: f64,
-    /// How far all of it went, x right and y down, where all of it went the same way.
+    /// Shift of the mark, x right and y down, if all of it moved alike.
     pub shift: Option<[f64; 2]>,
-    /// What is gone of the old one, and what is new of the new one.
+    /// Removed part of the old mark, and added part of the new one.
     pub(crate) gone: BezPath,
     pub(crate) new: BezPath,
-    /// Whether it follows from a motion of the whole drawing.
+    /// Whether the finding follows from a motion of the whole drawing.
     pub(crate) carried: bool,
 }
 
 impl Finding {
-    /// A finding about something that lies where it lay.
+    /// A finding about a mark that did not move.
     pub(crate) fn in_place(
         verdict: Verdict,
         kind: ShapeKind,
@@ -192,51 +193,51 @@ impl Finding {
     }
 }
 
-/// What several findings follow from: a part that moved, a page that grew.
+/// Common cause of several findings, such as a moved part or a larger page.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Cause {
-    /// What happened: the verdict of most that follows from it.
+    /// The verdict of most findings of this cause.
     pub verdict: Verdict,
-    /// What happened, in words.
+    /// The cause as a sentence.
     pub sentence: String,
-    /// What follows from it: places in the list of findings.
+    /// Indexes of its findings in [`Diff::findings`].
     pub findings: Vec<usize>,
 }
 
-/// What differs between two drawings.
+/// Result of a comparison of two drawings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Diff {
-    /// What differs, the gravest first, then by part, class and place.
+    /// All findings, the most serious first, then by part, class and place.
     pub findings: Vec<Finding>,
-    /// What many findings follow from, told in their place; each finding follows from one cause at most.
+    /// Causes reported in place of their findings. Each finding belongs to at most one cause.
     pub causes: Vec<Cause>,
-    /// The first look at which the drawings are the same; `None` if they are not.
+    /// The first test that the drawings pass; `None` if they differ.
     pub same_at: Option<Stage>,
-    /// Lengths and areas.
+    /// Total lengths and areas.
     pub totals: Totals,
-    /// The tolerance of what has none of its own, in px.
+    /// Default tolerance in px.
     pub tolerance_px: f64,
-    /// Tolerances that were given for what neither drawing has.
+    /// Names of tolerances that match no mark in either drawing.
     pub unused_tolerances: Vec<String>,
-    /// Whether the pictures could not be compared, because one takes too long to rasterise: geometry alone was.
+    /// Whether the pixels could not be compared, because one drawing takes too long to rasterise.
     pub pictures_unknown: bool,
-    /// Whether one finding stands for all marks, because the drawing is seen from another side and
+    /// Whether one finding stands for all marks, because the camera changed and
     /// [`DiffOptions::brief`](crate::diff::DiffOptions::brief) allows it.
     pub is_brief: bool,
-    /// The comparison of pixels, where it was asked for.
+    /// Comparison of pixels, if requested.
     pub pixels: Option<PixelDiff>,
     pub(crate) before: Picture,
     pub(crate) after: Picture,
 }
 
 impl Diff {
-    /// Whether nothing differs.
+    /// Whether the drawings are the same.
     #[must_use]
     pub fn is_same(&self) -> bool {
         self.same_at.is_some()
     }
 
-    /// The findings of one verdict.
+    /// Findings of one verdict.
     pub fn of(&self, verdict: Verdict) -> impl Iterator<Item = &Finding> {
         self.findings.iter().filter(move |finding| finding.verdict == verdict)
     }

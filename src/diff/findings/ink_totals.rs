@@ -1,4 +1,4 @@
-//! [`Totals`]: how much ink there is, by layer, class and part.
+//! Total ink by layer, class and part.
 
 use std::collections::BTreeMap;
 
@@ -14,25 +14,25 @@ pub struct Measure {
     pub marks: [usize; 2],
     /// Length of lines.
     pub length: [f64; 2],
-    /// Area of regions; what lies over what is not asked.
+    /// Area of regions. Overlaps are counted twice.
     pub area: [f64; 2],
 }
 
-/// Ink by what it belongs to; the entry of marks without a name is empty.
+/// Ink by name; marks without a name have an empty name.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Totals {
-    /// Of everything.
+    /// All marks.
     pub all: Measure,
     /// By layer.
     pub layers: BTreeMap<String, Measure>,
-    /// By class; of several classes the first that is not `silhouette`.
+    /// By class; of several classes, the first other than `silhouette`.
     pub classes: BTreeMap<String, Measure>,
     /// By part.
     pub parts: BTreeMap<String, Measure>,
 }
 
 impl Totals {
-    /// The totals of two pictures.
+    /// Totals of two pictures.
     pub(crate) fn of(before: &Picture, after: &Picture) -> Self {
         let mut totals = Self::default();
         for (side, picture) in [before, after].into_iter().enumerate() {

@@ -1,4 +1,4 @@
-//! [`PixelDiff`]: how many pixels of two drawings differ, on white, as `--pixels` counts them.
+//! Count of the pixels that differ between two drawings on white, for `--pixels`.
 
 use resvg::tiny_skia::{Pixmap, Transform};
 use serde::Serialize;
@@ -7,23 +7,23 @@ use crate::diff::markup::sheet_inlining;
 use crate::diff::shapes::picture::Picture;
 use crate::export::raster::tree_painter;
 
-/// Channels of a pixel that differ by more than this differ to the eye; borders are blended a little differently.
+/// Channel differences above this are visible. Borders are blended slightly differently.
 const VISIBLE: u8 = 24;
-/// Pixels of the longer side, at most: larger drawings are made smaller.
+/// Most pixels of the longer side; larger drawings are scaled down.
 const MOST_PIXELS: f64 = 4000.0;
-/// Dashes of one line, at most: each is drawn.
+/// Most dashes of one line, because each is drawn separately.
 const MOST_DASHES: f64 = 200_000.0;
 
-/// How many pixels look different.
+/// Number of pixels that look different.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct PixelDiff {
-    /// Width of both pictures in pixels.
+    /// Width of both rasters in pixels.
     pub width: u32,
-    /// Height of both pictures in pixels.
+    /// Height of both rasters in pixels.
     pub height: u32,
-    /// Pixels that look different.
+    /// Number of pixels that look different.
     pub differing: u64,
-    /// The largest difference of a channel, 0 to 255.
+    /// Largest difference of a channel, 0 to 255.
     pub largest: u8,
 }
 
@@ -34,6 +34,7 @@ impl PixelDiff {
         self.differing == 0
     }
 
+    /// The count in words.
     pub(crate) fn words(&self) -> String {
         match self.differing {
             0 => "no pixel differs".to_owned(),
@@ -43,7 +44,7 @@ impl PixelDiff {
     }
 }
 
-/// Compares the pixels; `None` if one of the drawings would take too long to rasterise.
+/// Compares the pixels of two drawings; `None` if one would take too long to rasterise.
 pub(crate) fn compare(before: &Picture, after: &Picture) -> Option<PixelDiff> {
     let (width, height) = (before.width.max(after.width), before.height.max(after.height));
     let scale = (MOST_PIXELS / width.max(height)).min(1.0);
@@ -71,7 +72,7 @@ fn rasterise(picture: &Picture, columns: u32, rows: u32, scale: f64) -> Option<P
     let options = usvg::Options {
         image_href_resolver: usvg::ImageHrefResolver {
             resolve_data: usvg::ImageHrefResolver::default_data_resolver(),
-            // Nothing is read from the disk.
+            // Do not read files.
             resolve_string: Box::new(|_, _| None),
         },
         ..usvg::Options::default()

@@ -1,9 +1,9 @@
-//! [`Cascade`]: what style sheets say of each element, in time that grows with the elements times the parts of
-//! selectors that may fit them, however selectors nest.
+//! CSS cascade of a document, in time linear in elements times matching selector parts.
 //!
-//! Elements are entered and left in the order of the file. For each part of a selector it is known how many of the
-//! elements around fit it and all before it: whether a selector fits is then asked once an element and part,
-//! where a search upwards would begin anew at each.
+//! Elements are entered and left in document order. For each part of a selector, a counter stores how many
+//! open elements match it and all parts before it. So each selector is tested once per element and part. A
+//! search through the ancestors would start again at each element and grow exponentially with nested
+//! selectors.
 
 use rustc_hash::FxHashSet;
 use usvg::roxmltree::{Document, Node};
@@ -12,37 +12,38 @@ use super::style_sheet::{Compound, Declaration, Index, Part, Relation, Sheet, Te
 use super::tag_limits::too_much;
 use crate::error::Error;
 
-/// Parts of selectors that are tried on elements, in a file.
+/// Most tests of selector parts against elements in a file.
 const MOST_TRIALS: usize = 40_000_000;
-/// Bytes of declarations that elements get, in a file.
+/// Most bytes of declarations applied to elements in a file.
 const MOST_GIVEN: usize = 64_000_000;
 
-/// The style sheets of a document at one of its elements.
+/// Style sheets of a document, evaluated at the current element.
 pub(crate) struct Cascade<'a> {
     sheet: Sheet<'a>,
     index: Index<'a>,
-    /// How many of the elements around fit each part.
+    /// Number of open elements that match each selector part.
     around: Vec<u32>,
     open: Vec<Level>,
     trials: usize,
     given: usize,
-    /// Whether something stands in the sheets that is not applied.
+    /// Whether the sheets contain rules that are not applied.
     pub has_more: bool,
 }
 
-/// An open element.
+/// State of an open element.
 #[derive(Default)]
 struct Level {
-    /// The parts that it fits.
+    /// Selector parts that the element matches.
     fits: Vec<u32>,
-    /// The parts that its last child so far fits, and those that any of its children fits that others may come after.
+    /// Parts matched by its last child, and parts matched by any earlier child that a `~` combinator may
+    /// follow.
     last: Vec<u32>,
     earlier: FxHashSet<u32>,
     has_children: bool,
 }
 
 impl<'a> Cascade<'a> {
-    /// The style sheets inside a document.
+    /// Reads the style sheets inside a document.
     pub(crate) fn of(document: &'a Document) -> Self {
         let mut sheet = Sheet::default();
         let mut has_more = false;
@@ -61,15 +62,15 @@ impl<'a> Cascade<'a> {
         Self { sheet, index, around, open: vec![Level::default()], trials: 0, given: 0, has_more }
     }
 
-    /// Whether there are no rules at all.
+    /// Whether there are no rules.
     pub(crate) fn is_empty(&self) -> bool {
         self.sheet.rules.is_empty()
     }
 
-    /// Goes into an element, and tells what the sheets declare for it, what wins last.
+    /// Enters an element and returns its declarations from the sheets, in order of increasing precedence.
     ///
     /// # Errors
-    /// Where there are more rules and elements than are read.
+    /// If rules times elements exceed the limits.
     pub(crate) fn enter(&mut self, node: Node) -> Result<Vec<Declaration<'a>>, Error> {
         if self.is_empty() {
             return Ok(Vec::new());
@@ -92,7 +93,7 @@ impl<'a> Cascade<'a> {
         let mut won: Vec<usize> = Vec::new();
         for number in lists.into_iter().flatten() {
             let Some(part) = self.sheet.parts.get(*number as usize) else { continue };
-            // Long attributes take longer.
+            // Tests of long attributes count more.
             let tests = part.compound.tests.iter();
             let long = tests.map(|(name, _)| 1 + node.attribute(*name).map_or(0, str::len) / 64);
             self.trials += 1 + long.sum::<usize>();
@@ -125,7 +126,7 @@ impl<'a> Cascade<'a> {
         Ok(found)
     }
 
-    /// Leaves the element that was entered last.
+    /// Leaves the element entered last.
     pub(crate) fn leave(&mut self) {
         if self.is_empty() {
             return;
@@ -147,7 +148,7 @@ impl<'a> Cascade<'a> {
         }
     }
 
-    /// Whether what the part before this one asks for is where it has to be.
+    /// Whether the part before this one matched an element in the required relation.
     fn is_in_place(&self, number: u32, part: &Part) -> bool {
         let Some(before) = number.checked_sub(1) else { return part.relation == Relation::First };
         let parent = self.open.last();
@@ -161,7 +162,7 @@ impl<'a> Cascade<'a> {
     }
 }
 
-/// Whether an element is what a part of a selector asks for.
+/// Whether an element matches one compound selector.
 fn fits(compound: &Compound, node: Node, first: bool) -> bool {
     let named = compound.name.is_none_or(|name| name == node.tag_name().name());
     named
@@ -185,7 +186,7 @@ fn fits(compound: &Compound, node: Node, first: bool) -> bool {
 mod tests {
     use super::*;
 
-    /// What the sheet says of each element, by the elements' names for themselves.
+    /// The declared values of each element, keyed by its attribute `n`.
     fn told(svg: &str) -> String {
         fn inside(node: Node, cascade: &mut Cascade, out: &mut String) {
             let list = cascade.enter(node).unwrap();
@@ -254,10 +255,10 @@ mod tests {
         assert!(refused(&format!("{}g{{fill:red}}", "g,".repeat(20_000)), &many).contains("style rules"));
         let long = format!("g{{{}}}", "a:b;".repeat(20_000));
         assert!(refused(&long, &many).contains("declarations"));
-        // What is named is only tried where it may fit.
+        // Selectors with names are only tried on elements with those names.
         let named: String = (0..20_000).map(|i| format!(".c{i} g.d{i}{{fill:red}}")).collect();
         assert_eq!(refused(&named, &many), "read");
-        // A search upwards would take the number of groups to the power of that of names.
+        // A search through the ancestors would take (groups)^(names) steps.
         let nested = "<g>".repeat(200) + "<p/>" + &"</g>".repeat(200);
         assert_eq!(refused(&format!("x {}p{{fill:red}}", "g ".repeat(60)), &nested), "read");
         assert_eq!(refused(&format!("x {}p{{fill:red}}", "g ".repeat(60)).repeat(1000), &nested), "read");

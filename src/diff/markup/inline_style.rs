@@ -1,4 +1,4 @@
-//! [`said`]: what is declared for one element, as an attribute `style` that readers take no long time for.
+//! The declarations of one element as a `style` attribute of bounded length.
 
 use std::fmt::Write as _;
 
@@ -8,30 +8,31 @@ use super::style_sheet::{self, Declaration};
 use super::tag_limits::too_much;
 use crate::error::Error;
 
-/// Declarations of which only the last of each property is kept, and properties that an element may have: readers take time in
-/// proportion to the square of them.
+/// With more declarations than this, only the last one of each property is kept. Readers take quadratic time
+/// in the number of declarations.
 const MANY: usize = 64;
+/// Most declarations of an element after that.
 const MOST_PROPERTIES: usize = 1000;
-/// Bytes of a style of another form.
+/// Most bytes of a style that is not a plain list of declarations.
 const LONG: usize = 4096;
 
-/// Whether a style is longer than any that is written by hand or program.
+/// Whether a style is longer than usual.
 pub(crate) fn is_long(style: &str) -> bool {
     style.len() > LONG
 }
 
-/// What sheets declare for an element, and then what it says of itself, which wins: with XML's signs as entities.
+/// Declarations of style sheets, followed by those of the element itself, which take precedence. Escaped for
+/// XML.
 ///
 /// # Errors
-/// Where it is more than is read.
+/// If the style exceeds the limits.
 pub(crate) fn said(declared: &[Declaration], own: &str) -> Result<String, Error> {
     let many = declared.len() + own.matches(';').count() > MANY;
     let listed = if many || is_long(own) { style_sheet::declarations(own) } else { None };
     let rest = if listed.is_some() { "" } else { own };
     let mut all: Vec<Declaration> = declared.iter().copied().chain(listed.into_iter().flatten()).collect();
     if many {
-        // What is said of one thing several times may be meant for programs that do not know the last of it; said so often
-        // it is not.
+        // Repeated properties may be fallbacks for older programs. That many repetitions are not.
         let mut known: FxHashSet<(&str, bool)> = FxHashSet::default();
         all = all.into_iter().rev().filter(|d| known.insert((d.name, d.important))).collect();
         all.reverse();
@@ -46,7 +47,7 @@ pub(crate) fn said(declared: &[Declaration], own: &str) -> Result<String, Error>
     Ok(out + &escaped(rest))
 }
 
-/// A text with XML's signs as entities.
+/// Escapes text for XML.
 pub(crate) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }

@@ -1,5 +1,5 @@
-//! Reading XML that may be hostile: what would take more time or memory than its length accounts for is refused before
-//! anything is expanded.
+//! Parsing of untrusted XML. Files that would take more time or memory than their length justifies are
+//! refused before anything is expanded.
 
 use rustc_hash::FxHashMap;
 use usvg::roxmltree::{self, Document, Node, NodeId, ParsingOptions};
@@ -7,12 +7,12 @@ use usvg::roxmltree::{self, Document, Node, NodeId, ParsingOptions};
 use super::tag_limits::{self, DEEPEST, too_deep, too_much};
 use crate::error::Error;
 
-/// Elements of a file.
+/// Most elements of a file.
 const MOST_NODES: u32 = 8_000_000;
-/// Bytes of what is drawn, references followed, beyond the file's own.
+/// Most bytes drawn through references, in addition to four times the length of the file.
 const MOST_REFERRED_BYTES: u64 = 200_000_000;
 
-/// Parses a file of XML.
+/// Parses an SVG file after checking its limits.
 pub(crate) fn parse(text: &str) -> Result<Document<'_>, Error> {
     before_parsing(text)?;
     let options = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
@@ -27,7 +27,7 @@ pub(crate) fn parse(text: &str) -> Result<Document<'_>, Error> {
     Ok(document)
 }
 
-/// The parser's message, with the place where an error has it.
+/// The parser's error message with its position in the file.
 fn in_words(error: roxmltree::Error) -> Error {
     let line = error.pos();
     let text = error.to_string();
@@ -37,7 +37,7 @@ fn in_words(error: roxmltree::Error) -> Error {
         .remedy("give a whole SVG file")
 }
 
-/// What the parser itself would take too long for.
+/// Checks that must happen before the parser runs.
 fn before_parsing(text: &str) -> Result<(), Error> {
     let start = text.trim_start_matches('\u{feff}').trim_start();
     if start.is_empty() {
@@ -49,13 +49,14 @@ fn before_parsing(text: &str) -> Result<(), Error> {
     tag_limits::check(text)
 }
 
-/// How much each element stands for, references followed.
+/// Size of each element with all its references expanded.
 struct Weights<'a, 'input> {
     ids: FxHashMap<&'a str, Node<'a, 'input>>,
     known: FxHashMap<NodeId, Option<Weight>>,
     root: Node<'a, 'input>,
 }
 
+/// Expanded size of an element in bytes, and the height of its tree.
 #[derive(Clone, Copy, Default)]
 struct Weight {
     bytes: u64,
@@ -68,6 +69,7 @@ impl<'a, 'input> Weights<'a, 'input> {
         Self { ids: named.collect(), known: FxHashMap::default(), root: document.root_element() }
     }
 
+    /// Refuses a document whose references expand to too many bytes.
     fn check(mut self, length: usize) -> Result<(), Error> {
         let weight = self.of(self.root, 0)?;
         let limit = MOST_REFERRED_BYTES.saturating_add(4 * length as u64);
@@ -77,7 +79,7 @@ impl<'a, 'input> Weights<'a, 'input> {
         Ok(())
     }
 
-    /// What an element stands for; `depth` elements are around it.
+    /// Size of an element that is `depth` levels deep.
     fn of(&mut self, node: Node<'a, 'input>, depth: usize) -> Result<Weight, Error> {
         match self.known.get(&node.id()) {
             Some(Some(known)) if depth + known.height <= DEEPEST => return Ok(*known),
@@ -89,7 +91,7 @@ impl<'a, 'input> Weights<'a, 'input> {
             None if depth > DEEPEST => return Err(too_deep()),
             None => {}
         }
-        // Marked as begun: who comes back here refers to itself.
+        // Marks the element as in progress: reaching it again means that it refers to itself.
         self.known.insert(node.id(), None);
         let mut weight = Weight { bytes: 64, height: 0 };
         let mut add = |inner: Weight, times: u64| {
@@ -98,7 +100,7 @@ impl<'a, 'input> Weights<'a, 'input> {
         };
         for attribute in node.attributes() {
             let value = attribute.value();
-            // Of a picture no more is read than where it stands: a rectangle does for its bytes.
+            // Embedded pictures are not decoded: a rectangle stands for them.
             let is_picture = node.tag_name().name() == "image" && attribute.name() == "href";
             let bytes = if is_picture { 0 } else { value.len() as u64 };
             add(Weight { bytes, height: 0 }, 1);
@@ -131,7 +133,7 @@ impl<'a, 'input> Weights<'a, 'input> {
     }
 }
 
-/// Whether a link makes an element draw what it leads to. Those of texts and animations do not.
+/// Whether a link makes an element draw its target. Links of texts and animations do not.
 fn draws_its_target(node: Node) -> bool {
     matches!(
         node.tag_name().name(),

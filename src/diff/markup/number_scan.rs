@@ -1,18 +1,18 @@
-//! The numbers of an attribute, without reading them: how many decimals they have, and whether one is out of range.
+//! Scan of the numbers of an attribute: their decimals and their range, without parsing them.
 
-/// A number of this many digits before its point is no coordinate: ten million px are 2.6 km.
+/// Most digits before the point. Ten million px are 2.6 km, more than any drawing needs.
 const MOST_DIGITS: i64 = 8;
 
-/// What a scan of a text's numbers tells.
+/// Result of a scan.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Numbers {
-    /// Most decimals of a number.
+    /// Largest number of decimals.
     pub decimals: u8,
-    /// Byte where a number begins that is too large.
+    /// Byte offset of the first number that is too large.
     pub too_large: Option<usize>,
 }
 
-/// Scans the numbers of path data or of another attribute.
+/// Scans the numbers in path data or another attribute.
 pub(crate) fn scan(text: &str) -> Numbers {
     let bytes = text.as_bytes();
     let mut found = Numbers::default();
@@ -49,7 +49,7 @@ pub(crate) fn scan(text: &str) -> Numbers {
     found
 }
 
-/// The exponent that a number goes on with, and its length. `em` and `ex` are units.
+/// Value and length of the exponent that continues a number. `em` and `ex` are units.
 fn exponent(bytes: &[u8]) -> Option<(i64, usize)> {
     if !matches!(bytes.first(), Some(b'e' | b'E')) {
         return None;

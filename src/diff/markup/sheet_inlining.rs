@@ -1,4 +1,4 @@
-//! A file without style sheets: what they say of each element is written at it.
+//! Style sheets replaced by `style` attributes.
 
 use usvg::roxmltree::Node;
 
@@ -7,8 +7,8 @@ use super::inline_style::{is_long, said};
 use super::input_limits;
 use crate::error::Error;
 
-/// The file with what its style sheets say in attributes `style`, for readers that would search long for what a selector
-/// means; `None` where entities make it unsure which text is whose.
+/// The file with the declarations of its style sheets in `style` attributes, for readers that match selectors
+/// slowly. `None` if the file has entities, because text positions are ambiguous then.
 pub(crate) fn without_sheets(text: &str) -> Result<Option<String>, Error> {
     let document = input_limits::parse(text)?;
     let mut cascade = Cascade::of(&document);
@@ -24,7 +24,7 @@ pub(crate) fn without_sheets(text: &str) -> Result<Option<String>, Error> {
     Ok(Some(edited(text, edits)))
 }
 
-/// Replaces ranges of a text, none of which overlap.
+/// Replaces non-overlapping ranges of a text.
 pub(crate) fn edited(text: &str, mut edits: Vec<(std::ops::Range<usize>, String)>) -> String {
     edits.sort_by_key(|(range, _)| range.start);
     let mut out = String::with_capacity(text.len());
@@ -38,6 +38,7 @@ pub(crate) fn edited(text: &str, mut edits: Vec<(std::ops::Range<usize>, String)
     out
 }
 
+/// Collects the edits of an element and its children.
 fn collect(
     text: &str,
     node: Node,
@@ -68,7 +69,7 @@ fn collect(
     Ok(())
 }
 
-/// Where the name of an element ends.
+/// Byte position after the name of an element.
 pub(crate) fn after_name(text: &str, node: Node) -> usize {
     let start = node.range().start;
     let rest = text.get(start..).unwrap_or_default();

@@ -1,8 +1,8 @@
-//! [`Sheet`]: the style sheets of a file, read in one pass: rules with selectors in parts, and what they declare.
+//! CSS style sheets of a file, parsed in one pass into selectors and declarations.
 
 use rustc_hash::FxHashMap;
 
-/// What a style sheet says of an element: `fill: red !important`.
+/// A CSS declaration such as `fill: red !important`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Declaration<'a> {
     pub name: &'a str,
@@ -10,22 +10,22 @@ pub(crate) struct Declaration<'a> {
     pub important: bool,
 }
 
-/// How a part of a selector relates to the part before it.
+/// Relation of a compound selector to the one before it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Relation {
-    /// It has none before it.
+    /// The first one of its selector.
     First,
-    /// The one before is somewhere around.
+    /// The one before matches an ancestor (descendant combinator).
     Inside,
-    /// The one before is the parent.
+    /// The one before matches the parent (`>`).
     Child,
-    /// The one before is the element just before.
+    /// The one before matches the preceding sibling (`+`).
     Next,
-    /// The one before comes somewhere before, in the same parent.
+    /// The one before matches any earlier sibling (`~`).
     After,
 }
 
-/// What an attribute has to be.
+/// Condition on an attribute.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Test<'a> {
     Exists,
@@ -37,7 +37,7 @@ pub(crate) enum Test<'a> {
     Contains(&'a str),
 }
 
-/// One part of a selector: `path.crease#lid`.
+/// A compound selector such as `path.crease#lid`.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Compound<'a> {
     pub name: Option<&'a str>,
@@ -45,39 +45,39 @@ pub(crate) struct Compound<'a> {
     pub first_child: bool,
 }
 
-/// A part of a selector in its place.
+/// A compound selector with its position in its selector.
 #[derive(Debug, Clone)]
 pub(crate) struct Part<'a> {
     pub compound: Compound<'a>,
     pub relation: Relation,
-    /// The rule, if the selector ends here.
+    /// Index of the rule, if the selector ends here.
     pub rule: Option<usize>,
-    /// How the next part relates to this one.
+    /// Relation of the next compound selector to this one.
     pub next: Option<Relation>,
 }
 
-/// What a selector applies.
+/// A selector with its declarations.
 #[derive(Debug, Clone)]
 pub(crate) struct Rule {
-    /// Ids, classes and names, for which of two rules wins.
+    /// Specificity: numbers of ids, of classes and attributes, and of element names.
     pub weight: [u32; 3],
-    /// Declarations in [`Sheet::blocks`].
+    /// Index of the declarations in [`Sheet::blocks`].
     pub block: usize,
 }
 
-/// The style sheets of a file.
+/// All style sheets of a file.
 #[derive(Debug, Default)]
 pub(crate) struct Sheet<'a> {
-    /// The parts of all selectors; each selector's are neighbours.
+    /// Compound selectors of all rules; those of one selector are neighbours.
     pub parts: Vec<Part<'a>>,
     pub rules: Vec<Rule>,
     pub blocks: Vec<Vec<Declaration<'a>>>,
-    /// Whether something stands in it that is not applied: rules for media, states of a pointer, mistakes.
+    /// Whether the sheets contain rules that are not applied: at-rules, pseudo-classes or errors.
     pub has_more: bool,
 }
 
 impl<'a> Sheet<'a> {
-    /// Reads one more sheet.
+    /// Parses one more sheet.
     pub(crate) fn read(&mut self, text: &'a str) {
         let mut reader = Reader { text, at: 0 };
         loop {
@@ -92,7 +92,7 @@ impl<'a> Sheet<'a> {
                     }
                     reader.at += 1;
                 }
-                // A brace too many, or what some editors put round a sheet.
+                // A stray brace, or the comment markers that some editors put around a sheet.
                 Some(b'}' | b';') => reader.at += 1,
                 Some(_) if reader.rest().starts_with("<!--") => reader.at += 4,
                 Some(_) if reader.rest().starts_with("-->") => reader.at += 3,
@@ -101,6 +101,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
+    /// Parses a rule with its selectors and declarations.
     fn rule(&mut self, reader: &mut Reader<'a>) {
         let selectors = reader.until(b"{");
         let body = reader.block();
@@ -133,7 +134,7 @@ impl<'a> Sheet<'a> {
         }
     }
 
-    /// The parts that an element may fit, by the most telling of what they ask for.
+    /// Index of the compound selectors by their most selective condition.
     pub(crate) fn index(&self) -> Index<'a> {
         let mut index = Index::default();
         for (number, part) in self.parts.iter().enumerate() {
@@ -155,7 +156,7 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// The parts of selectors by what they ask for.
+/// Numbers of compound selectors by the condition on which they are looked up.
 #[derive(Debug, Default)]
 pub(crate) struct Index<'a> {
     pub ids: FxHashMap<&'a str, Vec<u32>>,
@@ -164,8 +165,7 @@ pub(crate) struct Index<'a> {
     pub any: Vec<u32>,
 }
 
-/// The declarations of a block or of an attribute `style`; `None` where it is more than a list of names and values. What stands before
-/// a mistake is lost with it.
+/// Declarations of a block or of a `style` attribute; `None` if any part of it is not a plain declaration.
 pub(crate) fn declarations(text: &str) -> Option<Vec<Declaration<'_>>> {
     let mut found = Vec::new();
     for piece in split(text, b';') {
@@ -190,7 +190,7 @@ pub(crate) fn declarations(text: &str) -> Option<Vec<Declaration<'_>>> {
     Some(found)
 }
 
-/// A text without blanks and comments round it.
+/// Text without surrounding white space and comments.
 fn trimmed(mut text: &str) -> Option<&str> {
     loop {
         text = text.trim();
@@ -204,7 +204,7 @@ fn trimmed(mut text: &str) -> Option<&str> {
     }
 }
 
-/// The pieces of a text between separators that stand in no string, comment or bracket.
+/// Pieces of a text between separators outside strings, comments and brackets.
 fn split(text: &str, separator: u8) -> impl Iterator<Item = &str> {
     let mut reader = Reader { text, at: 0 };
     std::iter::from_fn(move || {
@@ -216,7 +216,7 @@ fn split(text: &str, separator: u8) -> impl Iterator<Item = &str> {
     })
 }
 
-/// The parts of one selector; `None` where it asks for what is not known here, or is wrong.
+/// Compound selectors of one selector; `None` if it is invalid or not supported.
 fn parts(text: &str) -> Option<Vec<(Compound<'_>, Relation)>> {
     let mut reader = Reader { text, at: 0 };
     let mut found: Vec<(Compound, Relation)> = Vec::new();
@@ -273,7 +273,7 @@ fn parts(text: &str) -> Option<Vec<(Compound<'_>, Relation)>> {
                     return None;
                 }
             }
-            // A name comes first in its part.
+            // A name must come first.
             _ if compound.name.is_none() && compound.tests.is_empty() => {
                 compound.name = Some(reader.word()?);
             }
@@ -283,7 +283,7 @@ fn parts(text: &str) -> Option<Vec<(Compound<'_>, Relation)>> {
     (relation == Relation::First && !found.is_empty()).then_some(found)
 }
 
-/// What stands between `[` and `]`.
+/// Condition between `[` and `]`.
 fn attribute(text: &str) -> Option<(&str, Test<'_>)> {
     let Some((left, value)) = text.split_once('=') else { return Some((text.trim(), Test::Exists)) };
     let value = value.trim().trim_matches(['"', '\'']);
@@ -300,6 +300,7 @@ fn attribute(text: &str) -> Option<(&str, Test<'_>)> {
     (!name.is_empty()).then_some((name, test))
 }
 
+/// Reader of CSS text.
 struct Reader<'a> {
     text: &'a str,
     at: usize,
@@ -314,7 +315,7 @@ impl<'a> Reader<'a> {
         self.text.as_bytes().get(self.at).copied()
     }
 
-    /// Goes past blanks and comments.
+    /// Skips white space and comments.
     fn blanks(&mut self) {
         while let Some(next) = self.peek() {
             if next.is_ascii_whitespace() {
@@ -332,7 +333,8 @@ impl<'a> Reader<'a> {
         self.at = length.map_or(self.text.len(), |length| self.at + length);
     }
 
-    /// What comes before any of these bytes, which stand in no string, comment or bracket; the reader stops there.
+    /// Text before the first of these bytes outside strings, comments and parentheses. The reader stops at
+    /// that byte.
     fn until(&mut self, ends: &[u8]) -> &'a str {
         let start = self.at.min(self.text.len());
         let mut depth = 0usize;
@@ -353,7 +355,7 @@ impl<'a> Reader<'a> {
         self.text.get(start..self.at).unwrap_or_default()
     }
 
-    /// Goes to the quote that ends a string.
+    /// Moves to the closing quote of a string.
     fn string(&mut self, quote: u8) {
         self.at += 1;
         while self.peek().is_some_and(|next| next != quote) {
@@ -361,7 +363,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// What stands in braces, which may be nested; the reader stops at the last one.
+    /// Text between braces, which may be nested. The reader stops at the closing brace.
     fn block(&mut self) -> &'a str {
         self.at += 1;
         let start = self.at.min(self.text.len());

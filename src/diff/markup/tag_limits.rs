@@ -1,44 +1,43 @@
-//! [`check`]: whether reading the tags of a file takes no more time and memory than its length accounts for.
+//! Limits on the tags of a file, checked before it is parsed.
 //!
-//! The tokenizer knows comments, CDATA, processing instructions and the document type by the grammar of the parser itself,
-//! and what it does not understand is refused: so nothing can stand in a file that is counted as one thing and
-//! read as another.
+//! The tokenizer uses the same grammar as the parser, and anything it does not accept is refused. So no
+//! content can be counted as one thing and parsed as another.
 
 use xmlparser::{ElementEnd, EntityDefinition, StrSpan, Token, Tokenizer};
 
 use crate::error::Error;
 
-/// Elements within elements, references counted.
+/// Greatest nesting depth of elements, including references.
 pub(crate) const DEEPEST: usize = 256;
-/// Attributes of one element: the parser compares each with each.
+/// Most attributes of one element. The parser compares each pair.
 const MOST_ATTRIBUTES: usize = 512;
-/// Comparisons of names with the namespaces that are in scope.
+/// Most comparisons of names with namespaces in scope.
 const MOST_LOOKUPS: usize = 200_000_000;
-/// Bytes that entities may expand to.
+/// Most bytes of expanded entities.
 const MOST_ENTITY_BYTES: usize = 16_000_000;
 
-/// References to characters that need no declaration.
+/// Character references that need no declaration.
 const CHARACTERS: [&str; 6] = ["#", "amp;", "lt;", "gt;", "quot;", "apos;"];
 
-/// Refuses what the parser would take too long for.
+/// Refuses files that the parser would take too long for.
 pub(crate) fn check(text: &str) -> Result<(), Error> {
     let mut tags = Tags::default();
     tags.read(text, Tokenizer::from(text))?;
     tags.entities.check(tags.widest)
 }
 
-/// What the parser has to do for the tags of a file, or of an entity.
+/// Work that the tags of a file or of an entity cause in the parser.
 #[derive(Default)]
 struct Tags {
-    /// Namespaces in scope inside each open element.
+    /// Number of namespaces in scope in each open element.
     open: Vec<usize>,
-    /// The most of them anywhere.
+    /// Largest number of namespaces in scope.
     widest: usize,
-    /// Of the element at hand.
+    /// Counts of the current element.
     attributes: usize,
     declared: usize,
     names: usize,
-    /// Of all elements.
+    /// Counts of all elements.
     all_declared: usize,
     all_names: usize,
     lookups: usize,
@@ -46,6 +45,7 @@ struct Tags {
 }
 
 impl Tags {
+    /// Counts the tags of a text.
     fn read(&mut self, text: &str, tokens: Tokenizer) -> Result<(), Error> {
         for token in tokens {
             match token.map_err(in_words)? {
@@ -71,7 +71,7 @@ impl Tags {
         Ok(())
     }
 
-    /// Weighs an element whose attributes are read.
+    /// Adds the counts of an element after its attributes.
     fn element(&mut self, is_open: bool) -> Result<(), Error> {
         if self.attributes > MOST_ATTRIBUTES {
             return Err(too_much(&format!("{} attributes of one element", self.attributes)));
@@ -84,7 +84,8 @@ impl Tags {
         self.widest = self.widest.max(scope);
         self.all_declared += self.declared;
         self.all_names += self.names;
-        // Each name is sought in the scope. Where namespaces are declared, the scope is copied, each of it compared with all.
+        // Each name is looked up in the scope. An element that declares namespaces copies the scope and
+        // compares all pairs.
         let copied = if self.declared > 0 { scope.saturating_mul(scope) } else { 0 };
         let sought = self.names.saturating_mul(scope);
         self.lookups = self.lookups.saturating_add(copied).saturating_add(sought);
@@ -101,20 +102,21 @@ impl Tags {
     }
 }
 
-/// Declared entities, and how often some are used.
+/// Declared entities and their uses.
 #[derive(Default)]
 struct Entities {
-    /// Bytes of their declarations.
+    /// Bytes of all declarations.
     bytes: usize,
-    /// References to them.
+    /// Number of references.
     uses: usize,
-    /// Names of elements and attributes inside them.
+    /// Names of elements and attributes inside entities.
     names: usize,
-    /// Why they may not be used.
+    /// The reason why entities may not be used.
     unusable: Option<Error>,
 }
 
 impl Entities {
+    /// Adds an entity declaration.
     fn declare(&mut self, text: &str, definition: EntityDefinition, whole: StrSpan) -> Result<(), Error> {
         self.bytes += whole.len();
         let EntityDefinition::EntityValue(value) = definition else { return Ok(()) };
@@ -128,19 +130,20 @@ impl Entities {
         match inside.read(text, Tokenizer::from_fragment(text, value.range())) {
             Ok(()) if inside.all_declared == 0 => self.names += inside.all_names,
             Ok(()) => self.unusable = Some(too_much("namespaces that entities declare")),
-            // Declarations for other programs may look like nothing on earth.
+            // An unused entity for another program may contain anything.
             Err(error) => self.unusable = Some(error),
         }
         Ok(())
     }
 
+    /// Counts the references in a text, once entities are declared.
     fn count_uses(&mut self, text: StrSpan) {
         if self.bytes > 0 {
             self.uses += references(&text);
         }
     }
 
-    /// Refuses entities that multiply; `widest` namespaces are in scope at most.
+    /// Refuses entities that multiply; `widest` is the largest number of namespaces in scope.
     fn check(&self, widest: usize) -> Result<(), Error> {
         if self.uses == 0 {
             return Ok(());
@@ -156,13 +159,14 @@ impl Entities {
     }
 }
 
-/// How often a text refers to entities that must be declared.
+/// Number of references to entities that must be declared.
 fn references(text: &str) -> usize {
     let rests = text.split('&').skip(1);
     rests.filter(|rest| !CHARACTERS.iter().any(|known| rest.starts_with(known))).count()
 }
 
-/// The tokenizer's message, with its place: `invalid element at 1:2 cause expected '=' not '/' at 1:9`.
+/// The tokenizer's message with its position, from text such as `invalid element at 1:2 cause expected '='
+/// not '/' at 1:9`.
 fn in_words(error: xmlparser::Error) -> Error {
     let place = error.pos();
     let text = error.to_string();
@@ -306,7 +310,7 @@ mod tests {
         ] {
             for start in ["<svg>", "<!DOCTYPE svg [", ""] {
                 let text = start.to_owned() + &piece.repeat(4_000_000 / piece.len());
-                // Work that grew faster than the text would not come to an end here.
+                // Work that grows faster than the text would not finish here.
                 _ = refused(&text);
             }
         }

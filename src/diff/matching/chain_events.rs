@@ -1,4 +1,4 @@
-//! [`Event`]: what became of one chain.
+//! Changes of single chains between two drawings.
 
 use std::collections::BTreeMap;
 
@@ -14,24 +14,25 @@ use crate::diff::curves::hausdorff_distance::{Near, apart};
 use crate::diff::findings::finding::Verdict;
 use crate::diff::shapes::mark_groups::{Groups, Likeness};
 
-/// A chain of which less than this is left lies elsewhere or is gone.
+/// Least covered share of a chain by another chain of its part, for the chain to count as reshaped rather
+/// than removed.
 const LEFT: f64 = 0.1;
-/// What a shift leaves, as a part of the largest distance, for a chain to have moved as it was.
+/// Largest residual after a shift, as a share of the largest distance, for a chain to count as moved rigidly.
 const RIGID: f64 = 0.05;
-/// What shift, turn and growth leave, likewise.
+/// Largest residual after a similarity, as a share of the largest distance, for a chain to count as moved.
 const SIMILAR: f64 = 0.4;
-/// Stretches of other ink shorter than this many tolerances, or this part of a line, are what ends and crossings of other
-/// lines leave.
+/// Shortest repainted run in tolerances. Shorter ones come from ends and crossings of other lines.
 const CRUMB: f64 = 12.0;
+/// Shortest repainted run as a share of the line.
 const CRUMB_OF_LINE: f64 = 0.01;
 
-/// What became of one chain; lengths in px.
+/// Change of one chain; lengths in px.
 #[derive(Debug, Clone)]
 pub(crate) struct Event {
     pub verdict: Verdict,
     pub old: Option<usize>,
     pub new: Option<usize>,
-    /// Length that it is about.
+    /// Affected length in px.
     pub size: f64,
     pub largest: f64,
     pub p95: f64,
@@ -40,7 +41,7 @@ pub(crate) struct Event {
     pub added: BezPath,
 }
 
-/// What became of the chains of two drawings.
+/// Changes of the chains of two drawings.
 pub(crate) fn events(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Event> {
     let pairs = pairs(sides, groups, page);
     let paired: [FxHashSet<usize>; 2] =
@@ -57,8 +58,8 @@ pub(crate) fn events(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Event
     recoloured(events, sides, groups)
 }
 
-/// Joins what is gone with what is new where both lie on each other and belong to one part: the mark was painted otherwise. Covers
-/// miss it where other marks lie there too.
+/// Joins a removed and an added chain of one part that coincide but have different ink: the mark was
+/// repainted. Covers miss this where other marks are in the same place.
 fn recoloured(events: Vec<Event>, sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
     let chain = |side: usize, event: &Event| match (side, event.verdict, event.old, event.new) {
         (0, Verdict::Removed, Some(index), _) | (1, Verdict::Added, _, Some(index)) => Some(index),
@@ -100,14 +101,14 @@ fn recoloured(events: Vec<Event>, sides: &[Side; 2], groups: &Groups) -> Vec<Eve
     .collect()
 }
 
-/// A mark that has another form or another place.
+/// Change of a pair of chains: moved or reshaped.
 fn of_pair(sides: &[Side; 2], pair: &Pair, groups: &Groups) -> Event {
     let (a, b) = (&sides[0].chains[pair.old], &sides[1].chains[pair.new]);
     let (cover_a, cover_b) = (&sides[0].covers[pair.old], &sides[1].covers[pair.new]);
     let tolerance = groups.groups.get(a.group).map_or(0.01, |group| group.tolerance);
     let apart = apart(a, b);
     let alignment = &pair.alignment;
-    // What went nowhere on average was shaken, not moved.
+    // A mean shift near zero means noise, not a motion.
     let rigid = alignment.after_shift <= (2.0 * tolerance).max(RIGID * alignment.largest)
         && alignment.shift.hypot() >= 0.5 * alignment.largest;
     let grown = (cover_a.length - cover_b.length).abs();
@@ -130,14 +131,14 @@ fn of_pair(sides: &[Side; 2], pair: &Pair, groups: &Groups) -> Event {
         event.p95 = event.p95.min(event.largest);
     }
     if rigid {
-        // Lines slide along themselves unseen: where all went the same way, so did the rest.
+        // Lines may slide along themselves unseen. If all measured points moved alike, so did the rest.
         event.shift = Some([alignment.shift.x, alignment.shift.y]);
         event.p95 = event.largest;
     }
     event
 }
 
-/// A chain with uncovered stretches and without a partner: part of a mark, or all of it.
+/// Change of a chain with uncovered runs and without a pair: reshaped, removed or added.
 fn of_one(sides: &[Side; 2], side: usize, index: usize, groups: &Groups) -> Event {
     let (chain, cover) = (&sides[side].chains[index], &sides[side].covers[index]);
     let own = |partner: &&(u32, Likeness, f64)| {
@@ -176,8 +177,8 @@ fn of_one(sides: &[Side; 2], side: usize, index: usize, groups: &Groups) -> Even
     event
 }
 
-/// How far what nothing covers of a chain lies from the other drawing: from the chain that became of it, and no farther than along
-/// the chain itself to where something covers it. Of a line that was linked to another one, that is all that differs.
+/// Largest distance of the uncovered runs of a chain from the other drawing. It is limited by the arc length
+/// to the nearest covered run, so that a line linked to another one counts only its difference.
 fn off(chain: &Chain, cover: &Cover, other: &Chain, tolerance: f64) -> f64 {
     let near = Near::new(other);
     let is_covered =
@@ -200,9 +201,9 @@ fn off(chain: &Chain, cover: &Cover, other: &Chain, tolerance: f64) -> f64 {
     most
 }
 
-/// Chains whose place is taken by another ink or another part.
+/// Changes of chains that are covered by other ink or by another part.
 fn repainted(sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
-    // Nothing where all is as it was; else what took the chain's place, if one mark can be said to have done so.
+    // `None` if the chain is unchanged; otherwise the marks that replaced it, if single marks did.
     let other = |side: usize, index: usize| -> Option<Vec<(usize, Likeness, f64)>> {
         let (chain, cover) = (&sides[side].chains[index], &sides[side].covers[index]);
         if !cover.is_whole() || cover.is_same() {
@@ -216,7 +217,7 @@ fn repainted(sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
         };
         strange().next()?;
         let kept: f64 = cover.partners.iter().filter(|p| p.1 == Likeness::Same).map(|p| p.2).sum();
-        // Bits of the lines of several other parts do not add up to a mark.
+        // Short runs of lines of several other parts do not add up to a replacement.
         let took = |partner: u32, length: f64| {
             let same_part = groups.same_part(chain.group, sides[1 - side].chains[partner as usize].group);
             same_part || length.max(kept) >= 0.5 * cover.length
@@ -236,7 +237,7 @@ fn repainted(sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
         let Some(list) = other(0, index) else { continue };
         let mut drawn_over = true;
         for (partner, likeness, length) in list {
-            // What covers it is not covered by it: it was drawn twice, and is drawn once.
+            // If the coverage is not mutual, the chain was drawn twice and is now drawn once.
             let mutual = of_new[partner].iter().flatten().any(|(back, ..)| *back == index)
                 || !sides[1].covers[partner].is_whole();
             if mutual {
@@ -272,7 +273,7 @@ fn repainted(sides: &[Side; 2], groups: &Groups) -> Vec<Event> {
     events
 }
 
-/// A chain that is only in one drawing, though another lies in its place.
+/// Change of a chain that exists in one drawing only, although another chain covers its place.
 fn alone(sides: &[Side; 2], side: usize, index: usize) -> Event {
     let path = stretch(&sides[side].chains[index], 0.0, f64::INFINITY);
     let (old, new) = if side == 0 { (Some(index), None) } else { (None, Some(index)) };
@@ -282,17 +283,18 @@ fn alone(sides: &[Side; 2], side: usize, index: usize) -> Event {
     Event { verdict, old, new, size, largest: 0.0, p95: 0.0, shift: None, gone, added }
 }
 
-/// What nothing covers of a chain.
+/// Uncovered runs of a chain as a path.
 fn bare(chain: &Chain, cover: &Cover) -> BezPath {
     stretches(chain, cover, |run| run.likeness.is_none())
 }
 
+/// The runs of a chain that satisfy a condition, as a path.
 fn stretches(chain: &Chain, cover: &Cover, wanted: impl Fn(&Stretch) -> bool) -> BezPath {
     let runs = cover.runs.iter().filter(|run| wanted(run));
     runs.flat_map(|run| stretch(chain, run.from, run.to).into_iter().collect::<Vec<_>>()).collect()
 }
 
-/// A chain between two arc lengths.
+/// Part of a chain between two arc lengths.
 fn stretch(chain: &Chain, from: f64, to: f64) -> BezPath {
     let mut path = BezPath::new();
     let mut at = 0.0;

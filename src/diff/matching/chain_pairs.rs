@@ -1,4 +1,4 @@
-//! Pairs of chains that may be one mark, before and after.
+//! Pairs of chains that may be the same mark before and after.
 
 use std::cell::RefCell;
 use std::cmp::Ordering;
@@ -16,34 +16,35 @@ use crate::diff::curves::segment::nearest_on;
 use crate::diff::curves::segment_grid::SegmentCells;
 use crate::diff::shapes::mark_groups::{Groups, Likeness};
 
-/// A mark is sought no farther than this part of the page's longer side from where it was.
+/// Largest distance between an old and a new mark, as a share of the page's longer side.
 const REACH_OF_PAGE: f64 = 0.03;
-/// Short marks may still go as far as this part of it.
+/// Distance always allowed for short marks, as a share of the page's longer side.
 const LEAST_REACH_OF_PAGE: f64 = 0.006;
-/// A mark goes no farther than this part of its own size.
+/// Largest distance as a share of the mark's own size.
 const REACH_OF_MARK: f64 = 0.5;
-/// Where this share of two chains coincides, they are one mark however far the rest went.
+/// Two chains that coincide over this share are one mark, at any distance of the rest.
 const COMMON: f64 = 0.2;
-/// From how many places of a chain others are looked for, how many others each place looks for, and how many of all
-/// found are looked at closely.
+/// Most sample points per chain when looking for candidates.
 const PLACES: usize = 5;
+/// Neighbours searched per sample point.
 const WANTED: usize = 4;
+/// Most candidates aligned per chain.
 const CLOSELY: usize = 6;
-/// Closed chains of about one length that each is compared with.
+/// Most closed chains of similar length compared with each chain.
 const MAX_CONGRUENT: usize = 64;
-/// Segments that each place looks at: where thousands lie on each other, any of them will do.
+/// Most segments visited per sample point. Where thousands coincide, any of them will do.
 const MOST_SEEN: usize = 512;
 
-/// One drawing's chains and what the other drawing covers of them.
+/// The chains of one drawing and their covers by the other drawing.
 #[derive(Debug)]
 pub(crate) struct Side {
     pub chains: Vec<Chain>,
-    /// For each chain the first that lies exactly on it.
+    /// For each chain, the index of its first copy.
     pub firsts: Vec<usize>,
     pub covers: Vec<Cover>,
 }
 
-/// Two chains that are one mark.
+/// Two chains that are the same mark.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pair {
     pub old: usize,
@@ -52,7 +53,7 @@ pub(crate) struct Pair {
     cost: f64,
 }
 
-/// Pairs chains that have uncovered stretches, each with one of the other side at most; nearest first.
+/// Pairs chains with uncovered runs one to one, lowest cost first.
 pub(crate) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> {
     let bare: [Vec<usize>; 2] = [0, 1].map(|side: usize| {
         let covers = &sides[side].covers;
@@ -105,7 +106,7 @@ pub(crate) fn pairs(sides: &[Side; 2], groups: &Groups, page: f64) -> Vec<Pair> 
     found
 }
 
-/// Closed chains that are left, each with the only one of the other side that has its form: they moved, however far.
+/// Pairs remaining closed chains with the only congruent one in the other drawing, at any distance.
 fn congruent(
     sides: &[Side; 2],
     groups: &Groups,
@@ -128,7 +129,7 @@ fn congruent(
     let mut of: [BTreeMap<usize, Vec<usize>>; 2] = Default::default();
     let mut pairs = Vec::new();
     for (length, old) in &left[0] {
-        // Where each of many points goes by the tolerance, the length changes little.
+        // If every point moves by up to the tolerance, the length changes little.
         let off = 4.0 * tolerance(*old) + 1e-3 * length;
         let from = left[1].partition_point(|(other, _)| *other < length - off);
         for (_, new) in
@@ -154,7 +155,8 @@ fn congruent(
     pairs
 }
 
-/// Among equals, the same order whichever drawing comes first: by the lesser start, then by the greater one.
+/// Order of pairs with equal cost, independent of the order of the drawings: by the lesser start, then by the
+/// greater one.
 fn tie(sides: &[Side; 2], a: &Pair, b: &Pair) -> Ordering {
     let key = |pair: &Pair| {
         let start = |side: usize, index: usize| {
@@ -167,14 +169,14 @@ fn tie(sides: &[Side; 2], a: &Pair, b: &Pair) -> Ordering {
     key(a).cmp(&key(b)).then((a.old, a.new).cmp(&(b.old, b.new)))
 }
 
-/// Uncovered chains of the other side that lie near.
+/// Uncovered chains of the other drawing that are near a chain.
 fn candidates(side: &Side, index: usize, bare: &[usize], grid: &SegmentCells, reach: f64) -> Vec<usize> {
     let chain = &side.chains[index];
     let partners = side.covers[index].partners.iter().map(|(partner, ..)| *partner as usize);
     let mut found: Vec<usize> = partners.filter(|partner| bare.binary_search(partner).is_ok()).collect();
     let known: RefCell<FxHashMap<u32, usize>> = RefCell::default();
     for place in places(chain, (chain.points.len() + 1).min(PLACES)) {
-        // The nearest few: each with its distance.
+        // Nearby chains with their distances.
         let near: RefCell<Vec<(f64, u32)>> = RefCell::default();
         known.borrow_mut().clear();
         let see = |item: u32| {
@@ -206,7 +208,7 @@ fn candidates(side: &Side, index: usize, bare: &[usize], grid: &SegmentCells, re
     found
 }
 
-/// How far the ends of two chains lie apart, squared and at least 0: a first guess at whether they are one mark.
+/// Squared distance of the ends of two chains, at least 0: a cheap estimate for ranking candidates.
 fn ends_apart(a: &Chain, b: &Chain) -> f64 {
     let ends = |chain: &Chain| {
         let start = chain.points.first().copied().unwrap_or(Point::ZERO);
@@ -218,7 +220,7 @@ fn ends_apart(a: &Chain, b: &Chain) -> f64 {
     forth.min(a0.distance_squared(b1) + a1.distance_squared(b0))
 }
 
-/// The pair, if the two may be one mark.
+/// The pair with its cost; `None` if the two cannot be the same mark.
 fn judge(sides: &[Side; 2], old: usize, new: usize, groups: &Groups, page: f64) -> Option<Pair> {
     let (a, b) = (&sides[0].chains[old], &sides[1].chains[new]);
     let likeness = groups.likeness(a.group, b.group)?;
@@ -235,7 +237,8 @@ fn judge(sides: &[Side; 2], old: usize, new: usize, groups: &Groups, page: f64) 
     };
     let limit =
         (REACH_OF_MARK * size(a).max(size(b))).max(LEAST_REACH_OF_PAGE * page).min(REACH_OF_PAGE * page);
-    // What lies elsewhere is another mark if it is of another part: a bolt that is gone did not become the washer under it.
+    // A mark of another part in another place is another mark: a removed bolt did not become the washer below
+    // it.
     if common < COMMON && (alignment.largest > limit || !groups.same_part(a.group, b.group)) {
         return None;
     }
@@ -249,7 +252,7 @@ fn judge(sides: &[Side; 2], old: usize, new: usize, groups: &Groups, page: f64) 
     Some(Pair { old, new, alignment, cost })
 }
 
-/// The box round points.
+/// Bounding box of points.
 pub(crate) fn bounds(points: &[Point]) -> Rect {
     let Some(first) = points.first() else { return Rect::ZERO };
     points.iter().fold(Rect::from_points(*first, *first), |rect, p| rect.union_pt(*p))

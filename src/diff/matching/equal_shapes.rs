@@ -1,4 +1,5 @@
-//! What is equal point for point is set aside: most of two versions of a drawing is.
+//! Shapes that are equal point for point. Most shapes of two versions of a drawing are, and need no further
+//! work.
 
 use std::hash::{Hash, Hasher};
 
@@ -8,15 +9,16 @@ use rustc_hash::{FxHashMap, FxHasher};
 use crate::diff::shapes::mark_groups::Groups;
 use crate::diff::shapes::picture::{Picture, Shape};
 
-/// What is equal, and what is not.
+/// Equal and unequal shapes of two pictures.
 pub(crate) struct Parted {
-    /// Places of equal shapes in both pictures.
+    /// Index pairs of equal shapes.
     pub equal: Vec<(usize, usize)>,
-    /// The shapes of either picture that have no equal in the other one.
+    /// Indexes of the shapes of each picture that have no equal.
     pub rest: [Vec<usize>; 2],
 }
 
-/// Finds what is equal. Each shape is the equal of one other: a line that is drawn twice in one picture remains once.
+/// Matches equal shapes one to one. If a line is drawn twice in one picture and once in the other, one copy
+/// remains unmatched.
 pub(crate) fn part(before: &Picture, after: &Picture, groups: &Groups) -> Parted {
     let hash = |shape: &Shape, group: usize| {
         let mut hasher = FxHasher::default();

@@ -1,7 +1,7 @@
-//! [`Cover`]: which pieces of a chain lie within tolerance of another drawing's chains.
+//! Intervals of each chain that lie within tolerance of the other drawing.
 //!
-//! The points of a segment that are within r of another segment are those inside its capsule. That is convex, so they
-//! are one interval, whose ends are roots of quadratics: nothing is sampled.
+//! The points of a segment within r of another segment are those inside its capsule. The capsule is convex,
+//! so they form one interval, whose ends are roots of quadratics. No sampling is needed.
 
 use crate::parallel::prelude::*;
 use kurbo::Point;
@@ -11,24 +11,24 @@ use crate::diff::curves::segment_clusters::Met;
 use crate::diff::curves::segment_grid::SegmentCells;
 use crate::diff::shapes::mark_groups::{Groups, Likeness};
 
-/// Stretches of a chain shorter than this many tolerances, between two that are alike, are what lines leave that
-/// merely cross it.
+/// Runs shorter than this many tolerances between two runs of equal likeness come from lines that merely
+/// cross the chain.
 const CROSSING: f64 = 6.0;
-/// Where segments are a crowd, so many are asked for the best likeness.
+/// Number of segments searched for an identical mark in a dense place. After that, any mark counts.
 const MOST_ASKED: usize = 4096;
-/// Pieces of all copies of a line.
+/// Most runs stored for all copies of a line.
 const MOST_PIECES: usize = 4_000_000;
-/// Gaps between intervals shorter than this (px) are rounding.
+/// Gaps between intervals shorter than this are rounding errors.
 const ROUNDING_PX: f64 = 1e-7;
 
-/// A stretch of a chain, by arc length in px.
+/// A run of a chain, by arc length in px.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stretch {
     pub from: f64,
     pub to: f64,
-    /// The best of what lies there in the other drawing; `None` where nothing does.
+    /// Best likeness of the marks there in the other drawing; `None` where there is none.
     pub likeness: Option<Likeness>,
-    /// The chain that lies there.
+    /// Number of the chain there in the other drawing.
     pub partner: u32,
 }
 
@@ -38,42 +38,43 @@ impl Stretch {
     }
 }
 
-/// What covers a chain.
+/// Cover of one chain by the chains of the other drawing.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Cover {
-    /// From its start to its end, without gaps.
+    /// Runs from start to end, without gaps.
     pub runs: Vec<Stretch>,
-    /// The chains that cover it, the one with the longest stretch first; each with the best likeness that it has anywhere, and
-    /// the length that it covers.
+    /// The covering chains, the one with the greatest covered length first. Each has its best likeness and
+    /// the length it covers.
     pub partners: Vec<(u32, Likeness, f64)>,
     /// Length of the chain in px.
     pub length: f64,
-    /// Whether the chain is a dot.
+    /// Whether the chain has no length.
     dot: bool,
 }
 
 impl Cover {
-    /// Length of what nothing covers.
+    /// Uncovered length in px.
     pub(crate) fn bare(&self) -> f64 {
         self.runs.iter().filter(|run| run.likeness.is_none()).map(Stretch::length).sum()
     }
 
-    /// Whether something covers all of it.
+    /// Whether the chain is completely covered.
     pub(crate) fn is_whole(&self) -> bool {
         self.runs.iter().all(|run| run.likeness.is_some())
     }
 
-    /// Whether all of it is as it was.
+    /// Whether the chain is completely covered by identical marks.
     pub(crate) fn is_same(&self) -> bool {
         self.runs.iter().all(|run| run.likeness == Some(Likeness::Same))
     }
 
-    /// The share of it that is covered.
+    /// Covered share of the length.
     pub(crate) fn share(&self) -> f64 {
         if self.dot { f64::from(u8::from(self.is_whole())) } else { 1.0 - self.bare() / self.length }
     }
 
-    /// Bare where it was, or covered where nothing of it is bare, as one piece from its start to its end.
+    /// The cover reduced to one run: covered if every part is covered, with the worst likeness of its runs;
+    /// otherwise uncovered.
     fn without_crossings(self) -> Self {
         let best = |runs: &[Stretch]| runs.iter().map(|run| run.likeness).max().flatten();
         let likeness = if self.is_whole() { best(&self.runs) } else { None };
@@ -87,7 +88,7 @@ impl Cover {
         cover
     }
 
-    /// Sums up the runs by partner.
+    /// Computes `partners` from the runs.
     fn sum_up(&mut self) {
         for run in &self.runs {
             let Some(likeness) = run.likeness else { continue };
@@ -103,8 +104,9 @@ impl Cover {
     }
 }
 
-/// What of the chains of `there`, which are sorted into `grid`, covers each of those of `here`; of chains that lie exactly on
-/// each other only the first ones are in the grid. Each chain comes with the numbers of these: copies are covered by copies.
+/// Covers each chain of `here` by the chains of `there`, whose segments are in `grid`. Each chain list comes
+/// with the index of the first copy of each chain. The grid contains first copies only, and a copy is covered
+/// by the copy of the same rank.
 pub(crate) fn cover(
     here: (&[Chain], &[usize]),
     there: (&[Chain], &[usize]),
@@ -120,7 +122,8 @@ pub(crate) fn cover(
             (first(index) == index).then(|| one(chain, there.0, grid, groups, scratch))
         })
         .collect();
-    // Of a line that thousands cross, each of thousands of copies would have all these pieces.
+    // A line crossed by thousands of others has many runs; storing them for thousands of copies would take
+    // too much memory.
     let mut copies = vec![0usize; here.0.len()];
     (0..copies.len()).for_each(|index| copies[first(index)] += 1);
     let plainer = |(index, cover): (usize, Option<Cover>)| {
@@ -144,15 +147,16 @@ pub(crate) fn cover(
     (0..here.0.len()).map(copy).collect()
 }
 
+/// Buffers reused from chain to chain.
 #[derive(Default)]
 struct Scratch {
     near: Vec<u32>,
-    /// Likenesses to groups that are near.
+    /// Likeness to each group seen so far.
     likeness: Vec<(usize, Option<Likeness>)>,
     intervals: Vec<Interval>,
 }
 
-/// A segment of a chain, which begins `at` px along it.
+/// A segment of the chain being covered; it starts at arc length `at`.
 struct Here {
     from: Point,
     to: Point,
@@ -162,7 +166,8 @@ struct Here {
 }
 
 impl Scratch {
-    /// Keeps what another segment covers of this one, and tells which share it is.
+    /// Stores the interval that another segment covers, and returns its likeness and its share of this
+    /// segment.
     fn see(
         &mut self,
         here: &Here,
@@ -191,16 +196,16 @@ impl Scratch {
     }
 }
 
-/// What of a segment is covered, where there are too many others to ask them all.
+/// Covered shares of a segment in a place too dense to test all other segments.
 #[derive(Default)]
 struct Crowd {
     seen: usize,
-    /// Shares that lie apart, in order.
+    /// Disjoint shares in increasing order.
     shares: Vec<(f64, f64)>,
 }
 
 impl Crowd {
-    /// Adds what a segment covers: what is as it was, and after so many whatever lies there.
+    /// Adds a covered share: of identical marks only, and after `MOST_ASKED` tests of any mark.
     fn add(&mut self, found: Option<(Likeness, (f64, f64))>) {
         self.seen += 1;
         let Some((likeness, (mut from, mut to))) = found else { return };
@@ -215,12 +220,14 @@ impl Crowd {
         self.shares.insert(first, (from, to));
     }
 
+    /// Whether a share is covered completely.
     fn covers(&self, (from, to): (f64, f64)) -> bool {
         let at = self.shares.partition_point(|share| share.1 < to);
         self.shares.get(at).is_some_and(|share| share.0 <= from)
     }
 }
 
+/// An interval of a chain, covered by a chain of the other drawing; arc lengths in px.
 #[derive(Debug, Clone, Copy)]
 struct Interval {
     from: f64,
@@ -229,6 +236,7 @@ struct Interval {
     partner: u32,
 }
 
+/// Covers one chain by the chains of the other drawing.
 fn one(
     chain: &Chain,
     others: &[Chain],
@@ -263,7 +271,7 @@ fn one(
         }
         for item in near.iter().filter(|_| !crowd) {
             let found = scratch.see(&here, chain, others, grid, groups, *item);
-            // Of what is alike the first one counts.
+            // Among identical marks the first one counts.
             if found.is_some_and(|(likeness, share)| likeness == Likeness::Same && share == (0.0, 1.0)) {
                 break;
             }
@@ -274,7 +282,7 @@ fn one(
     }
     merge(&mut cover.runs);
     let most = CROSSING * tolerance;
-    // Crossings in bare stretches first: what is left of them may then part others.
+    // Absorb crossings in uncovered runs first, because the rest may separate other runs.
     absorb(&mut cover.runs, most, |run, around| around.likeness.is_none() && run.likeness.is_some());
     absorb(&mut cover.runs, most, |run, around| {
         run.likeness.is_some() && around.likeness.is_some() && run.likeness != around.likeness
@@ -283,10 +291,10 @@ fn one(
     cover
 }
 
-/// Runs from `start` to `end`: at every place the best of the intervals that cover it.
+/// Partitions `start`–`end` into runs, each with the best interval that covers it.
 fn runs(start: f64, end: f64, intervals: &mut [Interval], out: &mut Vec<Stretch>) {
     if start == end {
-        // A dot is covered or not.
+        // A point is covered or not.
         let best = intervals.iter().min_by_key(|i| (i.likeness, i.partner));
         out.push(Stretch {
             from: start,
@@ -326,7 +334,7 @@ fn runs(start: f64, end: f64, intervals: &mut [Interval], out: &mut Vec<Stretch>
     out[first..].sort_by(|a, b| a.from.total_cmp(&b.from));
 }
 
-/// Joins neighbours of one likeness and one partner.
+/// Merges neighbours of equal likeness and partner.
 fn merge(runs: &mut Vec<Stretch>) {
     runs.dedup_by(|next, run| {
         let alike = next.likeness == run.likeness && (next.partner == run.partner || run.likeness.is_none());
@@ -337,7 +345,7 @@ fn merge(runs: &mut Vec<Stretch>) {
     });
 }
 
-/// Gives short runs between two of one likeness to these.
+/// Absorbs short runs between two runs of equal likeness.
 fn absorb(runs: &mut Vec<Stretch>, most: f64, gives: impl Fn(&Stretch, &Stretch) -> bool) {
     let mut index = 1;
     while index + 1 < runs.len() {
@@ -351,7 +359,7 @@ fn absorb(runs: &mut Vec<Stretch>, most: f64, gives: impl Fn(&Stretch, &Stretch)
     merge(runs);
 }
 
-/// The share of the segment from `p` to `q` that is within `r` of the segment from `a` to `b`.
+/// Share of the segment `p`–`q` within distance `r` of the segment `a`–`b`, as parameters 0 to 1.
 fn within(p: Point, q: Point, a: Point, b: Point, r: f64) -> Option<(f64, f64)> {
     let along = q - p;
     let mut found: Option<(f64, f64)> = None;
@@ -377,7 +385,7 @@ fn within(p: Point, q: Point, a: Point, b: Point, r: f64) -> Option<(f64, f64)> 
             add((-half - root) / length2, (-half + root) / length2);
         }
     }
-    // The strip between the two discs: inside in two directions.
+    // The rectangle between the two discs is the intersection of two strips.
     let axis = b - a;
     let size = axis.hypot();
     if size > 0.0 {
@@ -394,7 +402,7 @@ fn within(p: Point, q: Point, a: Point, b: Point, r: f64) -> Option<(f64, f64)> 
     found
 }
 
-/// Where `start + t * rate` lies between two bounds.
+/// Interval of `t` for which `start + t * rate` is between two bounds.
 fn clip(start: f64, rate: f64, low: f64, high: f64) -> Option<(f64, f64)> {
     if rate == 0.0 {
         return (low..=high).contains(&start).then_some((f64::NEG_INFINITY, f64::INFINITY));

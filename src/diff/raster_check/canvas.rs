@@ -1,4 +1,4 @@
-//! [`Canvas`]: a drawing that is rasterised, whole or a spot of it.
+//! Rasterised drawings, whole or in a small window.
 
 use resvg::tiny_skia::{Pixmap, PremultipliedColorU8, Rect, Transform};
 
@@ -6,21 +6,21 @@ use crate::diff::shapes::ignore_options::Ignore;
 use crate::diff::shapes::picture::Picture;
 use crate::export::raster::tree_painter::{Look, Painter};
 
-/// A drawing, and what of it does not count.
+/// A drawing and the aspects to ignore.
 pub(crate) struct Canvas<'a> {
     picture: &'a Picture,
     ignore: Ignore,
 }
 
-/// A square of a drawing.
+/// A square window of a drawing.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Spot {
-    /// Its upper left corner, px.
+    /// Upper left corner in px.
     pub x: f64,
     pub y: f64,
-    /// Pixels of a side.
+    /// Side in pixels.
     pub size: usize,
-    /// Pixels to a px.
+    /// Pixels per px.
     pub scale: f64,
 }
 
@@ -29,7 +29,7 @@ impl<'a> Canvas<'a> {
         Self { picture, ignore }
     }
 
-    /// The whole drawing, with smooth edges.
+    /// Rasterises the whole drawing with anti-aliasing.
     pub fn coarse(&self, columns: usize, rows: usize, scale: f64) -> Option<Vec<PremultipliedColorU8>> {
         let mut pixmap = Pixmap::new(u32::try_from(columns).ok()?, u32::try_from(rows).ok()?)?;
         let to = Transform::from_scale(scale as f32, scale as f32);
@@ -42,12 +42,12 @@ impl<'a> Canvas<'a> {
         Some(pixmap.pixels().to_vec())
     }
 
-    /// A spot of it, whose pixels are covered in whole or not at all.
+    /// Rasterises a window without anti-aliasing: each pixel is covered completely or not at all.
     pub fn spot(&self, spot: Spot) -> Option<Vec<PremultipliedColorU8>> {
         let size = u32::try_from(spot.size).ok()?;
         let mut pixmap = Pixmap::new(size, size)?;
         let side = spot.size as f64 / spot.scale;
-        // Nodes are left out by boxes in single precision.
+        // The bounding boxes used for culling are in single precision.
         let slack = 2.0 / spot.scale + (spot.x.abs() + spot.y.abs() + side) * f64::from(f32::EPSILON) * 4.0;
         let window = Rect::from_ltrb(
             (spot.x - slack) as f32,
@@ -69,6 +69,7 @@ impl<'a> Canvas<'a> {
         Some(pixmap.pixels().to_vec())
     }
 
+    /// Paints the drawing without the ignored aspects.
     fn paint(&self, painter: Painter, tree: &usvg::Tree, to: Transform, pixmap: &mut Pixmap) {
         let Ignore { colours, widths, text, .. } = self.ignore;
         if !(colours || widths || text) {

@@ -1,4 +1,4 @@
-//! [`Places`]: which pixels lie near a finding of geometry, and findings about those that do not.
+//! Pixels explained by findings of geometry, and findings for the others.
 
 use kurbo::{BezPath, ParamCurve as _, ParamCurveArclen as _, Rect, Shape as _};
 use resvg::tiny_skia::PremultipliedColorU8 as Pixel;
@@ -11,33 +11,35 @@ use crate::diff::findings::finding::{Change, Finding, Place, Verdict};
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, ShapeKind};
 
-/// Pixels of a side of a tile.
+/// Side of a tile in pixels.
 const TILE: usize = 16;
-/// Pixels of a tile that are looked at closely, at most: the most different ones.
+/// Most pixels inspected per tile, those with the largest difference first.
 const MAX_PIXELS: usize = 4;
-/// What lies this near to a mark that differs is explained by it, px: borders are smooth, and drawn at whole pixels.
+/// Margin around a changed mark in px within which differences are explained by it. Borders are anti-aliased
+/// and snap to pixels.
 const NEAR_PX: f64 = 2.0;
-/// Long segments are taken in pieces of this length, px, of which there are at most so many.
+/// Long segments are split into pieces of this length in px.
 const PIECE_PX: f64 = 12.0;
+/// Most such pieces of all findings; after that, whole boxes are marked.
 const MAX_PIECES: usize = 400_000;
-/// Marks of another colour that are looked at, at most: the first one that is seen ends the search.
+/// Most recoloured marks tested; the first visible one ends the search.
 const MAX_RECOLOURED: usize = 1000;
 
-/// A square of pixels that has candidates.
+/// A square of pixels with candidates.
 #[derive(Debug)]
 pub(crate) struct Tile {
     column: usize,
     row: usize,
-    /// The candidates, the most different first.
+    /// Candidate pixels, those with the largest difference first.
     pub pixels: Vec<[usize; 2]>,
-    /// How different the first one is, and how many candidates there are.
+    /// Largest difference, and number of candidates.
     most: u8,
     count: usize,
-    /// The box of all candidates: from, to.
+    /// Bounding box of all candidates: left, top, right, bottom.
     bounds: [usize; 4],
 }
 
-/// Which pixels are explained.
+/// Mask of explained pixels.
 pub(crate) struct Places {
     columns: usize,
     rows: usize,
@@ -47,6 +49,7 @@ pub(crate) struct Places {
 }
 
 impl Places {
+    /// Marks the pixels near all visible findings.
     pub fn new(
         findings: &[Finding],
         pictures: [&Picture; 2],
@@ -63,7 +66,7 @@ impl Places {
         let mut pieces = 0;
         for finding in findings.iter().filter(|finding| is_seen(finding)) {
             places.claims = true;
-            // A corner may reach as far as two widths.
+            // A mitred corner may reach as far as two line widths.
             let near = NEAR_PX + 2.0 * widths.get(&finding.label).copied().unwrap_or_default();
             let lines = finding.kind == ShapeKind::Line
                 && [&finding.gone, &finding.new].iter().any(|path| !path.elements().is_empty());
@@ -77,12 +80,12 @@ impl Places {
         places
     }
 
-    /// Whether geometry has found anything that could be seen.
+    /// Whether geometry found any visible change.
     pub fn has_claims(&self) -> bool {
         self.claims
     }
 
-    /// Marks what is near a path, and returns in how many pieces.
+    /// Marks the pixels near a path; returns the number of pieces.
     fn along(&mut self, path: &BezPath, near: f64) -> usize {
         let mut pieces = 0;
         for segment in path.segments() {
@@ -109,7 +112,7 @@ impl Places {
         }
     }
 
-    /// Tiles with pixels that differ and are not explained, or with any that differ; the most different first.
+    /// Tiles with unexplained differing pixels, or with `any` all differing pixels, largest difference first.
     pub fn candidates(&self, coarse: &Coarse, any: bool) -> Vec<Tile> {
         let across = self.columns.div_ceil(TILE);
         let mut tiles: Vec<Vec<(u8, usize)>> = Vec::new();
@@ -147,7 +150,7 @@ impl Places {
         found
     }
 
-    /// One finding for tiles that are neighbours.
+    /// One finding for each connected group of tiles.
     pub fn findings(&self, tiles: &[Tile], pictures: [&[Pixel]; 2]) -> Vec<Finding> {
         let by_place: FxHashMap<[usize; 2], usize> =
             tiles.iter().enumerate().map(|(index, tile)| ([tile.column, tile.row], index)).collect();
@@ -171,6 +174,7 @@ impl Places {
         found
     }
 
+    /// The finding for one group of tiles.
     fn finding(&self, group: &[usize], tiles: &[Tile], pictures: [&[Pixel]; 2]) -> Finding {
         let tiles = || group.iter().map(|index| &tiles[*index]);
         let [x0, y0, x1, y1] = tiles().fold([usize::MAX, usize::MAX, 0, 0], |all, tile| {
@@ -179,7 +183,7 @@ impl Places {
         });
         let px = |pixel: usize| pixel as f64 / self.scale;
         let place = Rect::new(px(x0), px(y0), px(x1), px(y1));
-        // Tiles come the most different first.
+        // The first tile has the largest difference.
         let [column, row] = tiles().next().and_then(|tile| tile.pixels.first().copied()).unwrap_or_default();
         let colour = |side: usize| {
             pictures[side].get(row * self.columns + column).map_or_else(String::new, |pixel| in_words(*pixel))
@@ -200,7 +204,7 @@ impl Places {
     }
 }
 
-/// Whether a mark that has another flat colour is seen: some pixel of its place differs at all.
+/// Whether a change from one flat colour to another is visible: some pixel of the mark's box differs at all.
 pub(crate) fn is_recoloured(findings: &[Finding], coarse: &Coarse, columns: usize, scale: f64) -> bool {
     let is_flat = |colour: &str| colour.starts_with('#') && !colour.contains(' ');
     let recoloured = findings.iter().filter(|finding| {
@@ -219,7 +223,7 @@ pub(crate) fn is_recoloured(findings: &[Finding], coarse: &Coarse, columns: usiz
     })
 }
 
-/// A colour of a picture: `#cc3333`, `#cc3333 at 40 %`, `nothing`.
+/// A colour in words: `#cc3333`, `#cc3333 at 40 %`, `nothing`.
 fn in_words(pixel: Pixel) -> String {
     let plain = pixel.demultiply();
     let hex = Colour::rgb(plain.red(), plain.green(), plain.blue()).hex();

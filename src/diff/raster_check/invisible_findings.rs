@@ -1,4 +1,4 @@
-//! Findings about what is no picture: names, classes, tones, and marks that lie on their equals.
+//! Findings that no picture shows: names, classes, tones, and marks drawn over equal marks.
 
 use kurbo::Shape as _;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -9,10 +9,10 @@ use crate::diff::shapes::ink::Paint;
 use crate::diff::shapes::label::Label;
 use crate::diff::shapes::picture::{Picture, Shape, ShapeKind};
 
-/// Changes that no picture shows.
+/// Changed properties that are invisible.
 const UNSEEN: [&str; 6] = ["part", "class", "layer", "tone", "hidden by", "edges"];
 
-/// Whether a finding says that the picture is another one.
+/// Whether a finding changes the look of the drawing.
 pub(crate) fn is_seen(finding: &Finding) -> bool {
     match finding.verdict {
         Verdict::Page | Verdict::Relabelled | Verdict::Picture => false,
@@ -27,12 +27,13 @@ fn is_unseen(change: &Change) -> bool {
     UNSEEN.contains(&change.what.as_str())
 }
 
-/// What stays of findings where both pictures look the same: what people keep under test though it is not seen.
+/// Removes the visible findings of two drawings that look the same. These invisible ones stay, because users
+/// test them:
 ///
-/// 1. Another part, class, layer or tone of a mark stays.
-/// 2. Another order of marks is told as another label: `--ignore labels` leaves it out.
-/// 3. A mark that lies on its equal stays: pens draw it twice.
-/// 4. A mark of a part that the other drawing has not at all stays, unless labels are ignored.
+/// 1. another part, class, layer or tone;
+/// 2. another order of marks, reported as relabelled, so that `--ignore labels` drops it;
+/// 3. a mark drawn over an equal one, because pen plotters draw it twice;
+/// 4. a mark of a part that the other drawing lacks, unless labels are ignored.
 pub(crate) fn without_picture(
     findings: Vec<Finding>,
     pictures: [&Picture; 2],
@@ -69,17 +70,17 @@ pub(crate) fn without_picture(
     left
 }
 
-/// The paints of the marks of one place, label and kind.
+/// Paints of all marks of one box, label and kind.
 type Inks<'a> = FxHashMap<(PlaceKey, &'a Label, ShapeKind), Vec<Counted<'a>>>;
 
-/// What both pictures have, found when it is asked for.
+/// Lookup tables of both pictures, built on first use.
 #[derive(Default)]
 struct Kept<'a> {
     parts: Option<[FxHashSet<&'a str>; 2]>,
     inks: Option<Inks<'a>>,
 }
 
-/// How many marks of either picture have one paint.
+/// Number of marks of each picture with one paint.
 struct Counted<'a> {
     paint: &'a Paint,
     width: f64,
@@ -87,7 +88,7 @@ struct Counted<'a> {
 }
 
 impl<'a> Kept<'a> {
-    /// Whether a mark is of a part that the other picture has not.
+    /// Whether a mark belongs to a part that the other picture lacks.
     fn is_of_lost_part(&mut self, finding: &Finding, pictures: [&'a Picture; 2], side: usize) -> bool {
         let parts = self.parts.get_or_insert_with(|| {
             pictures.map(|picture| {
@@ -98,7 +99,7 @@ impl<'a> Kept<'a> {
         is_mark && finding.label.part.as_deref().is_some_and(|part| !parts[1 - side].contains(part))
     }
 
-    /// Whether a mark lies on one that is in both pictures, and is painted alike.
+    /// Whether a mark duplicates one that exists in both pictures with the same paint.
     fn is_copy(&mut self, finding: &Finding, pictures: [&'a Picture; 2], side: usize) -> bool {
         if finding.kind == ShapeKind::Clip {
             return false;

@@ -33,22 +33,22 @@ use crate::diff::shapes::picture::Picture;
 pub(crate) use crate::diff::shapes::render_tree::Drawn;
 use crate::geometry::numbers::tolerance::{COARSEST_VETO_PX, FINEST_SEEN_PX};
 
-/// Pixels that are rasterised anew to look closely, at most, for each of both questions.
+/// Most pixels rasterised in close inspection, for each of its two uses.
 const MAX_CLOSE_PIXELS: usize = 64_000_000;
-/// Spots that were found to differ before the other candidates are believed.
+/// After this many differing tiles, the other candidates are accepted without inspection.
 const MAX_PROOFS: usize = 48;
 
-/// What the pictures say.
+/// Result of comparing the pixels.
 pub(crate) enum Decision {
-    /// They look the same.
+    /// The pictures look the same.
     Same,
-    /// They differ; with findings about what geometry has not explained.
+    /// The pictures differ, with findings for differences that geometry did not explain.
     Differs(Vec<Finding>),
-    /// They cannot be compared: one of them takes too long to rasterise.
+    /// The pictures cannot be compared, because one takes too long to rasterise.
     Unknown,
 }
 
-/// Compares the pictures of two drawings, given what geometry found.
+/// Compares the pixels of two drawings, given the findings of geometry.
 pub(crate) fn decide(
     pictures: [&Picture; 2],
     findings: &[Finding],
@@ -59,7 +59,7 @@ pub(crate) fn decide(
         [pictures[0].width.min(pictures[1].width), pictures[0].height.min(pictures[1].height)];
     let outlined = pictures.iter().any(|picture| picture.shapes.iter().any(|shape| shape.ink.outlined));
     if ignore.widths && outlined {
-        // Lines of varying width have no other picture than with their width.
+        // The outline of a line of varying width cannot be drawn without its width.
         return Decision::Unknown;
     }
     let Some(scale) = raster_cost::scale(pictures, [width, height]) else { return Decision::Unknown };
@@ -70,12 +70,12 @@ pub(crate) fn decide(
         || canvases[1].coarse(columns, rows, scale),
     );
     let (Some(a), Some(b)) = (a, b) else { return Decision::Unknown };
-    // Marks with tolerances of their own may have gone as far as the widest of these.
+    // Marks with their own tolerances may have moved by the largest of these.
     let tolerances = || groups.groups.iter().map(|group| group.tolerance);
     let widest = tolerances().fold(FINEST_SEEN_PX, f64::max);
     let finest = tolerances().fold(COARSEST_VETO_PX, f64::min);
     let coarse = pixel_comparison::coarse([&a, &b], columns, widest * scale);
-    // A colour of another number is another colour, however little it differs.
+    // A flat colour that changed at all is another colour.
     let faint = explained_pixels::is_recoloured(findings, &coarse, columns, scale);
     if !coarse.has_any() {
         return if faint { Decision::Differs(Vec::new()) } else { Decision::Same };
@@ -109,16 +109,17 @@ pub(crate) fn decide(
     }
 }
 
-/// Looks closely at pixels of the coarse pictures.
+/// Close inspection of pixels of the coarse pictures.
 struct Close<'a> {
     canvases: &'a [Canvas<'a>; 2],
     scale: f64,
-    /// Pixels that were rasterised so far.
+    /// Number of pixels rasterised so far.
     pixels: usize,
 }
 
 impl Close<'_> {
-    /// Whether a pixel differs; `None` if too many were looked at. `spots`: whether only spots as wide as the tolerance count.
+    /// Whether a pixel differs; `None` if the pixel budget is used up. `spots`: whether only spots as wide as
+    /// the tolerance count.
     fn differs(&mut self, [column, row]: [usize; 2], tolerance: f64, spots: bool) -> Option<bool> {
         let fine = Fine::new(self.scale, tolerance);
         let size = fine.core + 2 * fine.reach;

@@ -1,50 +1,51 @@
-//! Whether pixels look alike: of whole pictures with smooth edges, and of spots without.
+//! Comparison of pixels: whole pictures with anti-aliasing, and windows without.
 
 use resvg::tiny_skia::PremultipliedColorU8 as Pixel;
 
 use super::window_extremes::squares;
 
-/// Channels that differ by no more than this are alike: opacities and blends are rounded more than once on their way.
-/// Of pairs that are one picture written in two ways none differs by more, see `tests/library/diff/picture_changes.rs`.
+/// Largest difference of a channel that counts as equal, because opacities and blends are rounded several
+/// times. No pair in `tests/library/diff_pictures.rs` that draws one picture in two ways differs by more.
 pub(crate) const ALIKE: u8 = 2;
-/// Pixels to the tolerance, where a spot is looked at closely.
+/// Pixels per tolerance in close inspection.
 const PIXELS_OF_TOLERANCE: f64 = 4.0;
-/// A spot has at least this many pixels to a px, so that thin lines are seen, and at most this many in all on a side.
+/// Least pixels per px in close inspection, so that thin lines are visible.
 const MIN_FINE_SCALE: f64 = 4.0;
+/// Most pixels per side in close inspection, without the margin.
 const MAX_CORE: f64 = 256.0;
-/// Extremes within this are sought pixel by pixel.
+/// Up to this radius, extremes are searched pixel by pixel.
 const MAX_SMALL: usize = 2;
-/// Pixels within more than this are sought by their extremes, not one by one.
+/// Up to this radius, equal pixels are searched in a disc; above it, extremes are compared.
 const MAX_DISC: usize = 6;
-/// How much more of a pixel an edge covers that went by one pixel: both sides of a thin line, along a diagonal.
+/// Change in coverage of a pixel when an edge moves by one pixel: both edges of a thin diagonal line.
 const EDGE: f64 = 2.0 * std::f64::consts::SQRT_2;
 
 fn channels(pixel: Pixel) -> [u8; 4] {
     [pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()]
 }
 
-/// The largest difference of a channel.
+/// Largest difference of a channel.
 fn difference(a: Pixel, b: Pixel) -> u8 {
     let (a, b) = (channels(a), channels(b));
     a.iter().zip(&b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
 }
 
-/// Two pictures with smooth edges, pixel by pixel.
+/// Comparison of two anti-aliased pictures, one entry per pixel.
 pub(crate) struct Coarse {
-    /// The largest difference of a channel.
+    /// Largest difference of a channel.
     pub difference: Vec<u8>,
-    /// By how much that is more than an edge within tolerance accounts for.
+    /// Difference not explained by an edge shifted within the tolerance.
     pub excess: Vec<u8>,
 }
 
 impl Coarse {
-    /// Whether some pixel looks different at all.
+    /// Whether any pixel differs.
     pub fn has_any(&self) -> bool {
         self.difference.iter().any(|difference| *difference > ALIKE)
     }
 }
 
-/// Compares two pictures; `reach`: the tolerance in pixels.
+/// Compares two pictures; `reach` is the tolerance in pixels.
 pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> Coarse {
     let of = |(a, b): (&Pixel, &Pixel)| if a == b { 0 } else { difference(*a, *b) };
     let differences: Vec<u8> = a.iter().zip(b).map(of).collect();
@@ -52,7 +53,7 @@ pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> Coars
     if differences.iter().all(|difference| *difference <= ALIKE) {
         return Coarse { difference: differences, excess };
     }
-    // A whole pixel or more: any colour between those that are near is like.
+    // From one pixel on, any colour between those nearby counts as equal.
     let radius = (reach.ceil() as usize).max(1);
     let share = if EDGE * reach < 1.0 { EDGE * reach } else { 1.0 };
     let beyond = |value: u8, there: u8, least: u8, most: u8| {
@@ -66,7 +67,7 @@ pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> Coars
         (beyond - f64::from(ALIKE)).clamp(0.0, 255.0).ceil() as u8
     };
     if radius <= MAX_SMALL {
-        // Few pixels differ.
+        // Small radius: test only the pixels that differ.
         let rows = differences.len() / columns.max(1);
         for index in (0..differences.len()).filter(|index| differences[*index] > ALIKE) {
             let (column, row) = (index % columns, index / columns);
@@ -100,7 +101,8 @@ pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> Coars
             }
         }
     }
-    // A gap or an overlap narrower than the tolerance, where two fills meet, is a thin line: around it nothing differs.
+    // A gap or an overlap between fills that is narrower than the tolerance is a thin line with equal pixels
+    // around it.
     let gap = (255.0 * std::f64::consts::SQRT_2 * reach.min(1.0)).min(255.0) as u8;
     let is_alone = |index: usize| {
         let row = |at: usize| differences.get(at.saturating_sub(1)..=at + 1).unwrap_or_default();
@@ -117,19 +119,19 @@ pub(crate) fn coarse([a, b]: [&[Pixel]; 2], columns: usize, reach: f64) -> Coars
     Coarse { difference: differences, excess }
 }
 
-/// How closely one pixel of a coarse picture is looked at.
+/// Close inspection of one pixel of the coarse comparison.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fine {
-    /// Pixels to a px.
+    /// Pixels per px.
     pub scale: f64,
-    /// Pixels of a side of what is looked at.
+    /// Side of the inspected area in pixels.
     pub core: usize,
-    /// The tolerance in pixels, and how far is seen round it.
+    /// Tolerance in pixels, which is also the margin around the core.
     pub reach: usize,
 }
 
 impl Fine {
-    /// For a pixel of a picture with `coarse` pixels to a px.
+    /// Inspection of a pixel in a picture with `coarse` pixels per px.
     pub fn new(coarse: f64, tolerance: f64) -> Self {
         let scale = (PIXELS_OF_TOLERANCE / tolerance.max(1e-9)).max(MIN_FINE_SCALE).max(coarse);
         let scale = scale.min(MAX_CORE * coarse);
@@ -137,7 +139,7 @@ impl Fine {
         Self { scale, core: (scale / coarse).ceil() as usize, reach }
     }
 
-    /// Whether something of the core differs: any pixel, or a spot as wide as the tolerance.
+    /// Whether the core differs: in any pixel, or with `spots` in a square as wide as the tolerance.
     pub fn differs(self, pictures: [&[Pixel]; 2], spots: bool) -> bool {
         let size = self.core + 2 * self.reach;
         let [a, b] = pictures;
@@ -154,7 +156,7 @@ impl Fine {
         if !spots {
             return unlike.iter().any(|unlike| *unlike);
         }
-        // The widest square of unlike pixels that ends at each.
+        // Side of the largest square of differing pixels that ends at each pixel (dynamic programming).
         let mut above = vec![0usize; self.core];
         for row in unlike.chunks(self.core) {
             let (mut left, mut corner) = (0, 0);
@@ -170,7 +172,7 @@ impl Fine {
         false
     }
 
-    /// Pixels of the core without a like within the reach in the other picture.
+    /// Pixels of the core without an equal pixel within the tolerance in the other picture.
     fn by_disc(self, [a, b]: [&[Pixel]; 2], size: usize) -> Vec<bool> {
         let reach = self.reach as isize;
         let mut disc: Vec<[isize; 2]> = (-reach..=reach)
@@ -190,7 +192,7 @@ impl Fine {
         })
     }
 
-    /// The same, where any colour between those within the reach is like.
+    /// Pixels of the core outside the range of colours within the tolerance in the other picture.
     fn by_extremes(self, pictures: [&[Pixel]; 2], size: usize) -> Vec<bool> {
         let mut lacks = vec![false; size * size];
         for channel in 0..4 {
@@ -209,6 +211,7 @@ impl Fine {
         self.core_pixels(size, |x, y| lacks[y * size + x])
     }
 
+    /// Evaluates a condition for each pixel of the core.
     fn core_pixels(self, size: usize, is: impl Fn(usize, usize) -> bool) -> Vec<bool> {
         let inner = self.reach..size - self.reach;
         inner.clone().flat_map(|y| inner.clone().map(move |x| (x, y))).map(|(x, y)| is(x, y)).collect()

@@ -1,4 +1,4 @@
-//! What it takes to rasterise a drawing, and the scale that keeps it within bounds.
+//! Work of rasterising a drawing, and the scale that limits it.
 
 use usvg::filter::Kind;
 use usvg::tiny_skia_path::Rect;
@@ -6,24 +6,28 @@ use usvg::{Group, Node, Paint};
 
 use crate::diff::shapes::picture::Picture;
 
-/// Pixels to a px, and pixels of the longer side of small drawings.
+/// Least pixels per px, unless another limit requires less.
 const SCALE: f64 = 1.0;
+/// Least pixels of the longer side of small drawings.
 const MIN_SIDE: f64 = 600.0;
-/// Pixels of a picture, and of one of its sides.
+/// Most pixels of a raster.
 const MAX_PIXELS: f64 = 1.5e6;
+/// Most pixels of the longer side.
 const MAX_SIDE: f64 = 16_000.0;
-/// Pixels that are painted for a picture, those of marks that lie on each other counted each; 1 to 3 ns each.
+/// Most pixels painted for a raster, with overlapping marks counted each. A pixel takes 1 to 3 ns.
 const MAX_WORK: f64 = 600e6;
-/// Smaller pictures than this show nothing.
+/// Smaller rasters are not useful.
 const LEAST_SIDE: f64 = 100.0;
-/// Dashes of a drawing: each is drawn.
+/// Most dashes of a drawing, because each is drawn separately.
 const MAX_DASHES: f64 = 400_000.0;
-/// How often a group of its own, a mask and a step of a filter pass over their pixels.
+/// Passes over the pixels of an isolated group.
 const LAYER: f64 = 4.0;
+/// Passes over the pixels of a mask.
 const MASK: f64 = 8.0;
+/// Passes over the pixels of a filter primitive.
 const FILTER: f64 = 16.0;
 
-/// Pixels to a px for both drawings; `None` where one would take too long.
+/// Pixels per px for both drawings; `None` if one would take too long.
 pub(crate) fn scale(pictures: [&Picture; 2], [width, height]: [f64; 2]) -> Option<f64> {
     let longer = width.max(height);
     let mut work = 0.0f64;
@@ -42,13 +46,15 @@ pub(crate) fn scale(pictures: [&Picture; 2], [width, height]: [f64; 2]) -> Optio
     (scale.is_finite() && scale > 0.0 && scale * longer >= LEAST_SIDE).then_some(scale)
 }
 
+/// Accumulated work of a drawing.
 struct Cost {
     page: [f64; 2],
     dashes: f64,
 }
 
 impl Cost {
-    /// Passes over px² for the nodes of a group; `of`: how large what they are painted on is, where that is no page.
+    /// Passes in px² for the children of a group. `of`: area of the surface they are painted on, if it is not
+    /// the page.
     fn group(&mut self, group: &Group, of: Option<f64>) -> f64 {
         let area = of.unwrap_or_else(|| self.area(group.abs_layer_bounding_box().to_rect()));
         let mut sum = 0.0;
@@ -78,6 +84,7 @@ impl Cost {
         sum
     }
 
+    /// Passes in px² for a path; also counts its dashes.
     fn path(&mut self, path: &usvg::Path, of: Option<f64>) -> f64 {
         let area = of.unwrap_or_else(|| self.area(path.abs_stroke_bounding_box()));
         let mut sum = area + path.data().len() as f64;
@@ -93,7 +100,7 @@ impl Cost {
         sum
     }
 
-    /// The part of a box that lies on the page, px².
+    /// Area of the part of a box on the page, in px².
     fn area(&self, bounds: Rect) -> f64 {
         let within =
             |from: f32, to: f32, size: f64| (f64::from(to).min(size) - f64::from(from).max(0.0)).max(0.0);
@@ -102,7 +109,7 @@ impl Cost {
     }
 }
 
-/// How often a step of a filter passes over each pixel.
+/// Passes of a filter primitive over each pixel.
 fn times(kind: &Kind) -> f64 {
     match kind {
         Kind::Turbulence(noise) => 4.0 * f64::from(noise.num_octaves()).max(1.0),
@@ -110,7 +117,7 @@ fn times(kind: &Kind) -> f64 {
             f64::from(matrix.matrix().columns()) * f64::from(matrix.matrix().rows())
         }
         Kind::Morphology(shape) => {
-            // Pixels to a px are 2 in most pictures, and more where one looks closely.
+            // An upper bound for the scale: most rasters have 2 pixels per px.
             let radius = |value: f32| (8.0 * f64::from(value)).clamp(1.0, 1e4);
             radius(shape.radius_x().get()) * radius(shape.radius_y().get())
         }
@@ -119,7 +126,7 @@ fn times(kind: &Kind) -> f64 {
     }
 }
 
-/// At least the length of a path: that between the points that it names.
+/// Lower bound of the length of a path: the distances between its points.
 fn length(path: &usvg::tiny_skia_path::Path) -> f64 {
     let way = |pair: &[usvg::tiny_skia_path::Point]| f64::from((pair[1] - pair[0]).length());
     path.points().windows(2).map(way).sum()

@@ -1,8 +1,9 @@
-//! Extremes of squares round each pixel, in time that does not grow with the square.
+//! Sliding minima and maxima over square windows, in time independent of the window size.
 
-/// For each item of a list the extreme of those at most `reach` places away, by `pick`.
+/// Extreme of the items within `reach` of each item of a list, by `pick`.
 ///
-/// Source: van Herk 1992, Gil and Werman 1993: two running extremes within blocks as long as the window.
+/// Source: van Herk 1992; Gil and Werman 1993. Two running extremes are kept within blocks as long as the
+/// window.
 fn along(values: &[u8], reach: usize, pick: fn(u8, u8) -> u8) -> Vec<u8> {
     let window = 2 * reach + 1;
     let count = values.len();
@@ -23,7 +24,7 @@ fn along(values: &[u8], reach: usize, pick: fn(u8, u8) -> u8) -> Vec<u8> {
             if last - first + 1 == window {
                 return pick(back[first], forth[last]);
             }
-            // At the ends of the list the window is shorter, and may lie in one block.
+            // Near the ends of the list the window is shorter, and may lie in one block.
             match (first / window == last / window, first) {
                 (true, 0) => forth[last],
                 (true, _) => back[first],
@@ -33,7 +34,7 @@ fn along(values: &[u8], reach: usize, pick: fn(u8, u8) -> u8) -> Vec<u8> {
         .collect()
 }
 
-/// For each pixel of a picture the extreme of the square round it.
+/// Extreme of the square window around each pixel.
 pub(crate) fn squares(values: &[u8], columns: usize, reach: usize, pick: fn(u8, u8) -> u8) -> Vec<u8> {
     if reach == 0 || columns == 0 {
         return values.to_vec();

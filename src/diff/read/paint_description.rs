@@ -1,4 +1,4 @@
-//! Gradients and patterns in words that are equal where they look alike.
+//! Gradients and patterns as text that is equal where they look equal.
 
 use std::fmt::Write as _;
 use std::hash::{Hash, Hasher};
@@ -7,7 +7,7 @@ use rustc_hash::FxHasher;
 
 use crate::diff::shapes::ink::trimmed;
 
-/// The words. Where a gradient lies is not said: it moves with its shape.
+/// Description of a paint. The position of a gradient is left out, because it moves with its shape.
 pub(crate) fn of(paint: &usvg::Paint, alpha: u8) -> String {
     let mut words = match paint {
         usvg::Paint::Color(colour) => {
@@ -37,7 +37,7 @@ fn stops(stops: &[usvg::Stop]) -> String {
     stops.iter().map(word).collect::<Vec<_>>().join(", ")
 }
 
-/// The look of what a pattern repeats, at a hundredth of a px.
+/// Hashes the content of a pattern, with coordinates rounded to a hundredth of a px.
 fn group(group: &usvg::Group, hasher: &mut FxHasher) {
     for child in group.children() {
         match child {

@@ -1,4 +1,4 @@
-//! From SVG to a [`Picture`], by way of usvg: transforms, units and styles resolved.
+//! SVG files to a [`Picture`], with transforms, units and styles resolved by usvg.
 
 use std::panic::catch_unwind;
 use std::sync::Arc;
@@ -18,31 +18,33 @@ use crate::drawing::{Cap, Drawing, Join};
 use crate::error::Error;
 use crate::export::SvgOptions;
 
-/// Larger coordinates, in px, are refused.
+/// Largest coordinate accepted, in px.
 const FARTHEST_PX: f64 = 1e8;
-/// Room for the reader's recursion over nested elements, whatever thread calls.
+/// Stack size for the recursion over nested elements, independent of the calling thread.
 const STACK_BYTES: usize = 64 << 20;
 
 impl Picture {
-    /// Reads an SVG file: any that resvg reads; texts are known by their words and pictures by their bytes.
+    /// Reads an SVG file in any form that resvg reads. Texts are compared by their words and pictures by
+    /// their bytes.
     ///
     /// # Errors
-    /// Where the text is no SVG, and where reading it might take more time or memory than its length accounts for:
-    /// groups nested deeply, references that multiply, numbers beyond ten million px. The error names no file.
+    /// If the text is not SVG, or if reading it might take more time or memory than its length justifies:
+    /// deeply nested groups, references that multiply, or numbers above ten million px. The error has no file
+    /// name.
     pub fn from_svg(svg: &str) -> Result<Self, Error> {
         picture(svg)
     }
 
-    /// A drawing as it would be read from its file.
+    /// Converts a drawing to the picture that its file would give.
     ///
     /// # Errors
-    /// Where the drawing is larger than what is read.
+    /// If the drawing exceeds the limits of [`Picture::from_svg`].
     pub fn from_drawing(drawing: &Drawing, options: &SvgOptions) -> Result<Self, Error> {
         Self::from_svg(&drawing.to_svg(options))
     }
 }
 
-/// Reads a file.
+/// Reads a file on a thread with a large stack.
 fn picture(svg: &str) -> Result<Picture, Error> {
     let pool = rayon_core::ThreadPoolBuilder::new().num_threads(1).stack_size(STACK_BYTES).build();
     let pool = pool.map_err(|error| Error::new(format!("cannot start a thread: {error}")))?;
@@ -50,6 +52,7 @@ fn picture(svg: &str) -> Result<Picture, Error> {
     pool.install(|| catch_unwind(|| read(svg))).map_err(gave_up)?
 }
 
+/// Reads a file: limits, markup, usvg tree, shapes.
 fn read(svg: &str) -> Result<Picture, Error> {
     let document = input_limits::parse(svg)?;
     let mut markup = tagged_svg::rewrite(&document)?;
@@ -90,7 +93,7 @@ fn read(svg: &str) -> Result<Picture, Error> {
     })
 }
 
-/// The transform from user units to px: that of the first group without an id, which the reader adds.
+/// Transform from user units to px: that of the group without an id that usvg adds.
 fn svg_root(tree: &usvg::Tree) -> usvg::Transform {
     match tree.root().children() {
         [usvg::Node::Group(only)] if only.id().is_empty() => only.transform(),
@@ -102,16 +105,17 @@ fn root_scale(transform: usvg::Transform) -> f64 {
     affine(transform).determinant().abs().sqrt()
 }
 
-/// What shapes inherit from the groups around them.
+/// State inherited from groups.
 #[derive(Clone, Default)]
 struct Inherited<'a> {
     opacity: f64,
     origin: Option<&'a Origin>,
-    /// Filters that the shape is seen through.
+    /// Descriptions of the filters and blend modes applied to the shape.
     effects: Vec<Arc<str>>,
     clip: bool,
 }
 
+/// Collects shapes from the usvg tree.
 struct Reader<'a> {
     markup: &'a Markup,
     shapes: Vec<Shape>,
@@ -122,9 +126,10 @@ impl<'a> Reader<'a> {
         self.markup.origins.get(id)
     }
 
+    /// Collects the shapes of a group, its clip paths and its masks.
     fn group(&mut self, group: &usvg::Group, around: &Inherited<'a>) {
         let mut inherited = around.clone();
-        // `Default` means no group yet.
+        // Opacity 0 from `Default` means that there is no group yet.
         let outer = if around.opacity == 0.0 { 1.0 } else { around.opacity };
         inherited.opacity = outer * f64::from(group.opacity().get());
         inherited.origin = self.origin(group.id()).or(around.origin);
@@ -153,6 +158,7 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// Adds the shapes of a path: its fill and its stroke in painting order.
     fn path(&mut self, path: &usvg::Path, inherited: &Inherited<'a>) {
         let plain = Origin::default();
         let origin = self.origin(path.id()).or(inherited.origin).unwrap_or(&plain);
@@ -225,7 +231,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The paint of a shape; none if it cannot be seen.
+/// Paint of a shape; `None` if it is invisible.
 fn painted(paint: &usvg::Paint, opacity: f32, inherited: &Inherited, origin: &Origin) -> Option<Paint> {
     let opacity = f64::from(opacity) * inherited.opacity;
     let alpha = (opacity * 255.0).round() as u8;
@@ -246,7 +252,8 @@ fn painted(paint: &usvg::Paint, opacity: f32, inherited: &Inherited, origin: &Or
     Some(Paint::Other(Arc::from(format!("{paint} through {}", inherited.effects.join(", ")))))
 }
 
-/// The details of a text or a picture, and how it is turned: its rectangle looks the same from its other end.
+/// Properties of a text or a picture, with its rotation. The rectangle alone looks the same when rotated by
+/// 180°.
 fn details(origin: &Origin, to_page: Affine) -> Option<Arc<Details>> {
     let mut details = origin.details.clone();
     let [a, b, ..] = to_page.as_coeffs();

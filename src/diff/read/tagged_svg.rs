@@ -1,5 +1,5 @@
-//! A file's XML written anew for the reader: every shape has an id by which it is known again, and what the reader
-//! would leave out or look for on the disk stands for itself as a rectangle.
+//! The XML of a file, written again for usvg. Every shape gets an id, and its label is stored under this id.
+//! Texts, pictures and everything that usvg would drop or load from disk become rectangles.
 
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -16,9 +16,9 @@ use crate::diff::shapes::placeholder::{self, Details, Props};
 use crate::drawing::{LayerKind, Unit};
 use crate::error::Error;
 
-/// Elements that draw.
+/// Elements that draw shapes.
 const SHAPES: [&str; 8] = ["path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "use"];
-/// Attributes that say where something is.
+/// Attributes with coordinates.
 const PLACES: [&str; 16] = [
     "d",
     "points",
@@ -37,13 +37,14 @@ const PLACES: [&str; 16] = [
     "height",
     "data-axis",
 ];
-/// Attributes whose numbers may not be too large either.
+/// Other attributes whose numbers have the same limits.
 const MEASURES: [&str; 4] = ["transform", "viewBox", "stroke-width", "stroke-dasharray"];
-/// The attributes that the rectangle in place of a text or a picture takes over: its place and its visibility.
+/// Attributes copied to the rectangle in place of a text or a picture.
 const BOX: [&str; 6] = ["id", "x", "y", "width", "height", "transform"];
+/// Properties copied to that rectangle, because they change its visibility.
 const OF_BOX: [&str; 8] =
     ["display", "visibility", "opacity", "clip-path", "mask", "filter", "mix-blend-mode", "isolation"];
-/// The layers that drawings of this program have.
+/// Layers that this program writes.
 const LAYERS: [LayerKind; 9] = [
     LayerKind::Paper,
     LayerKind::Fills,
@@ -56,41 +57,41 @@ const LAYERS: [LayerKind; 9] = [
     LayerKind::Callouts,
 ];
 
-/// What the file says of a shape beside its geometry and paint.
+/// Data of a shape other than geometry and paint.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Origin {
     pub label: Arc<Label>,
     pub tone: Option<u16>,
     pub invisibility: u16,
-    /// The middle of a line that is drawn as an outline, as path data, and its mean width.
+    /// Axis of a line drawn as an outline, as path data, and its mean width.
     pub axis: Option<(String, f64)>,
-    /// Words that stand for a text or a picture.
+    /// Description of a text or a picture.
     pub words: Option<Arc<str>>,
-    /// The properties that change the look of a text or a picture.
+    /// Properties that change the look of a text or a picture.
     pub details: Details,
-    /// The material of the model.
+    /// Material of the model.
     pub material: Option<Arc<str>>,
 }
 
-/// A file that is ready for the reader.
+/// A file prepared for usvg.
 #[derive(Debug, Default)]
 pub(crate) struct Markup {
     pub svg: String,
     pub origins: FxHashMap<String, Origin>,
-    /// Most decimals of a coordinate.
+    /// Largest number of decimals of a coordinate.
     pub decimals: u8,
-    /// Whether some path has arcs.
+    /// Whether any path has arcs.
     pub arcs: bool,
     pub unit: Unit,
     /// Whether style sheets have rules that are not applied.
     pub has_more: bool,
-    /// Gradients of what stands for texts and pictures.
+    /// Gradients that encode the descriptions of texts and pictures.
     gradients: String,
     /// Whether the file has texts or pictures.
     has_stand_ins: bool,
 }
 
-/// Writes a document anew.
+/// Writes a document for usvg.
 pub(crate) fn rewrite(document: &Document) -> Result<Markup, Error> {
     let mut markup = Markup::default();
     let root = document.root_element();
@@ -105,23 +106,24 @@ pub(crate) fn rewrite(document: &Document) -> Result<Markup, Error> {
     Ok(markup)
 }
 
-/// What elements inherit from those around them.
+/// State inherited from ancestors.
 #[derive(Debug, Clone, Default)]
 struct Around {
     layer: Arc<str>,
     drawing: Option<Arc<str>>,
     part: Option<Arc<str>>,
-    /// Properties of texts and pictures.
+    /// Inherited properties of texts and pictures.
     props: Arc<Props>,
 }
 
 impl Markup {
+    /// Writes an element with its declarations from the style sheets.
     fn element(&mut self, node: Node, around: &Around, cascade: &mut Cascade) -> Result<(), Error> {
         let declared = cascade.enter(node)?;
         let name = node.tag_name().name();
         let is_svg = matches!(node.tag_name().namespace(), None | Some("http://www.w3.org/2000/svg"));
         match name {
-            // What it says is written at the elements that it speaks of.
+            // Style sheets are applied to the elements instead.
             "style" => {}
             "text" | "image" if is_svg => self.stand_in(node, around, &declared, cascade)?,
             _ if is_svg => self.plain(node, around, &declared, cascade)?,
@@ -131,7 +133,7 @@ impl Markup {
         Ok(())
     }
 
-    /// An element that the reader knows, with all that is in it.
+    /// Writes an SVG element and its children.
     fn plain(
         &mut self,
         node: Node,
@@ -189,7 +191,7 @@ impl Markup {
         Ok(())
     }
 
-    /// Writes what style sheets say of an element, and then what it says of itself: what comes later wins.
+    /// Writes the declarations of style sheets, then those of the element itself, which take precedence.
     fn style(&mut self, node: Node, declared: &[Declaration]) -> Result<(), Error> {
         let own = node.attribute("style").unwrap_or_default();
         if declared.is_empty() && own.is_empty() {
@@ -199,7 +201,7 @@ impl Markup {
         Ok(())
     }
 
-    /// Remembers what a shape is, and writes an id for it unless it has one.
+    /// Stores the data of a shape, and writes an id if it has none.
     fn shape(&mut self, node: Node, around: &Around) {
         let mut classes: Vec<Arc<str>> = Vec::new();
         let mut tone = node.attribute("data-tone").and_then(|tone| tone.parse().ok());
@@ -226,11 +228,12 @@ impl Markup {
         self.remember(node, origin);
     }
 
+    /// Stores the data of an element under its id.
     fn remember(&mut self, node: Node, origin: Origin) {
         let id = match node.attribute("id") {
             Some(id) => id.to_owned(),
             None => {
-                // No id that is written by hand begins so.
+                // No hand-written id starts with this character.
                 let id = format!("\u{b7}{}", self.origins.len());
                 let _ = write!(self.svg, " id=\"{id}\"");
                 id
@@ -239,7 +242,7 @@ impl Markup {
         self.origins.insert(id, origin);
     }
 
-    /// A rectangle in place of a text or a picture, of colours that stand for its words and its look.
+    /// Writes a rectangle in place of a text or a picture. Its colours encode the description and the look.
     fn stand_in(
         &mut self,
         node: Node,
@@ -277,7 +280,7 @@ impl Markup {
             let (name, value) = (attribute.name(), attribute.value());
             self.check(node, name, value)?;
             if BOX.contains(&name) || OF_BOX.contains(&name) {
-                // A text may have a place for every letter.
+                // A text may have a position for every letter.
                 let first =
                     if name.len() == 1 { value.split([' ', ',']).next().unwrap_or("0") } else { value };
                 let _ = write!(self.svg, " {name}=\"");
@@ -286,7 +289,7 @@ impl Markup {
                 sized |= name == "width";
             }
         }
-        // Whether it is seen at all may be said by a style.
+        // The visibility may be set in a style.
         let own = style_sheet::declarations(node.attribute("style").unwrap_or_default()).unwrap_or_default();
         let style = declared.iter().chain(&own).filter(|declaration| OF_BOX.contains(&declaration.name));
         self.svg.push_str(" style=\"");
@@ -297,7 +300,7 @@ impl Markup {
         }
         let size = match (sized, is_text) {
             (true, _) => "",
-            // As large as a letter or two.
+            // About the size of two letters.
             (_, true) => " width=\"24\" height=\"12\"",
             (_, false) => " width=\"1\" height=\"1\"",
         };
@@ -305,7 +308,7 @@ impl Markup {
         Ok(())
     }
 
-    /// Refuses numbers out of range, and notes how finely coordinates are written.
+    /// Refuses numbers out of range, and records the precision of coordinates.
     fn check(&mut self, node: Node, name: &str, value: &str) -> Result<(), Error> {
         let place = PLACES.contains(&name);
         if !place && !MEASURES.contains(&name) {
@@ -327,7 +330,7 @@ impl Markup {
     }
 }
 
-/// What the children of an element inherit, or the element itself.
+/// State for the children of an element, or for the element itself.
 fn inside(node: Node, around: &Around) -> Around {
     let mut inner = around.clone();
     const INKSCAPE: &str = "http://www.inkscape.org/namespaces/inkscape";
@@ -335,7 +338,7 @@ fn inside(node: Node, around: &Around) -> Around {
         let id = node.attribute("id").unwrap_or_default();
         let label = node.attribute((INKSCAPE, "label")).unwrap_or(id);
         let known = known_layer(id).or(known_layer(label));
-        // A layer around those of a drawing is the drawing's own, on a page of several.
+        // On a page of several drawings, a layer around known layers is one of the drawings.
         if known.is_some() && !around.layer.is_empty() && known_layer(&around.layer).is_none() {
             inner.drawing = Some(Arc::clone(&around.layer));
         }
@@ -347,15 +350,15 @@ fn inside(node: Node, around: &Around) -> Around {
     inner
 }
 
-/// The layer of this program that an id means: it may have a prefix, and the number of a pen.
+/// The layer of this program that an id denotes. The id may have a prefix and a pen number.
 fn known_layer(id: &str) -> Option<&'static str> {
     let stem = id.trim_end_matches(|c: char| c.is_ascii_digit()).trim_end_matches('-');
-    // The paper's own colour lies below its grain.
+    // The paper's plain colour is a layer below its grain.
     let stem = stem.trim_end_matches("-colour");
     let ends = |kind: &&LayerKind| {
         stem.strip_suffix(kind.id()).is_some_and(|before| before.is_empty() || before.ends_with(['-', '_']))
     };
-    // `hidden-lines` ends with `lines` as well.
+    // `hidden-lines` also ends with `lines`, so the longest id wins.
     LAYERS.iter().filter(ends).map(|kind| kind.id()).max_by_key(|id| id.len())
 }
 

@@ -1,10 +1,11 @@
-//! [`unread`]: what a file holds that the renderer does not read: said in a note, because nothing of it is compared.
+//! Contents of a file that the renderer does not support. They are reported in a note because they are not
+//! compared.
 
 use std::collections::BTreeSet;
 
 use usvg::roxmltree::{Document, Node};
 
-/// Elements that are not read, and what is said of them.
+/// Unsupported elements, with their names in reports.
 const ELEMENTS: [(&str, &str); 14] = [
     ("foreignObject", "what is in a foreignObject"),
     ("animate", "animations"),
@@ -21,7 +22,7 @@ const ELEMENTS: [(&str, &str); 14] = [
     ("canvas", "a canvas"),
     ("iframe", "other pages"),
 ];
-/// What is not read of values, by a word of theirs.
+/// Unsupported values by a substring, with their names in reports.
 const VALUES: [(&str, &str); 14] = [
     ("var(", "var()"),
     ("calc(", "calc()"),
@@ -38,7 +39,7 @@ const VALUES: [(&str, &str); 14] = [
     ("BackgroundImage", "BackgroundImage in filters"),
     ("BackgroundAlpha", "BackgroundAlpha in filters"),
 ];
-/// What is not read of style sheets, by a word of theirs.
+/// Unsupported rules of style sheets by a substring, with their names in reports.
 const SHEETS: [(&str, &str); 14] = [
     ("@media", "@media"),
     ("@font-face", "@font-face"),
@@ -55,7 +56,7 @@ const SHEETS: [(&str, &str); 14] = [
     (":last-", ":last-child"),
     (":hover", ":hover"),
 ];
-/// Properties that are not read, unless they have this value.
+/// Properties that are supported with this value only.
 const PROPERTIES: [(&str, &str); 12] = [
     ("pathLength", ""),
     ("vector-effect", "none"),
@@ -71,7 +72,8 @@ const PROPERTIES: [(&str, &str); 12] = [
     ("clip", "auto"),
 ];
 
-/// What is not read of a file; `more`: whether its style sheets have rules that are not applied.
+/// Names of the unsupported contents of a file. `more`: whether its style sheets have rules that are not
+/// applied.
 pub(crate) fn unread(document: &Document, more: bool) -> BTreeSet<&'static str> {
     let mut found = BTreeSet::new();
     for node in document.descendants() {
@@ -94,6 +96,7 @@ pub(crate) fn unread(document: &Document, more: bool) -> BTreeSet<&'static str> 
     found
 }
 
+/// Adds the unsupported contents of one element.
 fn element(node: Node, found: &mut BTreeSet<&'static str>) {
     let name = node.tag_name().name();
     found.extend(ELEMENTS.iter().filter(|(known, _)| *known == name).map(|(_, words)| *words));
@@ -128,7 +131,7 @@ fn element(node: Node, found: &mut BTreeSet<&'static str>) {
         {
             found.insert("elements of other files");
         }
-        // Numbers are most of a file.
+        // Skip the bulk of the file.
         if name == "d" || name == "points" || name.starts_with("data-") {
             continue;
         }
@@ -147,7 +150,7 @@ fn element(node: Node, found: &mut BTreeSet<&'static str>) {
     }
 }
 
-/// Whether a function is in a value: `lab(` is not in `oklab(`.
+/// Whether a value contains a function: `lab(` is not contained in `oklab(`.
 fn is_in(value: &str, word: &str) -> bool {
     let start = |at: usize| {
         value.get(..at).is_none_or(|before| !before.ends_with(|c: char| c.is_ascii_alphanumeric()))

@@ -1,4 +1,4 @@
-//! A [`Diff`] as JSON.
+//! Comparison results as JSON.
 
 use serde::Serialize;
 
@@ -8,16 +8,16 @@ use crate::diff::findings::pixel_count::PixelDiff;
 use crate::diff::shapes::picture::ShapeKind;
 use crate::geometry::numbers::tolerance::DISTANCE_SHARE;
 
-/// The document. Lengths in px, areas in square px.
+/// The JSON document. Lengths in px, areas in square px.
 #[derive(Serialize)]
 struct Document<'a> {
     same: bool,
     same_at: Option<Stage>,
     summary: String,
     tolerance_px: f64,
-    /// Distances are at most this part of themselves too small.
+    /// Relative error of distances: they are at most this share too small.
     distance_error_share: f64,
-    /// What several findings follow from, each by their places in the list.
+    /// Causes, each with the indexes of its findings.
     #[serde(skip_serializing_if = "<[Cause]>::is_empty")]
     causes: &'a [Cause],
     findings: Vec<Entry<'a>>,
@@ -30,6 +30,7 @@ struct Document<'a> {
     not_read: Vec<&'static str>,
 }
 
+/// A finding in the JSON document.
 #[derive(Serialize)]
 struct Entry<'a> {
     verdict: Verdict,
@@ -51,7 +52,8 @@ struct Entry<'a> {
 }
 
 impl Diff {
-    /// What differs as JSON: `same`, `findings`, `totals`; lengths in px, areas in square px.
+    /// The comparison as JSON with the keys `same`, `findings` and `totals`. Lengths in px, areas in square
+    /// px.
     #[must_use]
     pub fn to_json(&self) -> String {
         let document = Document {
@@ -67,7 +69,7 @@ impl Diff {
             unused_tolerances: &self.unused_tolerances,
             not_read: if self.same_at == Some(Stage::Bytes) { Vec::new() } else { self.unread() },
         };
-        // Plain numbers, texts and lists cannot fail to be written.
+        // Plain numbers, texts and lists cannot fail to serialise.
         serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
     }
 }

@@ -1,20 +1,21 @@
-//! The legend of the picture of a difference: words of single strokes, so that it needs no font.
+//! Legend of the overlay, in single-stroke letters that need no font.
 
 use kurbo::{Affine, BezPath, Size};
 
 use crate::colour::srgb::Colour;
 
-/// Widths of a line in the height of a small letter, in the gap between letters, and in the height of the legend.
+/// Height of a lower-case letter in line widths.
 const LETTER: f64 = 6.0;
+/// Height of the legend in line widths.
 const HEIGHT: f64 = 24.0;
 
-/// Height of the legend under a picture.
+/// Height of the legend below a picture.
 pub(crate) fn height(width: f64) -> f64 {
     width * HEIGHT
 }
 
-/// The lines of a legend under a picture: a sample and a word for each colour, with widths. It is made smaller where it would be wider than the
-/// picture.
+/// Strokes of the legend with colour and width: a sample and a word for each row. The legend shrinks if it
+/// would be wider than the picture.
 pub(crate) fn marks(
     rows: &[(&'static str, Colour)],
     picture: Size,
@@ -49,9 +50,10 @@ pub(crate) fn marks(
     found
 }
 
+/// Colour of the words.
 const INK: Colour = Colour::rgb(0x40, 0x40, 0x40);
 
-/// A letter of single strokes, four units high from its base upwards, and how wide it is.
+/// A single-stroke letter with an x-height of four units, baseline at y = 0, and its width.
 fn glyph(letter: char) -> (BezPath, f64) {
     let (data, wide) = match letter {
         'a' => ("M3 0V-4M3 -2.7C2.6 -3.6 0 -5.2 0 -2S2.6 -.4 3 -1.3", 3.0),

@@ -1,15 +1,15 @@
-//! A [`Diff`] as Markdown: the summary of a pull request.
+//! Comparison results as Markdown, for the summary of a pull request.
 
 use std::fmt::Write as _;
 
 use crate::diff::findings::finding::Diff;
 use crate::diff::findings::ink_totals::Measure;
 
-/// Rows of a table, at most.
+/// Most rows of a table.
 const MOST_ROWS: usize = 40;
 
 impl Diff {
-    /// What differs as Markdown, under a heading.
+    /// The comparison as Markdown with a heading.
     #[must_use]
     pub fn to_markdown(&self, title: &str) -> String {
         let mut out = format!("### {}\n\n{}\n", escape(title), escape(&self.summary()));
@@ -48,12 +48,13 @@ impl Diff {
     }
 }
 
+/// Whether the ink of a part changed noticeably.
 fn is_changed(measure: &Measure) -> bool {
     let differs = |[a, b]: [f64; 2]| (a - b).abs() > 0.5;
     measure.marks[0] != measure.marks[1] || differs(measure.length) || differs(measure.area)
 }
 
-/// Text that Markdown shows as it is, but for the names between backticks.
+/// Escapes text for Markdown. Names between backticks stay readable.
 fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

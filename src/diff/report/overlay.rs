@@ -1,4 +1,4 @@
-//! A [`Diff`] as a picture: what stayed in grey, what is gone in red, what is new in green.
+//! Comparison results as a drawing: unchanged marks in grey, removed ones in red, added ones in green.
 
 use std::sync::Arc;
 
@@ -16,42 +16,49 @@ use crate::drawing::{
     Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
 };
 
-/// What stayed: lines, and the darkest and lightest fill.
+/// Unchanged lines.
 const KEPT: Colour = Colour::rgb(0xb4, 0xb4, 0xb4);
+/// Darkest unchanged fill.
 const KEPT_DARK: Colour = Colour::rgb(0xdc, 0xdc, 0xdc);
+/// Lightest unchanged fill.
 const KEPT_LIGHT: Colour = Colour::rgb(0xfa, 0xfa, 0xfa);
+/// Removed marks.
 const GONE: Colour = Colour::rgb(0xd1, 0x24, 0x2f);
+/// Added marks.
 const NEW: Colour = Colour::rgb(0x1a, 0x7f, 0x37);
+/// Lines from old to new places.
 const WAY: Colour = Colour::rgb(0x09, 0x69, 0xda);
+/// Repainted marks.
 const RESTYLED: Colour = Colour::rgb(0xc4, 0x7f, 0x00);
+/// Relabelled marks.
 const RELABELLED: Colour = Colour::rgb(0x82, 0x50, 0xdf);
-/// Opacity of fills that are gone or new.
+/// Opacity of removed and added fills, 0 to 255.
 const VEIL: u8 = 70;
-/// Lines that are gone are so much wider where others nearly cover them.
+/// Width factor of removed lines that added lines nearly cover.
 const UNDER: f64 = 2.5;
-/// Between two pages side by side, as a part of their width.
+/// Gap between two pages side by side, as a share of their width.
 const GAP: f64 = 0.03;
-/// Places of a mark that a line leads from, old to new.
+/// Number of lines per path that lead from old to new points.
 const WAYS: usize = 3;
 
-/// How a diff is shown.
+/// Arrangement of a comparison as a drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum View {
-    /// The new drawing in grey, with what is gone over it in red and what is new in green; lines lead from where
-    /// marks were to where they are.
+    /// The new drawing in grey, under removed marks in red and added marks in green. Lines lead from the old
+    /// to the new place of moved marks.
     #[default]
     Over,
-    /// Both drawings as they are, with red and green over them.
+    /// Both drawings in their own colours, under red and green marks.
     SideBySide,
 }
 
 impl Diff {
-    /// The difference as a drawing in px. Each mark of it has what it shows as its title.
+    /// The comparison as a drawing in px. Each mark has its finding as a title.
     #[must_use]
     pub fn picture(&self, view: View) -> Drawing {
         let (before, after) = (&self.before, &self.after);
         let (width, height) = (before.width.max(after.width), before.height.max(after.height));
-        // Lines that can be seen at the size a page is shown at.
+        // A line width that is visible when the whole page is displayed.
         let width_of_line = (width.max(height) / 500.0).max(0.5);
         let mut layers = Layers::default();
         let mut page = Page { width, height, unit: Unit::Px, background: Some(Colour::WHITE) };
@@ -93,7 +100,7 @@ impl Diff {
 }
 
 impl Diff {
-    /// What the colours of the picture say, of those that are in it.
+    /// Rows of the legend for the colours that occur.
     fn legend(&self, view: View) -> Vec<(&'static str, Colour)> {
         let has = |is: &dyn Fn(&Finding) -> bool| self.findings.iter().any(is);
         let ink = |path: &BezPath| !path.elements().is_empty();
@@ -112,7 +119,7 @@ impl Diff {
     }
 }
 
-/// The colour of a shape that is only shown for orientation.
+/// Grey of a shape that is shown for orientation.
 fn grey(shape: &Shape) -> Colour {
     match (shape.kind, &shape.ink.paint) {
         (ShapeKind::Line, _) => KEPT,
@@ -121,7 +128,7 @@ fn grey(shape: &Shape) -> Colour {
     }
 }
 
-/// Its own colour; a middle grey for what is no colour.
+/// The shape's own colour, or mid-grey for other paints.
 fn own(shape: &Shape) -> Colour {
     match &shape.ink.paint {
         Ink::Colour(colour) => *colour,
@@ -129,6 +136,7 @@ fn own(shape: &Shape) -> Colour {
     }
 }
 
+/// Marks of the overlay: the drawings themselves, and the findings on top.
 #[derive(Default)]
 struct Layers {
     drawings: Vec<Mark>,
@@ -142,7 +150,7 @@ impl Layers {
         all.into_iter().filter(|layer| !layer.marks.is_empty()).collect()
     }
 
-    /// A whole picture.
+    /// Adds a whole picture.
     fn picture(&mut self, picture: &Picture, to: Affine, colour: impl Fn(&Shape) -> Colour) {
         for shape in picture.shapes.iter() {
             let colour = colour(shape);
@@ -159,7 +167,7 @@ impl Layers {
         }
     }
 
-    /// What a finding takes away.
+    /// Adds the removed part of a finding.
     fn taken(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
         match finding.verdict {
             Verdict::Page
@@ -167,7 +175,8 @@ impl Layers {
             | Verdict::Restacked
             | Verdict::Relabelled
             | Verdict::Picture => {}
-            // What is new lies over it: where the way is short, red is seen on both sides of green.
+            // Added lines are painted later. If the distance is short, wider red lines show on both sides of
+            // green ones.
             _ => {
                 let hidden = finding.largest > 0.0 && finding.largest < 2.0 * width;
                 let width = if hidden { width * UNDER } else { width };
@@ -176,7 +185,7 @@ impl Layers {
         }
     }
 
-    /// What a finding brings.
+    /// Adds the added part of a finding.
     fn brought(&mut self, finding: &Finding, to: Affine, width: f64, note: &Arc<str>) {
         let colour = match finding.verdict {
             Verdict::Page => return,
@@ -187,6 +196,7 @@ impl Layers {
         self.piece(finding, &finding.new, colour, to, width, note);
     }
 
+    /// Adds a part of a finding in a colour, with a transparent fill for whole regions.
     fn piece(
         &mut self,
         finding: &Finding,
@@ -207,7 +217,7 @@ impl Layers {
         self.findings.push(mark(to * path.clone(), stroke(colour, width, Vec::new()), Some(note)));
     }
 
-    /// Lines from where a mark was to where it is.
+    /// Adds lines from the old to the new place of a mark.
     fn way(&mut self, finding: &Finding, width: f64, note: &Arc<str>) {
         if finding.verdict != Verdict::Moved {
             return;
@@ -238,12 +248,13 @@ fn polylines(path: &BezPath) -> Vec<Vec<Point>> {
     chain::flatten(path, 0.1, false).into_iter().map(|(points, _)| points).collect()
 }
 
+/// The point of some lines nearest to a given point.
 fn nearest(lines: &[Vec<Point>], p: Point) -> Option<Point> {
     let on = lines.iter().flat_map(|points| points.windows(2)).map(|pair| nearest_on(pair[0], pair[1], p));
     on.min_by(|a, b| a.distance_squared(p).total_cmp(&b.distance_squared(p)))
 }
 
-/// An even-odd region for a drawing whose regions are wound: rings inside an odd number of others are turned round.
+/// Converts an even-odd region to nonzero winding: rings inside an odd number of others are reversed.
 fn unwound(path: &BezPath) -> BezPath {
     let mut rings: Vec<BezPath> = Vec::new();
     for element in path.elements() {

@@ -1,4 +1,4 @@
-//! A [`Diff`] in words: one line a finding, many findings that say the same in one line.
+//! Comparison results as text: one line for each finding, or one line for many similar findings.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -9,11 +9,11 @@ use super::unit_format::Written;
 use crate::diff::findings::finding::{Cause, Change, Diff, Finding, Place, Stage, Verdict};
 use crate::diff::shapes::picture::ShapeKind;
 
-/// More findings than this that say the same of one part become one line.
+/// Above this number, similar findings of one part share a line.
 const FEW: usize = 3;
 
 impl Diff {
-    /// What differs in one line, such as `1 removed, 12 moved (up to 0.5 px)`.
+    /// Summary in one line, such as `1 removed, 12 moved (up to 0.5 px)`.
     #[must_use]
     pub fn summary(&self) -> String {
         let pixels = self.pixels.as_ref().map(|pixels| format!(", {}", pixels.words())).unwrap_or_default();
@@ -54,7 +54,7 @@ impl Diff {
         words.join(", ") + &pixels
     }
 
-    /// What differs, the gravest first: a line a finding, and one line for many findings that say the same.
+    /// The findings as lines, the most serious first. Similar findings share a line.
     #[must_use]
     pub fn lines(&self) -> Vec<String> {
         let lines = self.told().into_iter().map(|told| told.line);
@@ -72,27 +72,27 @@ impl Diff {
         lines.chain(unused).chain(linked).chain(unread).chain(unknown).collect()
     }
 
-    /// The targets of pictures that lie in files of their own.
+    /// Targets of linked pictures.
     fn linked(&self) -> impl Iterator<Item = &str> {
         let shapes = self.before.shapes.iter().chain(self.after.shapes.iter());
         let targets: BTreeSet<&str> = shapes.filter_map(|shape| shape.ink.paint.link()).collect();
         targets.into_iter()
     }
 
-    /// What either file holds that is not read.
+    /// Contents of either file that are not compared.
     pub(crate) fn unread(&self) -> Vec<&'static str> {
         let all = self.before.unread.iter().chain(self.after.unread.iter());
         let all: BTreeSet<&'static str> = all.copied().collect();
         all.into_iter().collect()
     }
 
-    /// A line for each finding.
+    /// One line for each finding.
     #[must_use]
     pub fn all_lines(&self) -> Vec<String> {
         self.findings.iter().map(|finding| line(finding, self.unit())).collect()
     }
 
-    /// What is told, and how many findings each line stands for.
+    /// Lines of the report with the number of findings that each stands for.
     pub(crate) fn told(&self) -> Vec<Told> {
         let unit = self.unit();
         let explained: FxHashSet<usize> =
@@ -105,7 +105,7 @@ impl Diff {
         let mut told: Vec<Told> = self.causes.iter().map(of_cause).collect();
         let mut groups: BTreeMap<Alike, Vec<&Finding>> = BTreeMap::new();
         for (_, finding) in self.findings.iter().enumerate().filter(|(index, _)| !explained.contains(index)) {
-            // Whole parts come and go with all that they have.
+            // A part that came or went is one line for all kinds of marks.
             let alone = matches!(finding.verdict, Verdict::Removed | Verdict::Added);
             let kind = !alone && finding.kind == ShapeKind::Line;
             let changes: &[Change] = if matches!(finding.verdict, Verdict::Moved | Verdict::Picture) {
@@ -146,16 +146,16 @@ impl Diff {
             let line = format!("{:<10} {noun} {}: {detail}", verdict.name(), unit.place(&place));
             told.push(Told { verdict, count, line });
         }
-        // Sorting keeps the order of what has one verdict.
+        // The sort is stable: lines of one verdict keep their order.
         told.sort_by_key(|told| told.verdict != Verdict::Page);
         told
     }
 }
 
-/// What findings that are told together have in common: verdict, part, changes, and whether they are lines.
+/// Key of findings that share a line: verdict, part, changes, and whether they are lines.
 type Alike<'a> = (Verdict, Option<&'a str>, &'a [Change], bool);
 
-/// A line, and how many findings it stands for.
+/// A line of the report and the number of its findings.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Told {
     pub verdict: Verdict,
@@ -167,7 +167,7 @@ fn rect(place: &Place) -> Rect {
     Rect::new(place.x, place.y, place.x + place.width, place.y + place.height)
 }
 
-/// What many findings of one verdict have in common.
+/// Common detail of several findings of one verdict.
 fn together(findings: &[&Finding], changes: &[Change], unit: Written) -> String {
     let largest = findings.iter().map(|f| f.largest).fold(0.0, f64::max);
     let p95 = findings.iter().map(|f| f.p95).fold(0.0, f64::max);
@@ -222,7 +222,7 @@ pub(crate) fn line(finding: &Finding, unit: Written) -> String {
             }
         },
         Verdict::Reshaped => {
-            // Where a whole border came or went, nothing is off.
+            // If a whole border came or went, no distance is reported.
             let off = (unit.number(finding.largest) != "0")
                 .then(|| format!("up to {} off", unit.length(finding.largest)));
             let told: Vec<String> = pieces(finding, lines, unit).into_iter().chain(off).collect();
@@ -245,7 +245,7 @@ pub(crate) fn line(finding: &Finding, unit: Written) -> String {
     format!("{:<10} {noun} {}: {detail}{also}", finding.verdict.name(), unit.place(&finding.place))
 }
 
-/// What is gone and what is new of a mark of another form, before its distance.
+/// Removed and added length of a reshaped line, or the growth of a region.
 fn pieces(finding: &Finding, lines: bool, unit: Written) -> Option<String> {
     let [gone, new] = finding.pieces;
     match lines {
@@ -256,7 +256,7 @@ fn pieces(finding: &Finding, lines: bool, unit: Written) -> Option<String> {
     }
 }
 
-/// How much more or less of it there is; nothing where that is told as nothing.
+/// Growth in words; `None` if it rounds to zero.
 fn grown(growth: f64, lines: bool, unit: Written) -> Option<String> {
     let (amount, more, less) = match lines {
         true => (unit.length(growth.abs()), "longer", "shorter"),
@@ -265,6 +265,7 @@ fn grown(growth: f64, lines: bool, unit: Written) -> Option<String> {
     (!amount.starts_with("0 ")).then(|| format!("{amount} {}", if growth > 0.0 { more } else { less }))
 }
 
+/// A shift in words with its length and both directions.
 fn way([x, y]: [f64; 2], unit: Written) -> String {
     let side = |value: f64, plus: &str, minus: &str| match value {
         v if unit.number(v.abs()) == "0" => None,
@@ -274,6 +275,7 @@ fn way([x, y]: [f64; 2], unit: Written) -> String {
     format!("{} ({})", unit.length(Vec2::new(x, y).hypot()), parts.join(", "))
 }
 
+/// Changed properties in words: `width 1 px → 2 px`.
 pub(crate) fn changed(changes: &[Change]) -> String {
     let of = |change: &Change| format!("{} {} → {}", change.what, change.old, change.new);
     changes.iter().map(of).collect::<Vec<_>>().join(", ")

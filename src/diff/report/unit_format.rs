@@ -1,10 +1,10 @@
-//! [`Written`]: numbers as they are told, in the unit of the drawing.
+//! Numbers in the unit of the drawing, rounded for reports.
 
 use crate::diff::findings::finding::{Diff, Place};
 use crate::diff::shapes::ink::trimmed;
 use crate::drawing::Unit;
 
-/// The unit that lengths are told in.
+/// The unit of reported lengths.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Written {
     unit: Unit,
@@ -12,6 +12,7 @@ pub(crate) struct Written {
 }
 
 impl Diff {
+    /// The unit for reporting this comparison.
     pub(crate) fn unit(&self) -> Written {
         Written { unit: self.before.unit, per_px: 1.0 / self.before.px_per_unit() }
     }
@@ -30,6 +31,7 @@ impl Written {
         format!("{} {}²", rounded(px2 * self.per_px * self.per_px), self.unit.name())
     }
 
+    /// A position in words, by the centre of its box.
     pub(crate) fn place(self, place: &Place) -> String {
         let (x, y) = place.middle();
         format!("at ({:.0}, {:.0})", x * self.per_px, y * self.per_px)

@@ -1,4 +1,4 @@
-//! [`Ignore`]: what does not count where drawings are compared.
+//! Aspects that are left out of a comparison.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::error::Error;
 /// Properties of texts that are colours.
 const COLOURS: [&str; 6] = ["fill", "stroke", "color", "opacity", "fill-opacity", "stroke-opacity"];
 
-/// What does not count.
+/// Aspects that are left out of a comparison.
 ///
 /// ```
 /// use ligne::diff::Ignore;
@@ -25,21 +25,21 @@ const COLOURS: [&str; 6] = ["fill", "stroke", "color", "opacity", "fill-opacity"
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub struct Ignore {
-    /// Parts, classes, layers, tones and how many surfaces hide a line: what the file says of its marks.
+    /// Parts, classes, layers, tones and the number of hiding surfaces.
     pub labels: bool,
-    /// What marks are painted with; texts and pictures still count.
+    /// Colours of marks. Texts and embedded pictures still count.
     pub colours: bool,
-    /// Widths of lines, and with them dashes, ends and corners: the pen.
+    /// Line widths, dashes, ends and corners.
     pub widths: bool,
     /// Texts.
     pub text: bool,
 }
 
 impl Ignore {
-    /// Reads a list such as `labels,widths`.
+    /// Parses a list such as `labels,widths`.
     ///
     /// # Errors
-    /// Where a word is none of `labels`, `colours`, `widths`, `text`.
+    /// If a word is not `labels`, `colours`, `widths` or `text`.
     pub fn parse(text: &str) -> Result<Self, Error> {
         let mut ignore = Self::default();
         for word in text.split(',').map(str::trim) {
@@ -57,7 +57,7 @@ impl Ignore {
         Ok(ignore)
     }
 
-    /// What either ignores.
+    /// Ignores what either of two options ignores.
     #[must_use]
     pub const fn and(self, other: Self) -> Self {
         Self {
@@ -68,12 +68,12 @@ impl Ignore {
         }
     }
 
-    /// The label as it counts.
+    /// The label without ignored aspects.
     pub(crate) fn label(self, label: &Label) -> Label {
         if self.labels { Label::default() } else { label.clone() }
     }
 
-    /// The ink as it counts.
+    /// The ink without ignored aspects.
     pub(crate) fn ink(self, ink: &Ink) -> Ink {
         let mut ink = ink.clone();
         if self.labels {
@@ -99,7 +99,7 @@ impl Ignore {
         ink
     }
 
-    /// Whether a change counts.
+    /// Whether a changed property counts.
     pub(crate) fn counts(self, what: &str) -> bool {
         !match what {
             "part" | "class" | "layer" | "tone" | "hidden by" => self.labels,
@@ -110,7 +110,7 @@ impl Ignore {
         }
     }
 
-    /// Whether a shape does not count at all.
+    /// Whether a shape is ignored completely.
     pub(crate) fn leaves_out(self, shape: &Shape) -> bool {
         self.text && shape.ink.is_text()
     }

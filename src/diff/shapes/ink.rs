@@ -1,4 +1,4 @@
-//! [`Ink`]: how a shape is painted, in a form that can be compared.
+//! Ink of a shape in a form that can be compared.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -9,17 +9,17 @@ use crate::colour::srgb::Colour;
 use crate::drawing::{Cap, Join};
 use crate::geometry::numbers::tolerance::{DASH_PX, WIDTH_PX};
 
-/// What a shape is painted with.
+/// Paint of a shape.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Paint {
-    /// One colour; the opacity of groups is in it.
+    /// One colour, including the opacity of groups.
     Colour(Colour),
-    /// Anything else, in words that are equal where the paints are: gradients, patterns, pictures, texts.
+    /// Gradients, patterns, pictures and texts as a description. Equal descriptions mean equal paint.
     Other(Arc<str>),
 }
 
 impl Paint {
-    /// Whether the eye sees no difference: opacities are rounded more than once on their way through a file.
+    /// Whether two paints look equal. Opacities are rounded several times in a file, so they may differ by 1.
     fn is_like(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Colour(a), Self::Colour(b)) => {
@@ -31,7 +31,7 @@ impl Paint {
 }
 
 impl Paint {
-    /// The target, of a picture that is linked.
+    /// Target of a linked picture.
     pub(crate) fn link(&self) -> Option<&str> {
         match self {
             Self::Other(words) => words.strip_prefix(LINKED)?.split('`').next(),
@@ -56,35 +56,35 @@ impl fmt::Display for Paint {
 /// How a shape is painted; lengths in px.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ink {
-    /// Colour, or what stands for it.
+    /// Colour, or the description of another paint.
     pub paint: Paint,
-    /// Width of a line; 0 for regions.
+    /// Line width; 0 for regions.
     pub width: f64,
-    /// Dashes and gaps in turn; empty = solid.
+    /// Lengths of dashes and gaps in turn; empty for solid lines.
     pub dash: Vec<f64>,
-    /// Ends of a line.
+    /// Line ends.
     pub cap: Cap,
-    /// Corners of a line.
+    /// Line corners.
     pub join: Join,
-    /// Whether a line is drawn as the outline of its varying width.
+    /// Whether a line of varying width is drawn as a filled outline.
     pub outlined: bool,
-    /// The tone of a region, 0 the darkest.
+    /// Tone of a region; 0 is the darkest.
     pub tone: Option<u16>,
-    /// How many surfaces hide the line.
+    /// Number of surfaces that hide the line.
     pub invisibility: u16,
-    /// Whether its edges are sharp on pixels (`shape-rendering`).
+    /// Whether edges are not anti-aliased (`shape-rendering`).
     pub(crate) is_crisp: bool,
     /// Properties of a text or a picture that change its look.
     pub(crate) details: Option<Arc<Details>>,
 }
 
-/// Whether words stand for a text.
+/// Whether a description stands for a text.
 pub(crate) fn is_text(words: &str) -> bool {
     words.starts_with("the text ")
 }
 
 impl Ink {
-    /// A region of this paint.
+    /// Ink of a region.
     #[must_use]
     pub const fn region(paint: Paint, tone: Option<u16>) -> Self {
         Self {
@@ -101,17 +101,17 @@ impl Ink {
         }
     }
 
-    /// Whether it stands for a text.
+    /// Whether the ink stands for a text.
     pub(crate) fn is_text(&self) -> bool {
         matches!(&self.paint, Paint::Other(words) if is_text(words))
     }
 
-    /// Whether it stands for a text or a picture.
+    /// Whether the ink stands for a text or a picture.
     pub(crate) fn is_stand_in(&self) -> bool {
         matches!(&self.paint, Paint::Other(words) if words.starts_with("the "))
     }
 
-    /// Whether a person would say that both look alike.
+    /// Whether two inks look equal.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         self.paint.is_like(&other.paint)
             && (self.width - other.width).abs() <= WIDTH_PX
@@ -122,7 +122,7 @@ impl Ink {
             && self.details == other.details
     }
 
-    /// What is different, each as what it is, what it was and what it became.
+    /// Changed properties as name, old value and new value.
     pub(crate) fn changes(&self, other: &Self) -> Vec<(String, String, String)> {
         let mut changes = Vec::new();
         let mut note = |what: &str, differs: bool, word: &dyn Fn(&Self) -> String| {
@@ -165,6 +165,7 @@ impl Ink {
     }
 }
 
+/// Whether two dash patterns are equal within a tolerance.
 fn same_dash(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| (a - b).abs() <= DASH_PX)
 }
@@ -185,7 +186,7 @@ fn join(join: Join) -> &'static str {
     }
 }
 
-/// A number of at most three decimals, without needless zeros.
+/// A number with at most three decimals, without trailing zeros.
 pub(crate) fn trimmed(number: f64) -> String {
     let text = format!("{number:.3}");
     match text.trim_end_matches('0').trim_end_matches('.') {

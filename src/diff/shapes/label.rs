@@ -1,24 +1,24 @@
-//! [`Label`]: what a mark is, by what the file says of it.
+//! Label of a mark, from the attributes in its file.
 
 use std::fmt;
 use std::sync::Arc;
 
-/// What a mark is: its layer, its classes and the part of the model that it belongs to. Foreign files have at most
-/// layers and classes.
+/// Identity of a mark: layer, classes and part of the model. Files of other programs have at most layers and
+/// classes.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Default)]
 pub struct Label {
-    /// Id of the layer's group, such as `lines`; empty outside of layers.
+    /// Id of the layer's group, such as `lines`; empty outside layers.
     pub layer: Arc<str>,
-    /// Which drawing of a page it is in; none outside of pages.
+    /// Name of the drawing on a page of several drawings.
     pub drawing: Option<Arc<str>>,
-    /// Classes in alphabetical order, but for the tone.
+    /// Classes in alphabetical order, without the tone.
     pub classes: Vec<Arc<str>>,
     /// Name of the part.
     pub part: Option<Arc<str>>,
 }
 
 impl Label {
-    /// The kind of the mark in a word: its first class that says more than `silhouette` does, or its layer.
+    /// Kind of the mark in one word: its first class other than `silhouette`, or else its layer.
     #[must_use]
     pub fn kind(&self) -> &str {
         let class = self.classes.iter().find(|class| class.as_ref() != "silhouette").or(self.classes.first());
@@ -29,7 +29,7 @@ impl Label {
         }
     }
 
-    /// The part as it is shown.
+    /// Name of the part as displayed.
     #[must_use]
     pub fn part_name(&self) -> &str {
         self.part.as_deref().unwrap_or("no part")

@@ -1,4 +1,5 @@
-//! Labels and inks by number, so that they are compared once and not for every pair of segments.
+//! Labels and inks as group numbers, so that each combination is compared once instead of once per pair of
+//! segments.
 
 use std::sync::Arc;
 
@@ -10,44 +11,44 @@ use super::label::Label;
 use super::picture::{Picture, Shape, ShapeKind};
 use super::tolerances::{Tolerances, default_px};
 
-/// In what two chains differ beside geometry; in order of how much it says.
+/// Difference of two marks except for geometry, in increasing order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Likeness {
-    /// Same label, same ink.
+    /// Same label and same ink.
     Same,
-    /// Painted differently.
+    /// Another ink.
     Ink,
-    /// Another part or class.
+    /// Another part, class or layer.
     Label,
-    /// Both.
+    /// Another label and another ink.
     Both,
 }
 
-/// What shapes of one label and one ink have in common.
+/// Properties shared by all shapes of one label and one ink.
 #[derive(Debug, Clone)]
 pub(crate) struct Group {
     pub kind: ShapeKind,
-    /// The part of the model.
+    /// Part of the model.
     part: Option<Arc<str>>,
     label: usize,
     ink: Ink,
-    /// How far ink may lie from where it lay, in px.
+    /// Largest distance in px between marks that count as equal.
     pub tolerance: f64,
 }
 
-/// The groups of two pictures.
+/// Groups of two pictures.
 #[derive(Debug)]
 pub(crate) struct Groups {
     pub groups: Vec<Group>,
-    /// Group of each shape of either picture.
+    /// Group number of each shape of each picture.
     pub of_shape: [Vec<usize>; 2],
 }
 
 impl Groups {
-    /// Numbers the labels and inks of two pictures.
+    /// Assigns group numbers to the shapes of two pictures.
     pub(crate) fn new(pictures: [&Picture; 2], tolerances: &Tolerances, ignore: Ignore) -> Self {
         let fallback = default_px(pictures[0], pictures[1]);
-        // Drawings grouped by part have no layers: they say nothing then.
+        // Drawings grouped by part have no layers; then layers are not compared.
         let layered = pictures.map(|p| p.shapes.iter().any(|shape| !shape.label.layer.is_empty()));
         let by_layer = layered[0] == layered[1];
         let mut labels: FxHashMap<Label, usize> = FxHashMap::default();
@@ -72,12 +73,12 @@ impl Groups {
         Self { groups, of_shape }
     }
 
-    /// Whether two groups are of one part.
+    /// Whether two groups belong to the same part.
     pub(crate) fn same_part(&self, a: usize, b: usize) -> bool {
         self.groups.get(a).map(|group| &group.part) == self.groups.get(b).map(|group| &group.part)
     }
 
-    /// In what two groups differ; `None` where the one is a line and the other a region.
+    /// Difference of two groups; `None` for marks of different kinds, such as a line and a region.
     pub(crate) fn likeness(&self, a: usize, b: usize) -> Option<Likeness> {
         if a == b {
             return Some(Likeness::Same);
@@ -95,7 +96,7 @@ impl Groups {
     }
 }
 
-/// An ink as a key: its numbers by their bits.
+/// An ink as a hash key, with numbers by their bits.
 type InkKey =
     (super::ink::Paint, u64, Vec<u64>, [u8; 4], Option<u16>, u16, Option<Arc<super::placeholder::Details>>);
 

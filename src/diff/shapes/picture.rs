@@ -1,4 +1,4 @@
-//! [`Picture`]: a drawing as it is compared: shapes in px, each with ink and label.
+//! A drawing prepared for comparison: shapes in px, each with ink and label.
 
 use std::sync::Arc;
 
@@ -9,33 +9,33 @@ use super::label::Label;
 use crate::diff::raster_check::Drawn;
 use crate::drawing::Unit;
 
-/// What a shape is.
+/// Kind of a shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ShapeKind {
-    /// A line: its path is its middle.
+    /// A line; the path is its axis.
     Line,
-    /// A painted region: its path is its border.
+    /// A painted region; the path is its border.
     Region,
-    /// A region that other shapes are cut off at.
+    /// A clip region.
     Clip,
 }
 
 /// One painted shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
-    /// Geometry in px, x right, y down, from the page's corner.
+    /// Geometry in px from the page's upper left corner, x right, y down.
     pub path: BezPath,
-    /// The outline of a line of varying width, in px.
+    /// Outline of a line of varying width, in px.
     pub outline: Option<BezPath>,
-    /// What it is.
+    /// Kind of the shape.
     pub kind: ShapeKind,
-    /// Whether a region counts as inside what is wound round an odd number of times only.
+    /// Whether the fill rule of a region is even-odd.
     pub even_odd: bool,
-    /// How it is painted.
+    /// How the shape is painted.
     pub ink: Ink,
-    /// What the file says of it.
+    /// Label of the shape.
     pub label: Arc<Label>,
-    /// The material that it is of, where the file names one: it does not count.
+    /// Material, where the file names one. It is not compared.
     pub material: Option<Arc<str>>,
 }
 
@@ -46,24 +46,24 @@ pub struct Picture {
     pub width: f64,
     /// Height in px.
     pub height: f64,
-    /// The unit that its size is written in.
+    /// Unit of the size in the file.
     pub unit: Unit,
-    /// Px in the last decimal that its coordinates are written with.
+    /// Size in px of one unit of the last decimal of coordinates.
     pub step_px: f64,
-    /// Whether some of its paths are written with arcs.
+    /// Whether any path is written with arcs.
     pub has_arcs: bool,
-    /// Shapes, painted first to last.
+    /// Shapes in painting order.
     pub shapes: Arc<[Shape]>,
-    /// The file's text.
+    /// Text of the file.
     pub svg: Arc<str>,
-    /// What the renderer paints.
+    /// The parsed file for the renderer.
     pub(crate) drawn: Arc<Drawn>,
-    /// What the file holds that is not read.
+    /// Contents of the file that are not compared.
     pub(crate) unread: Arc<[&'static str]>,
 }
 
 impl Picture {
-    /// The same, with another name for one of its parts.
+    /// The same drawing with one part renamed.
     #[cfg(feature = "cli")]
     #[must_use]
     pub(crate) fn with_part_renamed(mut self, old: &str, new: &str) -> Self {
@@ -78,7 +78,7 @@ impl Picture {
         self
     }
 
-    /// Px in a user unit of the drawing.
+    /// Size of a user unit in px.
     #[must_use]
     pub fn px_per_unit(&self) -> f64 {
         match self.unit {

@@ -1,5 +1,5 @@
-//! What stands for a text or a picture: the renderer has neither fonts nor decoders, so that both are compared by their words or
-//! bytes, and by all properties that change their look.
+//! Placeholders for texts and pictures. The renderer has no fonts or decoders, so texts are compared by their
+//! words, pictures by their bytes, and both by all properties that change their look.
 
 use std::collections::BTreeMap;
 use std::hash::{Hash, Hasher};
@@ -14,12 +14,12 @@ use crate::diff::markup::cascade::Cascade;
 use crate::diff::markup::style_sheet::{self, Declaration};
 use crate::error::Error;
 
-/// What stands for a picture in a file of its own begins so; its target follows between backticks.
+/// Start of the description of a linked picture; the target follows in backticks.
 pub(crate) const LINKED: &str = "the picture linked as `";
 
-/// Properties and their values, without those that have their initial value.
+/// Properties and values that differ from the initial value.
 pub(crate) type Details = BTreeMap<String, String>;
-/// Properties that elements inherit.
+/// Inherited properties.
 pub(crate) type Props = BTreeMap<&'static str, String>;
 
 /// Inherited properties of texts and pictures, with initial values.
@@ -64,7 +64,7 @@ const INHERITED: [(&str, &str); 39] = [
     ("visibility", "visible"),
     ("image-rendering", "auto"),
 ];
-/// Properties and attributes of a text or a piece of it alone.
+/// Properties and attributes that are not inherited, with initial values.
 const OWN: [(&str, &str); 23] = [
     ("text-decoration", "none"),
     ("text-decoration-line", "none"),
@@ -90,12 +90,13 @@ const OWN: [(&str, &str); 23] = [
     ("spacing", "exact"),
     ("side", "left"),
 ];
-/// What the rectangle of a text has itself: it is not said twice.
+/// Properties already set on the rectangle of a text.
 const OF_BOX: [&str; 8] = ["opacity", "filter", "clip-path", "mask", "display", "visibility", "x", "y"];
-/// Elements that describe the one around them.
+/// Elements that only describe their parent.
 const DESCRIPTIONS: [&str; 3] = ["title", "desc", "metadata"];
 
-/// What an element says of properties: attributes, style sheets, its own style, and what is important.
+/// Properties of an element in order of increasing precedence: attributes, style sheets, own style, important
+/// declarations.
 fn said(node: Node, declared: &[Declaration], known: &[(&'static str, &str)]) -> Vec<(&'static str, String)> {
     let own = style_sheet::declarations(node.attribute("style").unwrap_or_default()).unwrap_or_default();
     let attributes = node.attributes().filter(|a| a.namespace().is_none()).map(|a| (a.name(), a.value()));
@@ -113,7 +114,7 @@ fn said(node: Node, declared: &[Declaration], known: &[(&'static str, &str)]) ->
     said
 }
 
-/// What elements inside of one inherit.
+/// Properties inherited by the children of an element.
 pub(crate) fn inherit(around: &Arc<Props>, node: Node, declared: &[Declaration]) -> Arc<Props> {
     let said = said(node, declared, &INHERITED);
     if said.is_empty() {
@@ -124,7 +125,7 @@ pub(crate) fn inherit(around: &Arc<Props>, node: Node, declared: &[Declaration])
     Arc::new(props)
 }
 
-/// A value as others write it too: numbers and colours in one form, references by what they refer to.
+/// A value in normal form: numbers and colours in one notation, references by the content of their target.
 fn normal(node: Node, name: &str, value: &str) -> String {
     let value = value.split_whitespace().collect::<Vec<_>>().join(" ");
     if matches!(name, "fill" | "stroke" | "color")
@@ -152,7 +153,7 @@ fn normal(node: Node, name: &str, value: &str) -> String {
     }
 }
 
-/// What a reference leads to, as a number that is equal where the text is, or for a path where its course is.
+/// Hash of a referenced element: by its text, or for a path by its geometry.
 fn referred(node: Node, id: &str) -> String {
     let document = node.document();
     let target = document.descendants().find(|node| node.attribute("id") == Some(id));
@@ -161,7 +162,7 @@ fn referred(node: Node, id: &str) -> String {
     format!("element {:08x}", number as u32)
 }
 
-/// The course of a path without children, and its other attributes.
+/// Geometry and attributes of a path without children.
 fn course(path: Node) -> Option<String> {
     let data = path.attribute("d").filter(|_| !path.has_children())?;
     let course = BezPath::from_svg(data).ok()?.to_svg();
@@ -176,24 +177,24 @@ fn hash(text: impl Hash) -> u64 {
     hasher.finish()
 }
 
-/// A text or a picture in words, and the properties that change its look.
+/// Description of a text or a picture, and the properties that change its look.
 pub(crate) struct Words {
     pub words: String,
     pub details: Details,
 }
 
 impl Words {
-    /// Two colours that are equal where the words and the details are.
+    /// Two colours derived from a hash of the description and the properties.
     pub(crate) fn colours(&self) -> [String; 2] {
         let hash = hash((&self.words, &self.details));
         [hash, hash >> 24].map(|part| format!("#{:06x}", part & 0xff_ffff))
     }
 }
 
-/// The words of a text, and how they look.
+/// Description of a text.
 ///
 /// # Errors
-/// Where style sheets are more than is read.
+/// If the style sheets exceed their limits.
 pub(crate) fn text(
     node: Node,
     around: &Props,
@@ -204,7 +205,7 @@ pub(crate) fn text(
     let mut props = around.clone();
     props.extend(said(node, declared, &INHERITED));
     props.extend(said(node, declared, &OWN).into_iter().filter(|(name, value)| {
-        // A place for each letter is more than the rectangle has.
+        // The rectangle has a single position, so positions per letter are part of the properties.
         !OF_BOX.contains(name) || matches!(*name, "x" | "y") && value.contains(' ')
     }));
     let preserved = props.get("white-space").is_some_and(|value| value.starts_with("pre"));
@@ -229,13 +230,15 @@ pub(crate) fn text(
     Ok(Words { words: format!("the text `{words}`"), details })
 }
 
+/// A text split into runs of equal properties.
 #[derive(Default)]
 struct Text {
-    /// Pieces that look alike.
+    /// Pieces of text with equal properties.
     runs: Vec<(Props, String)>,
 }
 
 impl Text {
+    /// Collects the runs of an element and its children.
     fn inside(&mut self, node: Node, props: &Props, cascade: &mut Cascade) -> Result<(), Error> {
         for child in node.children() {
             if child.is_text() {
@@ -252,12 +255,12 @@ impl Text {
             }
             let declared = cascade.enter(child)?;
             let mut inner = props.clone();
-            // Where the letters of one piece stand is said for that piece.
+            // Letter positions apply only to the piece that sets them.
             inner.retain(|name, _| !matches!(*name, "x" | "y" | "dx" | "dy" | "rotate"));
             for (name, value) in
                 said(child, &declared, &INHERITED).into_iter().chain(said(child, &declared, &OWN))
             {
-                // Lines under and through a text go on through all of it.
+                // Text decorations accumulate through nested elements.
                 match inner.get_mut(name) {
                     Some(outer) if name.starts_with("text-decoration") => {
                         if value != "none" {
@@ -281,7 +284,7 @@ impl Text {
     }
 }
 
-/// Without what has its initial value, or shows nothing.
+/// The properties that are visible and differ from their initial value.
 fn details(props: &Props) -> Details {
     let initial =
         |name: &str| INHERITED.iter().chain(&OWN).find(|(known, _)| *known == name).map(|(_, value)| *value);
@@ -303,14 +306,14 @@ fn details(props: &Props) -> Details {
     details
 }
 
-/// A picture in words; `None` where it draws nothing.
+/// Description of a picture; `None` if it draws nothing.
 pub(crate) fn picture(node: Node, around: &Props, declared: &[Declaration]) -> Option<Words> {
     let href = node.attributes().find(|a| a.name() == "href").map(|a| a.value().trim())?;
     if href.is_empty() {
         return None;
     }
     let words = if href.starts_with("data:") || href.contains('`') {
-        // Editors break its letters into lines.
+        // Editors break the base64 text into lines.
         let letters: String = href.split_ascii_whitespace().collect();
         format!("the picture {:016x}", hash(letters))
     } else {

@@ -1,22 +1,22 @@
-//! [`Drawn`]: a file as the renderer reads it, once for smooth edges and once for sharp ones.
+//! A file parsed for the renderer, once with smooth and once with crisp edges.
 
 use std::sync::OnceLock;
 
 use rustc_hash::FxHashMap;
 use usvg::{ImageHrefResolver, Options, ShapeRendering, Tree};
 
-/// A file as the renderer reads it.
+/// A file parsed for the renderer.
 #[derive(Debug)]
 pub(crate) struct Drawn {
     smooth: Tree,
-    /// Made when it is needed, where it differs.
+    /// Parsed with crisp edges on first use, if that differs.
     crisp: OnceLock<Option<Tree>>,
     markup: String,
-    /// What stands for a text or a picture, by id, and whether it is a text.
+    /// Ids of texts and pictures, and whether each is a text.
     stand_ins: FxHashMap<String, bool>,
 }
 
-/// Two pictures are equal where their files are.
+/// Compares the markup only.
 impl PartialEq for Drawn {
     fn eq(&self, other: &Self) -> bool {
         self.markup == other.markup
@@ -24,21 +24,21 @@ impl PartialEq for Drawn {
 }
 
 impl Drawn {
-    /// Reads a file that was written anew.
+    /// Parses a file prepared for the renderer.
     ///
     /// # Errors
-    /// Where it is no drawing.
+    /// If it is not a drawing.
     pub(crate) fn new(markup: String, stand_ins: FxHashMap<String, bool>) -> Result<Self, usvg::Error> {
         let smooth = tree(&markup, ShapeRendering::GeometricPrecision)?;
         Ok(Self { smooth, crisp: OnceLock::new(), markup, stand_ins })
     }
 
-    /// With smooth edges, but for those that the file says are sharp.
+    /// With smooth edges, except where the file requests crisp ones.
     pub(crate) fn smooth(&self) -> &Tree {
         &self.smooth
     }
 
-    /// The same with sharp edges, where the renderer paints them.
+    /// With crisp edges.
     pub(crate) fn crisp(&self) -> &Tree {
         let tree = &self.smooth;
         let plain = tree.linear_gradients().is_empty()
@@ -54,7 +54,7 @@ impl Drawn {
         crisp.as_ref().unwrap_or(tree)
     }
 
-    /// Whether an element stands for a text, or for a picture.
+    /// Whether an id stands for a text (`true`) or a picture (`false`); `None` for other elements.
     pub(crate) fn stand_in(&self, id: &str) -> Option<bool> {
         self.stand_ins.get(id).copied()
     }
@@ -67,7 +67,7 @@ fn tree_of(markup: &str) -> Option<Tree> {
 fn tree(markup: &str, shape_rendering: ShapeRendering) -> Result<Tree, usvg::Error> {
     let options = Options {
         shape_rendering,
-        // Nothing is read from the disk, and no picture is decoded.
+        // Do not read files or decode pictures.
         image_href_resolver: ImageHrefResolver {
             resolve_data: Box::new(|_, _, _| None),
             resolve_string: Box::new(|_, _| None),

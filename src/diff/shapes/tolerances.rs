@@ -1,4 +1,4 @@
-//! [`Tolerances`]: how far ink may lie from where it lay, by layer and class.
+//! Largest distances between marks that count as equal, by layer and class.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -12,8 +12,10 @@ use crate::drawing::{Length, Unit};
 use crate::error::Error;
 use crate::geometry::numbers::tolerance::{COARSEST_STEP_PX, READ_OF_PAGE};
 
-/// Tolerances for all marks, and for some of them by name: a class such as `contour` or `tone-0`, a layer such as
-/// `hatching`, or all `lines` or `fills`. A class counts before a layer, and that before the rest.
+/// Tolerances for all marks, and for some marks by name.
+///
+/// A name is a class such as `contour` or `tone-0`, a layer such as `hatching`, or `lines` or `fills`.
+/// Classes take precedence over layers, and layers over `lines` and `fills`.
 ///
 /// ```
 /// use ligne::diff::Tolerances;
@@ -26,17 +28,17 @@ use crate::geometry::numbers::tolerance::{COARSEST_STEP_PX, READ_OF_PAGE};
 /// ```
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Tolerances {
-    /// For what has none of its own; `None`: twice the precision that the coarser of both drawings is written with.
+    /// Default tolerance. `None`: twice the precision of the less precise drawing.
     pub all: Option<Length>,
-    /// By name.
+    /// Tolerances by name.
     pub named: BTreeMap<String, Length>,
 }
 
 impl Tolerances {
-    /// Reads `0.1px`, `lines=0.05mm,fills=0.2mm`, or both.
+    /// Parses `0.1px`, `lines=0.05mm,fills=0.2mm`, or both.
     ///
     /// # Errors
-    /// Where a part of the text is no length, or has no name before its `=`.
+    /// If a part of the text is not a length, or has no name before its `=`.
     pub fn parse(text: &str) -> Result<Self, Error> {
         let mut read = Self::default();
         for part in text.split(',') {
@@ -62,7 +64,7 @@ impl Tolerances {
         Ok(())
     }
 
-    /// These tolerances, with those of `over` in their place where it has some.
+    /// Replaces tolerances by those set in `over`.
     #[must_use]
     pub fn with(mut self, over: Self) -> Self {
         self.all = over.all.or(self.all);
@@ -70,7 +72,7 @@ impl Tolerances {
         self
     }
 
-    /// The tolerance of a mark in px; `fallback` where nothing is said of it.
+    /// Tolerance of a mark in px; `fallback` if none applies.
     pub(crate) fn px(&self, label: &Label, tone: Option<u16>, kind: ShapeKind, fallback: f64) -> f64 {
         let family = match kind {
             ShapeKind::Line => "lines",
@@ -85,7 +87,7 @@ impl Tolerances {
             .map_or(fallback, |length| length.in_unit(Unit::Px).max(fallback.min(1e-3)))
     }
 
-    /// Names that no mark of the drawings has.
+    /// Names that match no mark of the drawings.
     pub(crate) fn unused(&self, pictures: [&Picture; 2]) -> Vec<String> {
         let known = |name: &str| {
             matches!(name, "lines" | "fills")
@@ -99,12 +101,13 @@ impl Tolerances {
     }
 }
 
-/// Twice the precision that the coarser of two drawings is written with, in px; four times where only the one has arcs; not finer
-/// than what is read.
+/// Default tolerance in px: twice the precision of the less precise drawing, or four times if only one
+/// drawing has arcs. It is at least the precision of reading.
 pub(crate) fn default_px(before: &Picture, after: &Picture) -> f64 {
     let step = before.step_px.max(after.step_px).min(COARSEST_STEP_PX);
     let sides = [before.width, before.height, after.width, after.height];
-    // Where only the one has arcs, a program put them in place of curves: two and a half units of the last decimal off.
+    // If only one drawing has arcs, a program replaced curves by arcs. They are off by up to two and a half
+    // units of the last decimal.
     let steps = if before.has_arcs == after.has_arcs { 2.0 } else { 4.0 };
     (steps * step).max(sides.into_iter().fold(0.0, f64::max) * READ_OF_PAGE)
 }
@@ -115,7 +118,7 @@ impl<'de> Deserialize<'de> for Tolerances {
     }
 }
 
-/// Reads `"0.1px"`, `0.1` or `{ default = "0.1px", lines = "0.05mm" }`.
+/// Deserialises `"0.1px"`, `0.1` or `{ default = "0.1px", lines = "0.05mm" }`.
 struct Reader;
 
 impl<'de> Visitor<'de> for Reader {

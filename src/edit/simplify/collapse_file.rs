@@ -1,10 +1,15 @@
-//! Collapses in a file: which point falls onto which, in their order. All else follows from the model, which the file is
-//! bound to by a sum over it.
+//! File format of collapses: the pairs of points in their order, bound to the model by a checksum.
 //!
-//! The file is `ligne-lod`, a byte for its version, the sum of the model (8 bytes, as all numbers from the lowest byte),
-//! how many collapses there are, for each the point that falls and how far in number the other lies from it, and the
-//! sum of what is left. Numbers of any size are in groups of seven bits, the lowest first, with the eighth set but for
-//! the last; signs go into the lowest bit.
+//! Layout:
+//!
+//! 1. `ligne-lod` and a version byte.
+//! 2. Checksum of the model, 8 bytes, little endian.
+//! 3. Number of collapses.
+//! 4. For each collapse the removed point, and the difference to the number of the remaining point.
+//! 5. Checksum of the result, 8 bytes, little endian.
+//!
+//! Counts and numbers are LEB128: groups of seven bits, lowest first, the eighth bit set in all but the last.
+//! Differences are zigzag encoded, with the sign in the lowest bit.
 
 use super::collapse_record::Record;
 use super::edge_collapse::{Collapser, SWEEP};
@@ -15,7 +20,7 @@ use crate::scene::Scene;
 const MAGIC: &[u8] = b"ligne-lod";
 const VERSION: u8 = 1;
 
-/// The collapses of a scene as the bytes of a file.
+/// Writes the collapses of a scene to the bytes of a file.
 pub(crate) fn written(record: &Record, scene: &Scene) -> Vec<u8> {
     let mut bytes = MAGIC.to_vec();
     bytes.push(VERSION);
@@ -31,7 +36,7 @@ pub(crate) fn written(record: &Record, scene: &Scene) -> Vec<u8> {
     bytes
 }
 
-/// The collapses of a scene from the bytes of a file.
+/// Reads the collapses of a scene from the bytes of a file, by repeating them on the surface.
 pub(crate) fn read(bytes: &[u8], scene: &Scene) -> Result<Record, Error> {
     let rest =
         bytes.strip_prefix(MAGIC).ok_or_else(|| Error::new("this is not a file of levels of detail"))?;
@@ -56,7 +61,7 @@ pub(crate) fn read(bytes: &[u8], scene: &Scene) -> Result<Record, Error> {
         let far = take(&mut rest)?;
         let far = (far >> 1).cast_signed() ^ -(far & 1).cast_signed();
         let to = from.checked_add_signed(far).filter(|to| from.max(*to) < points && *to != from);
-        // Points are counted in 32 bits.
+        // Point numbers fit in 32 bits.
         let fits = to.is_some_and(|to| surface.replay(from as u32, to as u32));
         if !fits {
             return Err(Error::new("a collapse of two points without an edge").at(format!("collapse {step}")));
@@ -94,7 +99,7 @@ fn take(bytes: &mut &[u8]) -> Result<u64, Error> {
     Err(Error::new("a number is too large; the file is damaged"))
 }
 
-/// A sum over many words, in which each counts with its place.
+/// Checksum over a sequence of words; their order matters.
 #[derive(Default)]
 struct Sum(u64);
 
@@ -113,7 +118,7 @@ impl Sum {
     }
 }
 
-/// The sum of all that the order of collapses rests on.
+/// Checksum of everything that determines the order of collapses.
 fn sum_of(flat: &Flat) -> u64 {
     let mut sum = Sum::default();
     sum.add_all(flat.points.iter(), |p| {
@@ -136,7 +141,7 @@ fn sum_of(flat: &Flat) -> u64 {
     sum.0 ^ sum.0 >> 32
 }
 
-/// The sum of what is left after all collapses.
+/// Checksum of the result after all collapses.
 fn sum_of_left(record: &Record) -> u64 {
     let mut sum = Sum::default();
     for step in &record.steps {

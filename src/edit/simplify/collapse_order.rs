@@ -1,4 +1,4 @@
-//! The order of collapses: at each moment the one that adds least error.
+//! Order of collapses: a greedy search that always takes the collapse with the least added error.
 
 use crate::parallel::prelude::*;
 
@@ -8,25 +8,26 @@ use super::edge_collapse::{Collapser, others};
 use super::flat_surface::Flat;
 use super::point_constraints::Kind;
 
-/// What keeps faces that cost nothing in shape: a part of the fourth power of the length that a point falls.
+/// Weight of the fourth power of the collapse distance, added to the cost. Keeps faces in flat regions well
+/// shaped.
 const LENGTH_COST: f64 = 1e-10;
 
-/// Where borders and seams meet in a point, how far it falls counts besides, for this share of the faces about it: there what
-/// one texture, colour or material covers is covered by another.
+/// Extra cost of a collapse at a point where borders and seams meet, as a share of the surrounding face area
+/// times the squared distance. There one texture, colour or material spreads over another.
 const CORNER_SHARE: f64 = 0.1;
 
-/// How often points that could not go are asked again after all others have gone.
+/// Maximum number of rounds that try blocked points again.
 const ROUNDS: usize = 8;
 
-/// How many faces a scene has: those of each geometry, as often as it is shown.
+/// Maximum number of faces of a scene, instances counted.
 pub(crate) struct Budget<'a> {
-    /// How often each geometry is shown.
+    /// Number of instances of each geometry.
     pub shown: &'a [u64],
-    /// How many faces there may be in all.
+    /// Maximum number of faces in all.
     pub most: u64,
 }
 
-/// The collapses of a surface in their order, until it has no more faces than it may, or none can go.
+/// Finds the collapses of a surface in their order, until the budget is met or none is possible.
 pub(crate) fn collapses(flat: Flat, budget: &Budget) -> Record {
     let mut queue = Queue::new(Collapser::new(flat), budget);
     queue.start();
@@ -44,10 +45,10 @@ pub(crate) fn collapses(flat: Flat, budget: &Budget) -> Record {
 struct Queue<'a> {
     surface: Collapser,
     heap: Heap,
-    /// Where each point would fall.
+    /// Neighbour onto which each point would collapse.
     targets: Vec<u32>,
     budget: &'a Budget<'a>,
-    /// How many faces there are now, instances counted.
+    /// Present number of faces, instances counted.
     faces: u64,
     ring: Vec<u32>,
     choices: Vec<(f64, u32)>,
@@ -63,7 +64,7 @@ impl<'a> Queue<'a> {
         Self { surface, heap, targets, budget, faces, ring: Vec::new(), choices: Vec::new() }
     }
 
-    /// Lets all points wait that may go anywhere.
+    /// Queues all points that may collapse.
     fn start(&mut self) {
         let best: Vec<Option<(f64, u32)>> =
             (0..self.targets.len() as u32).into_par_iter().map(|point| self.best(point)).collect();
@@ -90,7 +91,8 @@ impl<'a> Queue<'a> {
         }
     }
 
-    /// What it costs if a point falls onto another: how much farther from all planes that ever were about it it comes to lie.
+    /// Cost of collapsing a point onto another: the increase of its quadric error, plus the penalties for
+    /// distance and corners.
     #[inline]
     fn cost(&self, from: u32, to: u32) -> f64 {
         let site = &self.surface.sites[from as usize];
@@ -101,7 +103,7 @@ impl<'a> Queue<'a> {
         site.quadric.at(target) - site.error + LENGTH_COST * long * long + covered
     }
 
-    /// Whether a point that has lines through it may fall onto another.
+    /// Whether the borders and seams at a point allow a collapse onto another point.
     fn allows(&self, from: u32, to: u32) -> bool {
         let site = &self.surface.sites[from as usize];
         match site.kind {
@@ -112,7 +114,7 @@ impl<'a> Queue<'a> {
         }
     }
 
-    /// Where a point falls at the least cost, without a look at whether it may.
+    /// Cheapest collapse of a point, without checking that it is possible.
     fn best(&self, point: u32) -> Option<(f64, u32)> {
         let mut best = (f64::INFINITY, NONE);
         let mut ask = |other: u32| {
@@ -129,7 +131,7 @@ impl<'a> Queue<'a> {
             }
             let [next, last] = others(corners, point);
             if is_plain {
-                // In the middle of a surface each neighbour comes next in one face.
+                // Inside a surface each neighbour is the next corner in exactly one face.
                 ask(next);
             } else {
                 [next, last].into_iter().filter(|other| self.allows(point, *other)).for_each(&mut ask);
@@ -138,7 +140,7 @@ impl<'a> Queue<'a> {
         (best.1 != NONE).then_some(best)
     }
 
-    /// Lets a point that may not fall where it would wait for the next best place of all.
+    /// Queues a point whose first choice is impossible at its next best possible target.
     fn wait_for_next(&mut self, point: u32, refused: (f64, u32)) {
         let mut ring = std::mem::take(&mut self.ring);
         self.surface.neighbours(point, &mut ring);
@@ -157,7 +159,7 @@ impl<'a> Queue<'a> {
         self.ring = ring;
     }
 
-    /// Lets the points wait anew about which a collapse has changed what they may do or what it costs.
+    /// Updates the queue entries of points around a collapse, whose costs or targets may have changed.
     fn renew(&mut self, gone: u32, target: u32) {
         self.wait(target);
         let mut ring = std::mem::take(&mut self.ring);

@@ -1,16 +1,16 @@
-//! [`Heap`]: points waiting in order of their cost, each once; the cost of any can change.
+//! [`Heap`]: a priority queue of points by cost, with costs that can change.
 
-/// Where a point is that does not wait.
+/// Position of a point that is not in the heap.
 const OUT: u32 = u32::MAX;
 
-/// Children of a node: more make the heap flat, and kinder to the cache.
+/// Children of a node: a 4-ary heap is flatter and has better cache locality than a binary one.
 const CHILDREN: usize = 4;
 
-/// A heap of points by cost, the least first; of equal costs the point of the smaller number.
+/// Heap of points, least cost first; of equal costs, the smaller point number first.
 #[derive(Debug)]
 pub(crate) struct Heap {
     nodes: Vec<(f64, u32)>,
-    /// Where each point stands among the nodes.
+    /// Position of each point in `nodes`.
     places: Vec<u32>,
 }
 
@@ -22,7 +22,7 @@ fn before(a: (f64, u32), b: (f64, u32)) -> bool {
 }
 
 impl Heap {
-    /// All points from 0 that have a cost.
+    /// Builds a heap of the points that have a cost.
     pub fn new(costs: &[Option<f64>]) -> Self {
         let nodes: Vec<(f64, u32)> = costs
             .iter()
@@ -39,19 +39,19 @@ impl Heap {
         heap
     }
 
-    /// Takes out the first.
+    /// Removes and returns the first point.
     pub fn pop(&mut self) -> Option<(f64, u32)> {
         let first = *self.nodes.first()?;
         self.remove(first.1);
         Some(first)
     }
 
-    /// The cost of a point that waits.
+    /// Cost of a point in the heap.
     pub fn cost(&self, point: u32) -> Option<f64> {
         self.nodes.get(self.places[point as usize] as usize).map(|node| node.0)
     }
 
-    /// Lets a point wait at a cost, whether it waited before or not.
+    /// Inserts a point, or changes its cost.
     pub fn set(&mut self, point: u32, cost: f64) {
         let mut place = self.places[point as usize] as usize;
         if place == OUT as usize {
@@ -65,7 +65,7 @@ impl Heap {
         self.sink(place);
     }
 
-    /// Takes a point out, if it waits.
+    /// Removes a point if it is in the heap.
     pub fn remove(&mut self, point: u32) {
         let place = self.places[point as usize];
         if place == OUT {

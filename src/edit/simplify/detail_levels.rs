@@ -1,22 +1,24 @@
-//! [`Levels`]: a scene at any number of faces, from where it was to where it is asked for next.
+//! [`Levels`]: a scene at any number of faces, reached from the present level by applying or undoing
+//! collapses.
 
 use super::collapse_record::{NONE, Record};
 use crate::error::Error;
 use crate::scene::{Geometry, Scene};
 
-/// A scene at some level of detail. To change the level costs as much as there are collapses between the two.
+/// A scene at some level of detail. Changing the level takes time in proportion to the collapses between the
+/// two.
 ///
-/// It takes the faces from the scene that it was made for, and their vertices from any pose of it.
+/// Faces come from the scene for which the levels were made; vertices may come from any pose of it.
 #[derive(Debug, Clone)]
 pub struct Levels<'a> {
     record: &'a Record,
-    /// The wedges of each face, [`NONE`] for those that are gone.
+    /// Wedges of each face; [`NONE`] for faces that are not drawn.
     faces: Vec<[u32; 3]>,
-    /// Which wedges faces that are gone had.
+    /// Whether each face is removed.
     gone: Vec<bool>,
-    /// How many faces of each geometry are left.
+    /// Remaining faces of each geometry.
     left: Vec<u64>,
-    /// How many collapses are done.
+    /// Number of collapses applied.
     done: usize,
 }
 
@@ -27,19 +29,19 @@ impl<'a> Levels<'a> {
         Self { record, faces: record.faces.clone(), gone, left, done: 0 }
     }
 
-    /// How many collapses are done.
+    /// Number of collapses applied.
     #[must_use]
     pub fn level(&self) -> usize {
         self.done
     }
 
-    /// How many levels there are below the full scene.
+    /// Number of levels below the full scene.
     #[must_use]
     pub fn deepest(&self) -> usize {
         self.record.steps.len()
     }
 
-    /// Goes to the level after so many collapses, or to the deepest there is.
+    /// Goes to a level, or to the deepest one if there are fewer.
     pub fn go_to(&mut self, level: usize) {
         while self.done < level.min(self.deepest()) {
             self.down();
@@ -49,11 +51,11 @@ impl<'a> Levels<'a> {
         }
     }
 
-    /// Goes to the finest level at which the parts of a scene have no more than so many faces, or to the deepest there is. Returns
-    /// how many they have there. The level is the same from wherever one comes.
+    /// Goes to the finest level with at most `most` faces, instances counted, or to the deepest one. Returns
+    /// the number of faces there. The result does not depend on the present level.
     ///
     /// # Errors
-    /// If the scene is not one that these levels are of.
+    /// If the scene does not match these levels.
     pub fn seek(&mut self, scene: &Scene, most: u64) -> Result<u64, Error> {
         self.check(scene)?;
         let shown = shown(scene);
@@ -79,11 +81,11 @@ impl<'a> Levels<'a> {
         Ok(faces)
     }
 
-    /// The scene at this level: with its own parts, materials, vertices and normals, but only those faces and vertices that
-    /// are left.
+    /// The scene at this level: its own parts, materials, vertices and normals, reduced to the remaining
+    /// faces and the vertices that these use.
     ///
     /// # Errors
-    /// If the scene is not one that these levels are of.
+    /// If the scene does not match these levels.
     pub fn scene(&self, scene: &Scene) -> Result<Scene, Error> {
         self.check(scene)?;
         let geometries = scene.geometries.iter().enumerate();
@@ -170,7 +172,7 @@ impl<'a> Levels<'a> {
         self.record.ranges.partition_point(|range| range.end <= face as usize)
     }
 
-    /// Refuses scenes of other faces.
+    /// Returns an error for scenes with other face counts.
     fn check(&self, scene: &Scene) -> Result<(), Error> {
         let counts = scene.geometries.iter().map(|geometry| geometry.triangles.len());
         if counts.eq(self.record.ranges.iter().map(ExactSizeIterator::len)) {
@@ -181,7 +183,7 @@ impl<'a> Levels<'a> {
     }
 }
 
-/// How often each geometry is shown.
+/// Number of instances of each geometry.
 pub(crate) fn shown(scene: &Scene) -> Vec<u64> {
     let mut shown = vec![0; scene.geometries.len()];
     for part in scene.parts.iter().filter(|part| scene.geometry_of(part).is_some()) {
@@ -198,7 +200,7 @@ fn picked<T: Copy>(values: &[T], which: impl Iterator<Item = usize>) -> Vec<T> {
     }
 }
 
-/// Numbers anew, in their order, what is pointed to of `count` things; returns which these are.
+/// Renumbers pointers into `count` items consecutively, in item order; returns the items in use.
 fn packed<'b>(count: usize, pointers: impl Iterator<Item = &'b mut u32>) -> Vec<usize> {
     let mut pointers: Vec<&mut u32> = pointers.collect();
     let mut numbers = vec![NONE; count];

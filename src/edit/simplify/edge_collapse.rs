@@ -1,7 +1,8 @@
-//! [`Collapser`]: a surface whose points fall onto their neighbours, one after another.
+//! [`Collapser`]: a surface that is simplified by half-edge collapses, one after another.
 //!
-//! A point falls onto a neighbour and stays nowhere between: so what remains of a surface are vertices that it had, with
-//! their normals, texture coordinates, colours, joints and morph targets, and undoing is exact.
+//! A collapse moves a point onto a neighbour, never to a position between them. The simplified surface
+//! therefore consists of original vertices with their normals, texture coordinates, colours, joints and morph
+//! targets, and undoing a collapse is exact.
 
 use glam::DVec3;
 
@@ -10,39 +11,38 @@ use super::flat_surface::Flat;
 use super::point_constraints::{Kind, Site, sites};
 use super::point_faces::Fans;
 
-/// The number of the step that takes away faces without area.
+/// Number of the step that removes degenerate faces.
 pub(crate) const SWEEP: u32 = NONE;
 
-/// A face may not turn by more than the angle of this cosine in one collapse.
+/// Minimum cosine of the turn of a face in one collapse.
 const TURN_COSINE: f64 = 0.2;
 
-/// A face is slim whose height is less than this part of its longest side.
+/// A face is a sliver if its height is less than this fraction of its longest side.
 const SLIM: f64 = 0.05;
 
-/// A slim face may become no slimmer than this part of what it was, in one collapse.
+/// Minimum fraction of its height ratio that a sliver must keep in one collapse.
 const SLIMMER: f64 = 0.3;
 
-/// A surface whose points fall onto their neighbours.
+/// A surface under simplification.
 pub(crate) struct Collapser {
     pub flat: Flat,
-    /// The points of each face, [`NONE`] for those that are gone.
+    /// Points of each face; [`NONE`] for removed faces.
     pub corners: Vec<[u32; 3]>,
     pub fans: Fans,
     pub sites: Vec<Site>,
     pub record: Record,
-    /// What is marked, by the number of the question that marked it last.
+    /// For each point, the number of the query that marked it last.
     marks: Vec<u32>,
     question: u32,
-    /// What the collapse that was asked for last would change and remove.
+    /// Changes and removed faces of the collapse that was checked last.
     changes: Vec<Change>,
     removed: Vec<u32>,
-    /// Of each removed face the wedges at both points, and the geometry.
+    /// For each removed face, its wedges at both points and its geometry.
     carried: Vec<[u32; 3]>,
 }
 
 impl Collapser {
-    /// The surface as it is at first, without faces that have no area because corners lie at one place: these go in
-    /// a first step.
+    /// The surface before any collapse. A first step removes faces with two corners at one point.
     pub fn new(flat: Flat) -> Self {
         let mut corners = flat.corners();
         let is_none = |[a, b, c]: [u32; 3]| a == b || b == c || c == a;
@@ -69,7 +69,7 @@ impl Collapser {
         Self { flat, corners, fans, sites, record, marks, question, changes, removed, carried }
     }
 
-    /// The neighbours of a point, each once, in the order of its faces.
+    /// Collects the neighbours of a point, each once, in the order of its faces.
     pub fn neighbours(&mut self, point: u32, into: &mut Vec<u32>) {
         into.clear();
         self.question += 1;
@@ -84,13 +84,13 @@ impl Collapser {
         }
     }
 
-    /// Whether a point may fall onto a neighbour: the surface stays as connected as it is, no face turns over, and each
-    /// corner finds a wedge at the other point.
+    /// Whether a point may collapse onto a neighbour: the topology stays the same, no face flips, and each
+    /// corner has a matching wedge at the other point.
     pub fn may(&mut self, from: u32, to: u32) -> bool {
         self.is_sound(from, to) && self.keeps_sides(from, to) && self.find_changes(from, to)
     }
 
-    /// The link condition: the neighbours that both have are those that a face has with both.
+    /// Link condition: every common neighbour of the two points is opposite their edge in a face.
     fn is_sound(&mut self, from: u32, to: u32) -> bool {
         self.question += 2;
         let (common, opposite) = (self.question - 1, self.question);
@@ -116,13 +116,13 @@ impl Collapser {
             stays = true;
             let [b, c] = others(corners, to);
             let marks = [self.marks[b as usize], self.marks[c as usize]];
-            // A neighbour of both that no face has with both would become an end of an edge of four faces, unless the
-            // three go round a hole, which closes.
+            // A common neighbour without such a face would create an edge with four faces, unless the three
+            // points surround a hole, which then closes.
             let mut ends = [b, c].into_iter().zip(marks).filter(|(_, mark)| *mark == common);
             if ends.any(|(end, _)| !self.is_hole([from, to, end])) {
                 return false;
             }
-            // A face whose other corners are about both points would be the back of another.
+            // A face whose other corners are neighbours of both points could become the back of another face.
             if marks.iter().all(|mark| *mark >= common) && self.has_face(from, to, corners) {
                 return false;
             }
@@ -130,7 +130,8 @@ impl Collapser {
         stays && opposites > 0
     }
 
-    /// Whether three neighbours go round a hole: each of their edges is that of one face, and not all of the same.
+    /// Whether three mutual neighbours surround a hole: each of their edges has exactly one face, and no face
+    /// has all three.
     fn is_hole(&self, points: [u32; 3]) -> bool {
         let [a, b, c] = points;
         [[a, b, c], [b, c, a], [c, a, b]].into_iter().all(|[from, to, beyond]| {
@@ -140,14 +141,14 @@ impl Collapser {
         })
     }
 
-    /// Whether a point has a face with the two corners that are not `apex` of another face.
+    /// Whether a point has a face with the two corners of another face other than `apex`.
     fn has_face(&self, point: u32, apex: u32, [a, b, c]: [u32; 3]) -> bool {
         let has =
             |face: &&u32| [a, b, c].iter().all(|p| *p == apex || self.corners[**face as usize].contains(p));
         self.fans.about(point).iter().find(has).is_some()
     }
 
-    /// Whether no face turns over or shrinks to a line.
+    /// Whether no face flips or degenerates to a line.
     fn keeps_sides(&self, from: u32, to: u32) -> bool {
         let (at, target) = (self.sites[from as usize].place, self.sites[to as usize].place);
         self.fans.about(from).iter().all(|face| {
@@ -160,7 +161,8 @@ impl Collapser {
         })
     }
 
-    /// Finds what the collapse changes and removes; false if a corner finds no wedge of its geometry.
+    /// Finds the changes and the removed faces of a collapse; false if a corner has no matching wedge of its
+    /// geometry.
     fn find_changes(&mut self, from: u32, to: u32) -> bool {
         self.changes.clear();
         self.removed.clear();
@@ -191,8 +193,10 @@ impl Collapser {
         true
     }
 
-    /// The wedge at `to` that carries on the wedge of a face: that of a face which goes and whose wedge was the same, or
-    /// like it; else one of `to` that is like it.
+    /// Wedge at `to` that continues the wedge of a face.
+    ///
+    /// First choice is a removed face that had the same wedge at the other point, then one with a similar
+    /// wedge, then the most similar wedge at `to`.
     fn wedge_for(&self, face: u32, wedge: u32, to: u32) -> Option<u32> {
         let geometry = self.flat.geometry[face as usize];
         let carried = self.carried.iter().filter(|[.., own]| *own == geometry);
@@ -211,7 +215,8 @@ impl Collapser {
         most_alike(wedges.map(|other| (self.likeness(wedge, other), other))).map(|(_, wedge)| wedge)
     }
 
-    /// How alike two wedges are: by their normals, 0 to 2, and below 0 if what must not change along an edge differs.
+    /// Similarity of two wedges: 0 to 2 by their normals, negative if an attribute that must be continuous
+    /// along an edge differs.
     fn likeness(&self, a: u32, b: u32) -> f32 {
         let normal = |wedge: u32| self.flat.normals.get(wedge as usize).copied().unwrap_or([0.0; 3]);
         let ([ax, ay, az], [bx, by, bz]) = (normal(a), normal(b));
@@ -219,7 +224,7 @@ impl Collapser {
         (1.0 + ax * bx + ay * by + az * bz).max(0.0) - if same { 0.0 } else { 4.0 }
     }
 
-    /// Lets a point fall onto a neighbour again, as a file says; false if they are no neighbours.
+    /// Repeats a collapse that was read from a file; false if the points are not neighbours.
     pub fn replay(&mut self, from: u32, to: u32) -> bool {
         let fits = self.find_changes(from, to) && !self.removed.is_empty();
         if fits {
@@ -228,7 +233,7 @@ impl Collapser {
         fits
     }
 
-    /// Lets a point fall onto its neighbour, as [`Self::may`] has found it just now.
+    /// Applies the collapse that [`Self::may`] checked last.
     pub fn collapse(&mut self, from: u32, to: u32) {
         for change in &self.changes {
             let (face, k) = ((change.corner / 3) as usize, (change.corner % 3) as usize);
@@ -253,7 +258,7 @@ impl Collapser {
         self.record.steps.push(Step { from, to, changes_end, removed_end });
     }
 
-    /// Lines that went through a point go on from the point that it fell onto.
+    /// Reconnects the lines (borders and seams) through the removed point at the remaining point.
     fn mend_lines(&mut self, from: u32, to: u32) {
         let Site { kind, along, .. } = self.sites[from as usize];
         match kind {
@@ -262,7 +267,7 @@ impl Collapser {
                 let beyond = along[usize::from(along[0] == to)];
                 self.relink(to, from, beyond);
                 self.relink(beyond, from, to);
-                // Round a hole that has closed there is no line any more.
+                // Around a hole that has closed there is no line any more.
                 let ends = [to, beyond].map(|point| self.sites.get(point as usize).map(|site| site.along));
                 if ends == [Some([beyond; 2]), Some([to; 2])] {
                     [to, beyond].iter().for_each(|point| self.sites[*point as usize].kind = Kind::Knot);
@@ -286,18 +291,18 @@ impl Collapser {
         }
     }
 
-    /// The faces that the last collapse removed, or that the next would.
+    /// Faces removed by the last collapse, or by the collapse checked last.
     pub fn removed(&self) -> &[u32] {
         &self.removed
     }
 }
 
-/// The first of those that are most alike.
+/// First choice with the greatest similarity.
 fn most_alike(choices: impl Iterator<Item = (f32, u32)>) -> Option<(f32, u32)> {
     choices.reduce(|best, other| if other.0 > best.0 { other } else { best })
 }
 
-/// The corners of a face after one of them, in their order.
+/// The other two corners of a face, in order.
 #[inline]
 pub(crate) fn others([a, b, c]: [u32; 3], point: u32) -> [u32; 2] {
     match point {
@@ -307,7 +312,7 @@ pub(crate) fn others([a, b, c]: [u32; 3], point: u32) -> [u32; 2] {
     }
 }
 
-/// Whether a face looks to the same side after its first corner has moved, and neither vanishes nor becomes a needle.
+/// Whether a face keeps its orientation after its first corner has moved, and does not become a sliver.
 #[inline]
 fn keeps_side(before: DVec3, after: DVec3, [b, c]: [DVec3; 2]) -> bool {
     let side = c - b;
@@ -316,7 +321,7 @@ fn keeps_side(before: DVec3, after: DVec3, [b, c]: [DVec3; 2]) -> bool {
     let longest =
         |at: DVec3| side.length_squared().max((b - at).length_squared()).max((c - at).length_squared());
     let (old_longest, new_longest) = (longest(before), longest(after));
-    // Twice the area over the square of the longest side, squared: how stout a face is.
+    // Squared ratio of twice the area to the square of the longest side.
     let (old_stout, new_stout) =
         (old_squared * new_longest * new_longest, new_squared * old_longest * old_longest);
     let is_slim = new_squared < SLIM * SLIM * new_longest * new_longest;

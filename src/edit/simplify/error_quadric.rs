@@ -1,20 +1,21 @@
-//! [`Quadric`]: the sum of squared distances from planes, as a function of the point.
+//! [`Quadric`]: the sum of squared distances from planes, as a quadratic function of a point.
 //!
-//! Source: M. Garland and P. S. Heckbert, *Surface simplification using quadric error metrics*, SIGGRAPH 1997.
+//! Source: M. Garland and P. S. Heckbert, *Surface simplification using quadric error metrics*, SIGGRAPH
+//! 1997.
 
 use glam::DVec3;
 
-/// Squared distances from planes, each times its weight, summed: `p·A·p + 2 b·p + c`.
+/// Weighted sum of squared distances from planes: `p·A·p + 2 b·p + c`.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct Quadric {
-    /// The upper half of `A`: xx, xy, xz, yy, yz, zz.
+    /// Upper triangle of `A`: xx, xy, xz, yy, yz, zz.
     a: [f64; 6],
     b: DVec3,
     c: f64,
 }
 
 impl Quadric {
-    /// The squared distance from the plane through a point with a unit normal, so many times.
+    /// Squared distance from the plane through a point with a unit normal, times `weight`.
     #[inline]
     pub fn of_plane(normal: DVec3, through: DVec3, weight: f64) -> Self {
         let distance = -normal.dot(through);
@@ -27,7 +28,7 @@ impl Quadric {
         }
     }
 
-    /// Adds another's planes.
+    /// Adds the planes of another quadric.
     #[inline]
     pub fn add(&mut self, other: &Self) {
         for (own, other) in self.a.iter_mut().zip(other.a) {
@@ -37,18 +38,18 @@ impl Quadric {
         self.c += other.c;
     }
 
-    /// The same planes, each with its weight times this.
+    /// The same planes with all weights scaled.
     pub fn scaled(&self, by: f64) -> Self {
         Self { a: self.a.map(|a| a * by), b: self.b * by, c: self.c * by }
     }
 
-    /// How much all planes weigh together.
+    /// Total weight of the planes.
     pub fn weight(&self) -> f64 {
         let [xx, _, _, yy, _, zz] = self.a;
         xx + yy + zz
     }
 
-    /// The sum at a point, never below zero.
+    /// Value at a point, never negative.
     #[inline]
     pub fn at(&self, p: DVec3) -> f64 {
         let [xx, xy, xz, yy, yz, zz] = self.a;

@@ -1,4 +1,4 @@
-//! [`Flat`]: all triangles of a scene that are drawn, as points, wedges and faces in plain arrays.
+//! [`Flat`]: all drawn triangles of a scene, as points, wedges and faces in plain arrays.
 
 use std::ops::Range;
 
@@ -15,40 +15,41 @@ use crate::mesh::order::morton_curve::{CELLS, along_curve};
 use crate::scene::extent::drawn_points::DrawnPoints;
 use crate::scene::{Geometry, Material, Scene};
 
-/// The triangles of a scene that are drawn, each geometry once.
+/// Drawn triangles of a scene, each geometry once.
 ///
-/// Points are what lies at one place; the wedges at a point differ in vertex, normal or texture
-/// coordinates. Geometries that are shown once are welded with each other, where they stand.
+/// A point is a position; the wedges at a point differ in vertex, normal or texture coordinates. Geometries
+/// with a single instance are welded with each other in world space.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Flat {
-    /// The places of the points, in world units from the middle, over `size`.
+    /// Positions of the points, centred and scaled so that the scene has size 1.
     pub points: Vec<DVec3>,
-    /// What each wedge is made of.
+    /// Attributes of each wedge.
     pub wedges: Vec<Wedge>,
-    /// The point of each wedge.
+    /// Point of each wedge.
     pub point_of: Vec<u32>,
-    /// For each wedge a number for all that must not change along an edge: geometry, texture coordinates, colour.
+    /// For each wedge, a hash of the attributes that must be continuous along an edge: geometry, texture
+    /// coordinates, colour.
     pub class: Vec<u32>,
-    /// The unit normal of each wedge in its geometry, zero for none; empty where no file's normals are.
+    /// Unit normal of each wedge in its geometry, zero if it has none; empty if no geometry has normals.
     pub normals: Vec<[f32; 3]>,
-    /// The wedges of each face; those of no face that is drawn are [`NONE`].
+    /// Wedges of each face; [`NONE`] for faces that are not drawn.
     pub faces: Vec<[u32; 3]>,
-    /// The number of each face in the file: those of all geometries, one after another.
+    /// File index of each face, counted through all geometries.
     pub in_file: Vec<u32>,
-    /// The geometry of each face.
+    /// Geometry of each face.
     pub geometry: Vec<u32>,
-    /// The material of each face, [`NONE`] for none.
+    /// Material of each face, or [`NONE`].
     pub material: Vec<u32>,
-    /// Whether the sides 0-1, 1-2, 2-0 of each face are marked as lines, or empty.
+    /// Whether the sides 0-1, 1-2, 2-0 of each face are marked as lines; empty if none is.
     pub marked: Vec<[bool; 3]>,
-    /// The faces of each geometry in the file.
+    /// Range of each geometry's faces in the file.
     pub ranges: Vec<Range<usize>>,
-    /// How much an error of each geometry counts: by how large its instances are, for each of them.
+    /// Weight of errors in each geometry, by the size of its instances, per instance.
     pub weights: Vec<f64>,
 }
 
 impl Flat {
-    /// The scene's.
+    /// Builds the surface of a scene.
     pub fn of(scene: &Scene) -> Self {
         let shown = shown(scene);
         let frame = Frame::of(scene, &shown);
@@ -61,7 +62,8 @@ impl Flat {
             let first = flat.faces.len();
             match shown {
                 Some(shown) => {
-                    // Copies lie elsewhere than the first does: what touches it does not touch them.
+                    // Only the first of several instances has this position, so it must not be welded with
+                    // other geometries.
                     let group = if shown.count == 1 { 0 } else { number as u32 + 1 };
                     let places =
                         geometry.positions.iter().map(|p| frame.place(shown.place.transform_point3(*p)));
@@ -110,7 +112,7 @@ impl Flat {
     }
 
     fn append(&mut self, number: usize, geometry: &Geometry, points: &[u32], textured: bool) {
-        // The wedges of a vertex, linked to each other.
+        // Linked list of the wedges of each vertex.
         let mut first = vec![NONE; points.len()];
         let mut next: Vec<u32> = Vec::new();
         let start = self.wedges.len() as u32;
@@ -135,13 +137,13 @@ impl Flat {
                 }
                 wedges[k] = at;
             }
-            // What points nowhere is nobody's face.
+            // A face with an invalid index is not drawn.
             self.faces.push(if wedges.contains(&NONE) { [NONE; 3] } else { wedges });
         }
     }
 
-    /// Numbers points along a curve that fills space, and puts faces in the order of their points, so that neighbours lie
-    /// near each other in memory.
+    /// Numbers points along a space-filling curve and sorts faces by their points, so that neighbours are
+    /// close in memory.
     fn put_in_order(&mut self) {
         let along = |place: DVec3| along_curve(place, 1.0 / CELLS);
         let codes = self.points.par_iter().enumerate().map(|(point, place)| (along(*place), point as u32));
@@ -167,41 +169,42 @@ impl Flat {
         self.marked = in_order(&self.marked, order);
     }
 
-    /// The points of the corners of each face; [`NONE`] for faces that are not drawn.
+    /// Points of the corners of each face; [`NONE`] for faces that are not drawn.
     pub fn corners(&self) -> Vec<[u32; 3]> {
         let point = |wedge: u32| self.point_of.get(wedge as usize).copied().unwrap_or(NONE);
         self.faces.iter().map(|wedges| wedges.map(point)).collect()
     }
 }
 
-/// Where a geometry is shown.
+/// Instances of a geometry.
 struct Shown {
-    /// The first place.
+    /// Transform of the first instance.
     place: DAffine3,
     count: usize,
     weight: f64,
 }
 
-/// How each geometry is shown; none for those that are not.
+/// Instances of each geometry; `None` if it has none that can be drawn.
 fn shown(scene: &Scene) -> Vec<Option<Shown>> {
     let mut all: Vec<Option<Shown>> = scene.geometries.iter().map(|_| None).collect();
     for part in scene.parts.iter().filter(|part| scene.geometry_of(part).is_some()) {
         let Some(shown) = all.get_mut(part.geometry) else { continue };
         let place = part.world_from_part;
         let shown = shown.get_or_insert(Shown { place, count: 0, weight: 0.0 });
-        // Lengths go with the cube root of volumes; an error is the square of a length, over an area.
+        // The error is a squared length times an area, so it scales with the fourth power of the cube root of
+        // the volume.
         let volume = (place.matrix3.determinant() / shown.place.matrix3.determinant()).abs();
         shown.count += 1;
         shown.weight += cbrt(volume).powi(4);
     }
     for shown in all.iter_mut().flatten() {
-        // Each face that goes goes from all instances.
+        // Removing a face removes it from all instances, so the weight is per instance.
         shown.weight /= shown.count as f64;
     }
     all
 }
 
-/// Within which distance the vertices of a geometry are one where they lie on open edges.
+/// Distance within which vertices of a geometry on open edges are welded.
 fn reach(geometry: &Geometry) -> f64 {
     let (mut least, mut greatest) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     for point in DrawnPoints::of_geometry(geometry) {
@@ -213,7 +216,7 @@ fn reach(geometry: &Geometry) -> f64 {
     if reach.is_finite() { reach } else { 0.0 }
 }
 
-/// A frame in which the scene is about as large as 1.
+/// Coordinate frame that gives the scene about size 1.
 struct Frame {
     middle: DVec3,
     scale: f64,
@@ -246,7 +249,7 @@ fn in_order<T: Copy>(values: &[T], order: &[u32]) -> Vec<T> {
     if values.is_empty() { Vec::new() } else { order.iter().map(|which| values[*which as usize]).collect() }
 }
 
-/// A number for all that must not change along an edge.
+/// Hash of the attributes that must be continuous along an edge.
 fn class(number: usize, geometry: &Geometry, wedge: Wedge, textured: bool) -> u32 {
     let pair = |[a, b]: [f32; 2]| u64::from(a.to_bits()) << 32 | u64::from(b.to_bits());
     let uv = geometry.uvs.get(wedge.uv as usize).filter(|_| textured).map_or(u64::MAX, |uv| pair(*uv));
@@ -258,7 +261,7 @@ fn class(number: usize, geometry: &Geometry, wedge: Wedge, textured: bool) -> u3
     hash(number as u64, &[uv, rg, ba]) as u32
 }
 
-/// Whether it matters where texture coordinates lie.
+/// Whether texture coordinates of a material matter.
 fn is_textured(material: &Material) -> bool {
     material.texture.is_some() || material.picture.is_some() || material.opacity_map.is_some()
 }

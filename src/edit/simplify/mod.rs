@@ -50,47 +50,48 @@ use collapse_record::Record;
 use detail_levels::shown;
 use flat_surface::Flat;
 
-/// The collapses that take a scene from all its faces to few, in the order of the error that they add.
+/// The collapses that reduce a scene to its fewest faces, in the order of the error that they add.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Detail {
     record: Record,
 }
 
 impl Detail {
-    /// All collapses that a scene allows.
+    /// Finds all collapses that a scene allows.
     #[must_use]
     pub fn of(scene: &Scene) -> Self {
         Self::down_to(scene, 0)
     }
 
-    /// Those until it has no more than so many faces; the first of [`Self::of`].
+    /// Finds collapses until at most `faces` remain: a prefix of those of [`Self::of`].
     #[must_use]
     pub fn down_to(scene: &Scene, faces: u64) -> Self {
         let budget = Budget { shown: &shown(scene), most: faces };
         Self { record: collapses(Flat::of(scene), &budget) }
     }
 
-    /// The bytes of a file that [`Self::read`] reads faster than they were found. `scene` is the one they were found for.
+    /// Writes the collapses of `scene`, the scene for which they were found, to the bytes of a file. Reading
+    /// it with [`Self::read`] is faster than finding them again.
     #[must_use]
     pub fn to_bytes(&self, scene: &Scene) -> Vec<u8> {
         collapse_file::written(&self.record, scene)
     }
 
-    /// The collapses of a scene from the bytes of a file.
+    /// Reads the collapses of a scene from the bytes of a file.
     ///
     /// # Errors
-    /// If the bytes are no such file, are damaged, or are of another scene.
+    /// If the bytes have another format, are damaged, or belong to another scene.
     pub fn read(bytes: &[u8], scene: &Scene) -> Result<Self, Error> {
         Ok(Self { record: collapse_file::read(bytes, scene)? })
     }
 
-    /// Where such a file is looked for: beside the model, with its name and the ending `.ligne-lod`.
+    /// Path of the file of collapses for a model: next to it, with the same name and the ending `.ligne-lod`.
     #[must_use]
     pub fn beside(model: &Path) -> PathBuf {
         model.with_extension("ligne-lod")
     }
 
-    /// The scene in full, to go from there to any level.
+    /// The levels of detail, positioned at the full scene.
     #[must_use]
     pub fn levels(&self) -> Levels<'_> {
         Levels::new(&self.record)

@@ -1,4 +1,5 @@
-//! [`Kind`]: which way a point may go, by the edges at it that must stay; and the planes it must stay near.
+//! [`Kind`]: possible collapse directions of a point, by the borders, seams and creases at it; and its
+//! initial error quadric.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -8,70 +9,72 @@ use super::error_quadric::Quadric;
 use super::flat_surface::Flat;
 use super::point_faces::Fans;
 
-/// How much a plane that holds a border in its place counts, against the area of the faces beside it.
+/// Weight of a plane that holds a border in its place, relative to the area of the adjacent faces.
 const BORDER_WEIGHT: f64 = 10.0;
 
-/// The same for seams of materials, pictures and colours, and for edges that the file marks.
+/// The same for seams of materials, textures and colours, and for edges marked in the file.
 const SEAM_WEIGHT: f64 = 1.0;
 
-/// The same for creases, which their two faces hold by themselves.
+/// The same for creases, which are already held by the planes of their two faces.
 const CREASE_WEIGHT: f64 = 0.25;
 
-/// Edges between faces whose normals have a lesser cosine are creases.
+/// Edges whose face normals have a smaller cosine are creases.
 const CREASE_COSINE: f64 = 0.7;
 
-/// Which way a point may go.
+/// Possible collapse directions of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
-    /// To any neighbour: nothing at it must stay.
+    /// To any neighbour: no border or seam ends here or passes through.
     Plain,
     /// Along a border or a seam, to the next point on it.
     Line,
-    /// To any neighbour, though borders meet here, or more than two faces at an edge: those are held by planes alone.
+    /// To any neighbour, although borders or non-manifold edges meet here: those are held by their planes
+    /// alone.
     Knot,
-    /// To points on other lines, at a price: texture coordinates, colours or materials meet here, and one would cover another.
+    /// To points on other lines, at an extra cost. Texture coordinates, colours or materials meet here, and a
+    /// collapse spreads one over another.
     Corner,
 }
 
-/// What is known of a point at first.
+/// State of a point.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Site {
     pub kind: Kind,
-    /// The next points on its line.
+    /// Next points on its line, in both directions.
     pub along: [u32; 2],
     pub quadric: Quadric,
-    /// Where it is.
+    /// Its position.
     pub place: DVec3,
-    /// How far it is from its planes there, by the quadric.
+    /// Value of the quadric at its position.
     pub error: f64,
 }
 
 impl Site {
-    /// Takes over the planes of a point that falls here.
+    /// Adds the quadric of a point that collapses onto this one.
     pub fn take(&mut self, quadric: &Quadric) {
         self.quadric.add(quadric);
         self.error = self.quadric.at(self.place);
     }
 }
 
-/// An edge at a point, as one face has it.
+/// A side of a face at a point.
 #[derive(Clone, Copy)]
 struct Side {
     other: u32,
     opposite: u32,
     face: u32,
-    /// What must be the same on both sides of an edge within a surface.
+    /// Attributes that must agree on both sides of an edge for it to be inside a smooth surface.
     signature: [u32; 3],
     marked: bool,
 }
 
-/// What is known at first of each point.
+/// Initial state of each point.
 pub(crate) fn sites(flat: &Flat, corners: &[[u32; 3]], fans: &Fans) -> Vec<Site> {
     let normal = |corners: &[u32; 3]| match corners.contains(&NONE) {
         true => DVec3::ZERO,
         false => doubled_area(corners.map(|point| flat.points[point as usize])),
     };
-    // The unit normal of each face, and its area.
+    // Unit normal and area of each face.
     let planes: Vec<(DVec3, f64)> = corners
         .par_iter()
         .map(normal)
@@ -146,14 +149,16 @@ fn site(
     Site { kind, along, quadric, place, error: quadric.at(place) }
 }
 
-/// Whether two faces at a point have there all that must not change along an edge in common.
+/// Whether two faces at a point have equal attributes there.
 fn is_like(one: &Side, other: &Side) -> bool {
     let [class, _, material] = one.signature;
     class == other.signature[0] && material == other.signature[2]
 }
 
-/// How strongly an edge is held, if it must stay: a border, where surfaces meet, a seam. Two faces at the same place
-/// count as one: what matters is that the surface goes on to two sides.
+/// Weight of the planes that hold an edge: border, non-manifold edge, seam or marked edge; `None` for other
+/// edges.
+///
+/// Duplicate faces count as one: only the number of distinct opposite points matters.
 fn strength(edge: &[Side]) -> Option<f64> {
     let (one, other) = edge.split_at(edge.partition_point(|side| side.opposite == edge[0].opposite));
     if other.is_empty() {
@@ -166,7 +171,7 @@ fn strength(edge: &[Side]) -> Option<f64> {
     (!same || edge.iter().any(|side| side.marked)).then_some(SEAM_WEIGHT)
 }
 
-/// The normal of a face of three places, as long as twice its area.
+/// Normal of a triangle, with the length of twice its area.
 fn doubled_area([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }

@@ -1,6 +1,6 @@
-//! [`Fans`]: the faces about each point, which pass to another point when two become one.
+//! [`Fans`]: the faces around each point, in lists that can be merged when a point collapses onto another.
 
-/// The faces about each point, in lists that grow in place or move to the end of one pool.
+/// Faces around each point. All lists share one pool: a list grows in place or moves to the end of the pool.
 #[derive(Debug, Clone)]
 pub(crate) struct Fans {
     pool: Vec<u32>,
@@ -11,12 +11,12 @@ pub(crate) struct Fans {
 struct List {
     start: u32,
     len: u32,
-    /// How many it may have before it must move.
+    /// Capacity of the list before it must move.
     room: u32,
 }
 
 impl Fans {
-    /// The faces about each of `count` points, in their order; those `left` out are about none.
+    /// Builds the lists of `count` points, in face order, without the faces for which `left` holds.
     pub fn new(count: usize, corners: &[[u32; 3]], left: impl Fn(usize) -> bool) -> Self {
         let mut lists = vec![List::default(); count];
         let faces = || corners.iter().enumerate().filter(|(face, _)| !left(*face));
@@ -39,19 +39,20 @@ impl Fans {
         Self { pool, lists }
     }
 
-    /// How many points there are.
+    /// Number of points.
     pub fn len(&self) -> usize {
         self.lists.len()
     }
 
-    /// The faces about a point; among them may be some that are gone.
+    /// Faces around a point; may contain removed faces.
     #[inline]
     pub fn about(&self, point: u32) -> &[u32] {
         let List { start, len, .. } = self.lists[point as usize];
         &self.pool[start as usize..(start + len) as usize]
     }
 
-    /// Gives `to` the faces of `from` that `moves` picks, and takes those from both that are not `alive`.
+    /// Moves the faces of `from` for which `moves` holds to `to`, and drops faces of `to` that are not
+    /// `alive`.
     pub fn merge(&mut self, from: u32, to: u32, moves: impl Fn(u32) -> bool, alive: impl Fn(u32) -> bool) {
         let source = std::mem::take(&mut self.lists[from as usize]);
         let mut list = self.lists[to as usize];
@@ -71,7 +72,7 @@ impl Fans {
             let start = self.pool.len() as u32;
             self.pool.extend_from_within(list.start as usize..kept as usize);
             list.start = start;
-            // A large list that takes many small ones must not move each time.
+            // Grow by half, so that merging many small lists into a large one does not move it each time.
             list.room = (list.len + more).max(list.len + list.len / 2);
             self.pool.resize((start + list.room) as usize, 0);
         }
@@ -94,7 +95,7 @@ mod tests {
         let corners = [[0, 1, 2], [0, 2, 3], [0, 3, 4], [1, 2, 3]];
         let mut fans = Fans::new(5, &corners, |face| face == 3);
         assert_eq!((fans.about(0), fans.about(1), fans.about(2)), (&[0, 1, 2][..], &[0][..], &[0, 1][..]));
-        // Point 0 falls on point 4: the face between them goes.
+        // Point 0 collapses onto point 4, and the face between them is removed.
         fans.merge(0, 4, |face| face != 2, |face| face != 2);
         assert_eq!((fans.about(4), fans.about(0)), (&[0, 1][..], &[][..]));
         fans.merge(2, 4, |_| false, |face| face != 0);

@@ -1,4 +1,4 @@
-//! Welding: corners at one place are one point, for the order of collapses alone.
+//! Welds corners at one position to one point, only for the order of collapses.
 
 use glam::DVec3;
 
@@ -7,7 +7,7 @@ use crate::mesh::weld::nearby_vertices::near;
 
 const FREE: u32 = u32::MAX;
 
-/// Points at different places, or of groups that have nothing in common; a table of hashes that never forgets.
+/// Hash table of points that differ in position or group, without removal.
 #[derive(Debug)]
 pub(crate) struct Weld {
     slots: Vec<u32>,
@@ -16,7 +16,7 @@ pub(crate) struct Weld {
 }
 
 impl Weld {
-    /// Room for so many points; no more may be asked for.
+    /// A table for at most `count` points.
     pub fn with_room(count: usize) -> Self {
         let slots = (count * 2).max(4).next_power_of_two();
         Self {
@@ -26,9 +26,9 @@ impl Weld {
         }
     }
 
-    /// The number of the point at a place: a new one where there is none yet.
+    /// Number of the point at a position, added if it is new.
     pub fn point(&mut self, group: u32, place: DVec3) -> u32 {
-        // Zeros of either sign are one place.
+        // Positive and negative zero are the same coordinate.
         let place = place + 0.0;
         let mask = self.slots.len() - 1;
         let mut slot = slot_of(group, place) as usize & mask;
@@ -48,12 +48,12 @@ impl Weld {
         }
     }
 
-    /// How many points there are.
+    /// Number of points.
     pub fn len(&self) -> usize {
         self.points.len()
     }
 
-    /// The place of each point.
+    /// Positions of the points.
     pub fn into_points(self) -> Vec<DVec3> {
         self.points
     }
@@ -67,10 +67,12 @@ fn slot_of(group: u32, place: DVec3) -> u64 {
     hash ^ (hash >> 31)
 }
 
-/// For each point the one that it is joined to, where places on open edges differ by no more than their reach: the corners of CAD
-/// faces differ in their last bits. None if nothing is joined.
+/// Joins points on open edges whose distance is at most their reach; returns the representative of each
+/// point.
+///
+/// The corners of adjacent CAD faces often differ in their last bits. Returns `None` if nothing is joined.
 pub(crate) fn joined(points: &[DVec3], corners: &[[u32; 3]], reaches: &[f64]) -> Option<Vec<u32>> {
-    // About a point that faces surround each neighbour comes next once, and last once.
+    // At a point that is surrounded by faces, each neighbour is once the next corner and once the last one.
     let mut open = vec![0_u32; points.len()];
     let mut add = |point: u32, other: u32, sign: u32| {
         let mixed = other.wrapping_add(1).wrapping_mul(0x9e37_79b1);
@@ -106,7 +108,7 @@ mod tests {
         let corners = [[0, 1, 2], [4, 3, 5], [NONE; 3]];
         assert_eq!(joined(&points, &corners, &[1e-8; 6]), Some(vec![0, 1, 2, 1, 2, 5]));
         assert_eq!(joined(&points, &corners, &[1e-10; 6]), None);
-        // A closed surface has nothing to be joined to, however near it lies.
+        // A closed surface has no open edges, so it is not joined to anything, however close.
         let closed = [[0, 2, 1], [0, 1, 5], [1, 2, 5], [2, 0, 5]];
         assert_eq!(joined(&points, &closed, &[9.0; 6]), None);
     }

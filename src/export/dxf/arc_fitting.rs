@@ -1,8 +1,11 @@
-//! The straight lines and arcs that a path is made of: as long as they can be within a tolerance.
+//! Straight lines and arcs fitted to a path, each as long as the tolerance allows.
 //!
-//! Cubics that stand for arcs are these arcs ([`Steps`]). Other curves are flattened finely, and from each place on the longest line or arc is taken that all points, and all chords between them,
-//! keep within the tolerance of. Arcs have the *bulge* of DXF: the tangent of a quarter of the angle that they turn, positive
-//! anticlockwise with y up.
+//! 1. Cubics that stand for arcs become these arcs ([`Steps`]).
+//! 2. Other curves are flattened finely. From each point, the longest line or arc is taken whose distance to
+//!    all points and chords is within the tolerance.
+//!
+//! Arcs use the *bulge* of DXF: the tangent of a quarter of the included angle, positive anticlockwise with y
+//! up.
 
 use kurbo::{Affine, BezPath, Point, Vec2};
 
@@ -10,38 +13,40 @@ use super::arc_recovery::Steps;
 use crate::geometry::numbers::portable_math::{atan2, tan};
 use crate::geometry::plane::planar_distance::nearest_centre;
 
-/// A part of a path that is drawn without lifting the pen.
+/// A stroke without lifting the pen.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Curve {
     Circle { centre: Point, radius: f64 },
     Run { start: Point, pieces: Vec<Piece>, closed: bool },
 }
 
-/// A straight line or an arc to its end.
+/// A straight line or an arc, by its end point and bulge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Piece {
     pub(crate) end: Point,
     pub(crate) bulge: f64,
 }
 
-/// Of the tolerance, what flattening may take.
+/// Share of the tolerance used by flattening.
 const FLAT_SHARE: f64 = 0.1;
 
-/// Arcs turn by less than this: beyond, their ends come so near each other that their middle is uncertain.
+/// Largest angle of an arc in radians. The ends of longer arcs are so close together that the centre is
+/// uncertain.
 const LARGEST_TURN: f64 = 6.0;
 
-/// Circles of which a model has only corners are circles: between corners that turn by no more than this (radians), chords
-/// may be so many tolerances off.
+/// Largest angle between corners of a polygon that stands for a circle, in radians.
 const LARGEST_FACET: f64 = 0.27;
+/// Largest distance of its chords from the circle, in tolerances.
 const FACET_RISE: f64 = 2.5;
 
-/// A whole circle may be so many tolerances off: curves are fitted to chains half by half.
+/// Largest distance of a closed curve from a full circle, in tolerances. Curves are fitted to chains in two
+/// halves.
 const OFF_CIRCLE: f64 = 1.5;
 
-/// Circles have at least so many points when flattened.
+/// Fewest points of a flattened circle.
 const LEAST_OF_CIRCLE: usize = 8;
 
-/// The curves of a path, moved by `place`, within `tolerance` of it, in lengths after the move.
+/// Lines and arcs of a path, transformed by `place`, within `tolerance` in units after the transform.
 pub(crate) fn curves(path: &BezPath, place: Affine, tolerance: f64) -> Vec<Curve> {
     let within = tolerance * (1.0 - FLAT_SHARE);
     let moved = place * path;
@@ -54,7 +59,7 @@ pub(crate) fn curves(path: &BezPath, place: Affine, tolerance: f64) -> Vec<Curve
         .collect()
 }
 
-/// The curve of a subpath that has arcs.
+/// The curve of a subpath with recovered arcs.
 fn with_arcs(own: &Steps, tolerance: f64) -> Option<Curve> {
     if !own.points().iter().all(|point| point.is_finite()) {
         return None;
@@ -79,7 +84,7 @@ fn with_arcs(own: &Steps, tolerance: f64) -> Option<Curve> {
     Some(Curve::Run { start: own.start, pieces: found, closed: own.closed })
 }
 
-/// The curve through points, of which no two neighbours are the same; closed ones come back to the first.
+/// The curve through points without repeated neighbours; a closed curve returns to the first point.
 fn curve(mut points: Vec<Point>, closed: bool, tolerance: f64) -> Option<Curve> {
     if points.iter().any(|point| !point.is_finite()) {
         return None;
@@ -100,7 +105,7 @@ fn curve(mut points: Vec<Point>, closed: bool, tolerance: f64) -> Option<Curve> 
         return Some(Curve::Circle { centre, radius });
     }
     points.push(start);
-    // Where a closed line begins is chance: it is begun anew where its first piece ends, lest an arc is cut there.
+    // A closed line may start anywhere, even inside an arc. Start again at the end of the first piece.
     let first = pieces(&points, tolerance).first().map_or(start, |piece| piece.end);
     if let Some(turn) = points.iter().position(|point| *point == first).filter(|at| *at + 1 < points.len()) {
         points.pop();
@@ -111,7 +116,7 @@ fn curve(mut points: Vec<Point>, closed: bool, tolerance: f64) -> Option<Curve> 
     Some(Curve::Run { start, pieces: pieces(&points, tolerance), closed })
 }
 
-/// The lines and arcs through points, from the first to the last.
+/// Lines and arcs through all points in order.
 fn pieces(points: &[Point], tolerance: f64) -> Vec<Piece> {
     let mut pieces = Vec::new();
     let mut at = 0;
@@ -125,7 +130,8 @@ fn pieces(points: &[Point], tolerance: f64) -> Vec<Piece> {
     pieces
 }
 
-/// How far a piece may go from a point, at least one further: steps are doubled while they fit, and then halved.
+/// Farthest index that one piece from a point can reach, at least the next one: doubling steps, then
+/// bisection.
 fn furthest(
     points: &[Point],
     from: usize,
@@ -157,7 +163,7 @@ fn furthest(
     (good, told)
 }
 
-/// Whether all points are on the line from the first to the last, each further along than the one before.
+/// Whether all points are on the line from the first to the last and advance along it.
 fn is_straight(run: &[Point], tolerance: f64) -> bool {
     let [first, .., last] = run else { return false };
     let way = *last - *first;
@@ -169,7 +175,8 @@ fn is_straight(run: &[Point], tolerance: f64) -> bool {
         && places.clone().zip(places.skip(1)).all(|(a, b)| b > a)
 }
 
-/// The bulge of an arc from the first point to the last that all others are on: through one of three of them.
+/// Bulge of an arc from the first to the last point that passes all others. The arc goes through one of three
+/// inner points.
 fn arc(run: &[Point], tolerance: f64) -> Option<f64> {
     let (first, last) = (*run.first()?, *run.last()?);
     [2, 1, 3].into_iter().find_map(|quarter| {
@@ -180,7 +187,7 @@ fn arc(run: &[Point], tolerance: f64) -> Option<f64> {
     })
 }
 
-/// The circle that closed points are on, all round it once.
+/// Circle through all points of a closed curve that goes round it once.
 fn circle(points: &[Point], tolerance: f64) -> Option<(Point, f64)> {
     let count = points.len();
     if count < LEAST_OF_CIRCLE {
@@ -196,7 +203,7 @@ fn circle(points: &[Point], tolerance: f64) -> Option<(Point, f64)> {
     ((turn.abs() - std::f64::consts::TAU).abs() < 1e-6).then_some((centre, mean))
 }
 
-/// The angle by which points go round a centre, always the same way, at this distance from it, their chords too.
+/// Total angle of points around a centre, always in one direction, with all chords near the circle.
 fn turn_about(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Option<f64> {
     let mut turn = 0.0;
     for pair in run.windows(2) {
@@ -209,7 +216,8 @@ fn turn_about(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Opti
     Some(turn)
 }
 
-/// The same of the corners of a circle that is told by its corners alone: chords that turn about alike may be further inside.
+/// The same for a polygon that stands for a circle: its chords may be further inside, if they turn by similar
+/// angles.
 fn turn_of_facets(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> Option<f64> {
     let (mut turn, mut least, mut most) = (0.0, f64::INFINITY, 0.0_f64);
     for pair in run.windows(2) {
@@ -223,13 +231,13 @@ fn turn_of_facets(run: &[Point], centre: Point, radius: f64, tolerance: f64) -> 
     (most <= LARGEST_FACET && most <= 2.0 * least).then_some(turn)
 }
 
-/// A straight piece beside a circle.
+/// A chord compared with a circle.
 struct Chord {
-    /// The angle that it turns by.
+    /// Angle in radians.
     step: f64,
-    /// How far its ends are from the circle.
+    /// Distance of its ends from the circle.
     off: f64,
-    /// How far its middle is inside that of the arc.
+    /// Distance of its middle from that of the arc.
     rise: f64,
 }
 
@@ -243,7 +251,7 @@ impl Chord {
     }
 }
 
-/// The centre of the circle through three points, unless they are on a line.
+/// Centre of the circle through three points; `None` if they are collinear.
 fn centre_of(a: Point, b: Point, c: Point) -> Option<Point> {
     let (u, v) = (b - a, c - a);
     let twice = 2.0 * u.cross(v);
@@ -251,7 +259,7 @@ fn centre_of(a: Point, b: Point, c: Point) -> Option<Point> {
     (twice != 0.0 && to.is_finite()).then(|| a + to)
 }
 
-/// Where the circle of an arc is, and its radius.
+/// Centre and radius of an arc.
 pub(crate) fn circle_of(start: Point, piece: Piece) -> (Point, f64) {
     let chord = piece.end - start;
     // The height of the arc over its chord is half the chord times the bulge.
@@ -304,7 +312,7 @@ mod tests {
 
     #[test]
     fn closed_lines_begin_where_a_piece_does() {
-        // A slot, begun in the middle of one of its arcs.
+        // A slot that starts in the middle of one of its arcs.
         let slot = "M25 -5A5 5 0 0 1 30 0A5 5 0 0 1 25 5L0 5A5 5 0 0 1 0 -5Z";
         let (_, pieces, closed) = only(&BezPath::from_svg(slot).unwrap());
         assert!(closed);
@@ -312,7 +320,7 @@ mod tests {
         assert_eq!(pieces.len(), 4, "{pieces:?}");
     }
 
-    /// Straight lines far apart are no arc, however round their corners lie.
+    /// Long straight lines are not an arc, even if their corners are on a circle.
     #[test]
     fn a_hexagon_has_six_sides() {
         let corner = |k: u32| {
@@ -327,7 +335,7 @@ mod tests {
         assert!(closed && pieces.len() == 6 && pieces.iter().all(|piece| piece.bulge == 0.0), "{pieces:?}");
     }
 
-    /// A model's circle of many sides is a circle, one of few is not.
+    /// A polygon with many sides is a circle; one with few sides is not.
     #[test]
     fn circles_of_corners_are_circles() {
         let polygon = |sides: u32, radius: f64| {
@@ -345,7 +353,7 @@ mod tests {
         assert!(matches!(polygon(72, 100.0).as_slice(), [Curve::Run { .. }]));
     }
 
-    /// Every point of any curve is near its lines and arcs.
+    /// Every point of a curve is near its lines and arcs, and the other way round.
     #[test]
     fn pieces_keep_within_the_tolerance() {
         for k in 0..200 {
@@ -385,7 +393,7 @@ mod tests {
         }
     }
 
-    /// A point of a piece, from 0 to 1.
+    /// A point of a piece at parameter 0 to 1.
     fn along(start: Point, piece: Piece, t: f64) -> Point {
         if piece.bulge == 0.0 {
             return start.lerp(piece.end, t);

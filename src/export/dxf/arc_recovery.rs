@@ -1,7 +1,8 @@
-//! [`Steps`]: a path as straight steps and arcs, where its cubics are arcs.
+//! Paths as straight steps and arcs, with arcs recovered from cubics.
 //!
-//! A chain on a circle is written as cubics of one form: handles along the tangents, as long as the arc's angle says. Such a cubic is read back
-//! as the arc that it stands for, and neighbours on one circle are one arc. Other curves are flattened.
+//! A chain on a circle is written as cubics of one form: handles along the tangents, with the length given by
+//! the arc's angle. Such a cubic is read back as its arc, and neighbouring arcs of one circle are merged.
+//! Other curves are flattened.
 
 use std::f64::consts::TAU;
 
@@ -9,24 +10,25 @@ use kurbo::{CubicBez, PathEl, Point, Vec2};
 
 use crate::geometry::numbers::portable_math::{atan2, cos, sin, tan};
 
-/// How far a cubic may be from the form of an arc, as a share of the radius: rounding of double precision.
+/// Tolerance for recognising arcs, relative to the radius: rounding of double precision.
 const SAME: f64 = 1e-7;
 
-/// A cubic stands for an arc of no more than this, radians.
+/// Largest angle of an arc written as one cubic, in radians.
 const MAX_TURN: f64 = 1.6;
 
-/// Arcs turn by less than this. The ends of longer ones come so near each other that their middle is uncertain.
+/// Largest angle of an arc in radians. The ends of longer arcs are so close together that the centre is
+/// uncertain.
 const LARGEST_TURN: f64 = 6.0;
 
-/// A straight line or an arc to its end.
+/// A straight line or an arc, by its end point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Step {
     pub end: Point,
-    /// The centre of an arc, and its turn.
+    /// Centre and angle of an arc.
     pub arc: Option<(Point, f64)>,
 }
 
-/// A subpath.
+/// One subpath.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Steps {
     pub start: Point,
@@ -35,7 +37,7 @@ pub(crate) struct Steps {
 }
 
 impl Steps {
-    /// The subpaths of a path, other curves within `tolerance`.
+    /// Subpaths of a path; curves other than arcs are flattened within `tolerance`.
     pub fn of(path: &[PathEl], tolerance: f64) -> Vec<Self> {
         let mut all: Vec<Self> = Vec::new();
         let mut own = Self { start: Point::ZERO, steps: Vec::new(), closed: false };
@@ -67,12 +69,12 @@ impl Steps {
         all
     }
 
-    /// Whether some of it is an arc.
+    /// Whether any step is an arc.
     pub fn has_arcs(&self) -> bool {
         self.steps.iter().any(|step| step.arc.is_some())
     }
 
-    /// All its points, where it has no arcs.
+    /// All points of a subpath without arcs.
     pub fn points(&self) -> Vec<Point> {
         std::iter::once(self.start).chain(self.steps.iter().map(|step| step.end)).collect()
     }
@@ -87,6 +89,7 @@ impl Steps {
         }
     }
 
+    /// Adds a flattened curve.
     fn flat(&mut self, curve: [PathEl; 2], tolerance: f64) {
         kurbo::flatten(curve, tolerance, |element| {
             if let PathEl::LineTo(point) = element {
@@ -95,7 +98,8 @@ impl Steps {
         });
     }
 
-    /// The same with neighbouring arcs of one circle as one; a closed one that has arcs comes back to its start, and begins where an arc does.
+    /// Merges neighbouring arcs of one circle. A closed subpath with arcs returns to its start, and starts
+    /// where an arc starts.
     fn merged(mut self) -> Self {
         if !self.has_arcs() {
             return self;
@@ -127,7 +131,7 @@ impl Steps {
         Self { steps: merged, ..self }
     }
 
-    /// The circle that it is, if it is one.
+    /// The full circle that the subpath is, if any.
     pub fn circle(&self) -> Option<(Point, f64)> {
         match self.steps.as_slice() {
             [Step { arc: Some((centre, turn)), .. }] if self.closed && (turn.abs() - TAU).abs() < SAME => {
@@ -137,7 +141,7 @@ impl Steps {
         }
     }
 
-    /// The ends and bulges of an arc: of two halves where it nearly comes back to its start.
+    /// End points and bulges of an arc. An arc that nearly closes is split into two halves.
     pub fn bulges(start: Point, end: Point, (centre, turn): (Point, f64)) -> Vec<(Point, f64)> {
         if turn.abs() < LARGEST_TURN {
             return vec![(end, tan(turn / 4.0))];
@@ -149,7 +153,7 @@ impl Steps {
     }
 }
 
-/// Whether two steps are arcs of one circle, the same way round.
+/// Whether two steps are arcs of one circle in the same direction.
 fn is_one_circle(a: Step, b: Step) -> bool {
     match (a.arc, b.arc) {
         (Some((one, turn)), Some((other, more))) => {
@@ -160,7 +164,7 @@ fn is_one_circle(a: Step, b: Step) -> bool {
     }
 }
 
-/// The centre and the angle of the arc that a cubic stands for.
+/// Centre and angle of the arc that a cubic stands for.
 fn arc_of(curve: CubicBez) -> Option<(Point, f64)> {
     let (out, back) = (curve.p1 - curve.p0, curve.p3 - curve.p2);
     let (first, last) = (out.hypot(), back.hypot());
@@ -168,7 +172,7 @@ fn arc_of(curve: CubicBez) -> Option<(Point, f64)> {
     if !(first > 0.0 && turn != 0.0 && turn.abs() <= MAX_TURN && (first - last).abs() <= SAME * first) {
         return None;
     }
-    // To the left of the tangent where it turns from x to y.
+    // The centre is to the left of the tangent if the angle is positive (from x to y).
     let radius = first / (4.0 / 3.0 * tan(turn / 4.0));
     let centre = curve.p0 + Vec2::new(-out.y, out.x) * (radius / first);
     let (s, c) = (sin(turn), cos(turn));

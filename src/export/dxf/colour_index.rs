@@ -1,13 +1,14 @@
-//! The 255 colours that DXF numbers, and the nearest of them to a colour.
+//! Nearest colour of the 255 colours numbered in DXF.
 //!
-//! Source: the AutoCAD Color Index: 1 to 9 by name, 24 hues with five values in two saturations each, six greys. Number 7 is black on
-//! white paper and white on a black screen.
+//! Source: the AutoCAD Color Index. 1 to 9 are named colours. Then follow 24 hues, each with five values in
+//! two saturations, and six greys. Number 7 is black on white paper and white on a black screen.
 
 use crate::colour::srgb::Colour;
 
 /// Black on paper.
 pub(crate) const BLACK: u8 = 7;
 
+/// Colours 1 to 9.
 const NAMED: [[u8; 3]; 9] = [
     [255, 0, 0],
     [255, 255, 0],
@@ -19,12 +20,15 @@ const NAMED: [[u8; 3]; 9] = [
     [128, 128, 128],
     [192, 192, 192],
 ];
+/// Values of the five shades of a hue, 0 to 255.
 const VALUES: [f64; 5] = [255.0, 189.0, 129.0, 104.0, 79.0];
+/// Greys 250 to 255.
 const GREYS: [u8; 6] = [51, 80, 105, 130, 190, 255];
 
-/// How much of a colour's height stays in its pale half: what is pale is mixed with two thirds of white.
+/// Share of white mixed into the pale variant of a hue.
 const PALE: f64 = 2.0 / 3.0;
 
+/// The colour with a number.
 fn colour(number: u8) -> [u8; 3] {
     match number {
         1..=9 => NAMED[usize::from(number) - 1],
@@ -33,7 +37,8 @@ fn colour(number: u8) -> [u8; 3] {
             let shade = usize::from(number % 10);
             let value = VALUES[shade / 2];
             let floor = if shade % 2 == 1 { PALE } else { 0.0 };
-            // Each channel is full for a third of the circle, and falls over a sixth on both sides.
+            // Each channel is full over a third of the hue circle, and falls to zero over a sixth on both
+            // sides.
             [0.0, 2.0, 4.0].map(|middle: f64| {
                 let away = (hue - middle).abs();
                 let away = away.min(6.0 - away);
@@ -46,13 +51,13 @@ fn colour(number: u8) -> [u8; 3] {
     }
 }
 
-/// The number whose colour is nearest, the first of several.
+/// Number of the nearest colour; the first of several.
 pub(crate) fn nearest(wanted: Colour) -> u8 {
     let wanted = [wanted.r, wanted.g, wanted.b];
     let distance = |number: &u8| -> i32 {
         colour(*number).iter().zip(wanted).map(|(a, b)| (i32::from(*a) - i32::from(b)).pow(2)).sum()
     };
-    // Black comes before all else, so that near blacks are seen on black screens too.
+    // Black comes first, so that nearly black colours are visible on black screens.
     let others = (1..=255).filter(|number| *number != BLACK);
     std::iter::once(BLACK).chain(others).min_by_key(distance).unwrap_or(BLACK)
 }

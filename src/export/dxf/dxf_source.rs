@@ -1,57 +1,58 @@
-//! [`Sheet`]: what of a drawing DXF is made of, and in which lengths.
+//! The marks of a drawing that DXF contains, with units and options.
 
 use kurbo::{Affine, Point};
 
 use crate::drawing::{Drawing, LayerKind, Mark, Paint, Unit};
 
-/// Which release of DXF is written.
+/// Release of DXF to write.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum DxfVersion {
-    /// Release 12 of 1992, which every program reads. It knows neither fills nor widths of lines.
+    /// Release 12 of 1992, which every program reads. It has no fills and no line widths.
     #[default]
     R12,
-    /// Release 2000: with fills as solid hatches, widths of lines, and the unit of lengths.
+    /// Release 2000, with fills as solid hatches, line widths and a unit of length.
     R2000,
 }
 
-/// What a unit of length in the file is.
+/// Unit of length in the file.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum DxfLength {
     /// A millimetre of the page; a px is 1/96 inch.
     #[default]
     Page,
-    /// A unit of the model, of which one is so many user units of the drawing. Only parallel views have such a number.
+    /// A unit of the model, which measures this many user units of the drawing. Defined for parallel views
+    /// only.
     Model(f64),
 }
 
-/// How DXF is written.
+/// Options of DXF.
 #[derive(Debug, Clone, PartialEq, Default)]
 #[non_exhaustive]
 pub struct DxfOptions {
-    /// Default: release 12.
+    /// Release. Default: release 12.
     pub version: DxfVersion,
-    /// Default: millimetres of the page.
+    /// Unit of length. Default: millimetres of the page.
     pub length: DxfLength,
-    /// The point of the page that is (0, 0) in the file, user units, y down. Default: the lower left corner.
+    /// The page point that becomes (0, 0) in the file, in user units, y down. Default: the lower left corner.
     pub origin: Option<[f64; 2]>,
 }
 
 impl DxfOptions {
-    /// With another release.
+    /// Sets the release.
     #[must_use]
     pub const fn with_version(mut self, version: DxfVersion) -> Self {
         self.version = version;
         self
     }
 
-    /// With another unit of length.
+    /// Sets the unit of length.
     #[must_use]
     pub const fn with_length(mut self, length: DxfLength) -> Self {
         self.length = length;
         self
     }
 
-    /// With another point of the page at (0, 0), in user units, y down.
+    /// Sets the page point that becomes (0, 0), in user units, y down.
     #[must_use]
     pub const fn with_origin(mut self, origin: [f64; 2]) -> Self {
         self.origin = Some(origin);
@@ -59,27 +60,28 @@ impl DxfOptions {
     }
 }
 
-/// Largest distance of lines and arcs from their curves, mm. The curves themselves take the rest of 0.02 mm ([`Style::to_scale`]).
+/// Largest distance of lines and arcs from their curves, in mm. The curves take the rest of 0.02 mm
+/// ([`Style::to_scale`]).
 ///
 /// [`Style::to_scale`]: crate::Style::to_scale
 const TOLERANCE_MM: f64 = 0.008;
 
 const MM_PER_PX: f64 = 25.4 / 96.0;
 
-/// What of a drawing DXF is made of.
+/// The marks and units of a DXF file.
 pub(crate) struct Sheet<'a> {
     pub(crate) version: DxfVersion,
-    /// From the drawing to the file.
+    /// Transform from the drawing to the file.
     pub(crate) place: Affine,
-    /// Lengths of the file in a user unit.
+    /// File units per user unit.
     pub(crate) scale: f64,
-    /// How far a curve may be from its own, in lengths of the file.
+    /// Tolerance of curves in file units.
     pub(crate) tolerance: f64,
-    /// The lower left and the upper right corner of the page in the file.
+    /// Lower left and upper right corner of the page in the file.
     pub(crate) corners: [[f64; 2]; 2],
-    /// Millimetres in a user unit, for widths of pens.
+    /// Millimetres per user unit, for pen widths.
     pub(crate) mm_per_unit: f64,
-    /// Whether a length of the file is a millimetre.
+    /// Whether a file unit is a millimetre.
     pub(crate) in_mm: bool,
     pub(crate) marks: Vec<(LayerKind, &'a Mark)>,
 }
@@ -112,12 +114,12 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// Paper and its texture are none of a plan.
+/// Whether a layer is written. Paper and its texture are not.
 pub(crate) fn is_drawn(kind: LayerKind) -> bool {
     !matches!(kind, LayerKind::Paper | LayerKind::Tooth)
 }
 
-/// Whether a mark has a place in the file.
+/// Whether a mark is written.
 pub(crate) fn is_told(mark: &Mark, version: DxfVersion) -> bool {
     match &mark.paint {
         Paint::Stroke(_) | Paint::Outline(_) => true,

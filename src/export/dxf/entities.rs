@@ -1,4 +1,4 @@
-//! [`Entities`]: what is drawn, a stroke an entity.
+//! DXF entities: one for each stroke or fill.
 
 use std::f64::consts::TAU;
 
@@ -13,13 +13,13 @@ use super::tables::APPLICATION;
 use crate::drawing::{Mark, Paint};
 use crate::geometry::numbers::portable_math::atan2;
 
-/// The longest text of one pair in release 12.
+/// Longest text of one pair in release 12.
 const LONGEST_TEXT: usize = 250;
 
-/// All entities of a drawing, as pairs.
+/// All entities of a drawing as group codes.
 pub(crate) struct Entities {
     pub(crate) tags: Tags,
-    /// The first handle that nothing has.
+    /// The first unused handle.
     pub(crate) next_handle: u32,
 }
 
@@ -36,12 +36,13 @@ impl Entities {
     }
 }
 
+/// Writer of entities.
 struct Writer<'a> {
     sheet: &'a Sheet<'a>,
     own: Entities,
 }
 
-/// What all entities of one mark say.
+/// Properties shared by all entities of a mark.
 struct Common<'a> {
     layer: &'a Entry,
     pen: Pen,
@@ -77,7 +78,7 @@ impl Writer<'_> {
         }
     }
 
-    /// One straight line or arc.
+    /// A single straight line or arc.
     fn single(&mut self, start: Point, piece: Piece, common: &Common) {
         if piece.bulge == 0.0 {
             self.begin("LINE", "AcDbLine", common);
@@ -103,6 +104,7 @@ impl Writer<'_> {
         self.end(common);
     }
 
+    /// Writes several lines and arcs as one polyline.
     fn polyline(&mut self, start: Point, pieces: &[Piece], closed: bool, common: &Common) {
         let vertices = vertices(start, pieces, closed);
         if self.sheet.version == DxfVersion::R2000 {
@@ -135,7 +137,7 @@ impl Writer<'_> {
         self.own.tags.text(8, &common.layer.name);
     }
 
-    /// A fill: all its rings, of which those inside others are holes.
+    /// A fill with all its rings; inner rings are holes.
     fn hatch(&mut self, curves: &[Curve], common: &Common) {
         let rings: Vec<Vec<(Point, f64)>> = curves.iter().filter_map(ring).collect();
         if rings.is_empty() {
@@ -152,7 +154,7 @@ impl Writer<'_> {
         tags.whole(71, 0);
         tags.whole(91, rings.len());
         for ring in &rings {
-            // A polyline, of the outside.
+            // An external boundary that is a polyline.
             tags.whole(92, 3);
             tags.whole(72, 1);
             tags.whole(73, 1);
@@ -169,6 +171,7 @@ impl Writer<'_> {
         self.end(common);
     }
 
+    /// Writes the start of an entity: type, handle, layer, and properties that differ from the layer's.
     fn begin(&mut self, name: &str, class: &str, common: &Common) {
         let handle = self.own.next_handle;
         let tags = &mut self.own.tags;
@@ -196,7 +199,7 @@ impl Writer<'_> {
         }
     }
 
-    /// What programs keep for others: the name of the part.
+    /// Writes the name of the part as extended data.
     fn end(&mut self, common: &Common) {
         if let Some(part) = common.part {
             self.own.tags.text(1001, APPLICATION);
@@ -205,7 +208,7 @@ impl Writer<'_> {
     }
 }
 
-/// The corners of a run, each with the bulge of what follows it.
+/// Corners of a run, each with the bulge of the next piece.
 fn vertices(start: Point, pieces: &[Piece], closed: bool) -> Vec<(Point, f64)> {
     let starts = std::iter::once(start).chain(pieces.iter().map(|piece| piece.end));
     let bulges = pieces.iter().map(|piece| piece.bulge).chain(std::iter::once(0.0));
@@ -216,7 +219,7 @@ fn vertices(start: Point, pieces: &[Piece], closed: bool) -> Vec<(Point, f64)> {
     vertices
 }
 
-/// A closed curve by its corners: a circle is two arcs.
+/// Corners of a closed curve; a circle becomes two arcs.
 fn ring(curve: &Curve) -> Option<Vec<(Point, f64)>> {
     match curve {
         Curve::Circle { centre, radius } => {
@@ -230,7 +233,7 @@ fn ring(curve: &Curve) -> Option<Vec<(Point, f64)>> {
     }
 }
 
-/// A text of ASCII in one line: other letters are written by their numbers, as DXF has it.
+/// A text in one line of ASCII. Other characters are written as `\U+XXXX`, as DXF requires.
 fn plain(text: &str) -> String {
     let mut plain = String::new();
     for letter in text.chars() {

@@ -1,14 +1,14 @@
-//! [`Tags`]: the pairs of a group code and a value that a DXF file is a list of.
+//! Pairs of group code and value, the only content of a DXF file.
 
-/// Decimals of lengths: a thousandth of a millimetre is more than any machine keeps, and models may be metres.
+/// Decimals of lengths. A thousandth of a millimetre is finer than any machine, but models may be in metres.
 const DECIMALS: usize = 6;
 
-/// Pairs as text.
+/// Group codes as text.
 #[derive(Default)]
 pub(crate) struct Tags(Vec<u8>);
 
 impl Tags {
-    /// A name or a word; whoever calls sees to it that it is one line of ASCII.
+    /// Writes a name or a word, which must be one line of ASCII.
     pub(crate) fn text(&mut self, code: u16, value: &str) {
         self.0.extend_from_slice(format!("{code}\r\n{value}\r\n").as_bytes());
     }
@@ -25,13 +25,13 @@ impl Tags {
         self.text(code, &number(value));
     }
 
-    /// A point in the plane of the page; `code` is that of x.
+    /// Writes a point on the page; `code` is the group code of x.
     pub(crate) fn point(&mut self, code: u16, [x, y]: [f64; 2]) {
         self.number(code, x);
         self.number(code + 10, y);
     }
 
-    /// A point of space in that plane.
+    /// Writes a point of space on the page plane.
     pub(crate) fn point_in_space(&mut self, code: u16, point: [f64; 2]) {
         self.point(code, point);
         self.number(code + 20, 0.0);
@@ -55,7 +55,7 @@ impl Tags {
     }
 }
 
-/// A number with a point, as readers that tell whole numbers by its absence want it.
+/// A number with a decimal point, because some readers take numbers without one as integers.
 fn number(value: f64) -> String {
     let text = format!("{value:.DECIMALS$}");
     let short = text.trim_end_matches('0');

@@ -1,4 +1,4 @@
-//! [`Layers`]: a layer for each kind of line, with the colour, width and type of line that most of it has.
+//! DXF layers: one for each kind of line, with the most common colour, width and line type of its marks.
 
 use std::collections::BTreeMap;
 
@@ -7,27 +7,27 @@ use super::dxf_source::Sheet;
 use crate::colour::srgb::Colour;
 use crate::drawing::{LayerKind, Mark, Paint};
 
-/// The layer that every file has, and where nothing is.
+/// The layer that every file has; it stays empty.
 pub(crate) const ZERO: &str = "0";
 
-/// The type of lines without gaps.
+/// The line type of solid lines.
 pub(crate) const CONTINUOUS: &str = "CONTINUOUS";
 
-/// Widths of lines that DXF knows, in hundredths of a millimetre.
+/// Line weights that DXF allows, in hundredths of a millimetre.
 const WEIGHTS: [u16; 24] =
     [0, 5, 9, 13, 15, 18, 20, 25, 30, 35, 40, 50, 53, 60, 70, 80, 90, 100, 106, 120, 140, 158, 200, 211];
 
-/// What of a pen a layer or a mark has.
+/// Pen of a layer or a mark.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Pen {
     pub(crate) colour: u8,
-    /// Hundredths of a millimetre; none of fills.
+    /// Hundredths of a millimetre; `None` for fills.
     pub(crate) weight: Option<u16>,
-    /// Lengths of dashes and gaps in the file's lengths, one decimal in page units; none of lines without gaps.
+    /// Lengths of dashes and gaps in file units, rounded to 0.1 page units; empty for solid lines.
     pub(crate) dash: Vec<f64>,
 }
 
-/// A layer, and how its lines look.
+/// A layer with its pen.
 #[derive(Debug)]
 pub(crate) struct Entry {
     pub(crate) name: String,
@@ -35,20 +35,20 @@ pub(crate) struct Entry {
 }
 
 impl Entry {
-    /// The type of its lines.
+    /// Name of its line type.
     pub(crate) fn line_type(&self) -> String {
         if self.pen.dash.is_empty() { CONTINUOUS.to_owned() } else { format!("{}_DASHES", self.name) }
     }
 }
 
-/// All layers that something is in, by name.
+/// All layers that contain marks, sorted by name.
 #[derive(Debug)]
 pub(crate) struct Layers {
     pub(crate) list: Vec<Entry>,
 }
 
 impl Layers {
-    /// The layers of a drawing: what most of a layer's marks have is the layer's.
+    /// Collects the layers of a drawing. A layer has the most common pen of its marks.
     pub(crate) fn of(sheet: &Sheet) -> Self {
         let mut all: BTreeMap<String, Vec<Pen>> = BTreeMap::new();
         for (kind, mark) in &sheet.marks {
@@ -57,7 +57,7 @@ impl Layers {
         let entry = |(name, pens): (String, Vec<Pen>)| {
             let colour = most(pens.iter().map(|pen| pen.colour)).unwrap_or(colour_index::BLACK);
             let weight = most(pens.iter().filter_map(|pen| pen.weight));
-            // Dashes of strokes are stretched to end well: those of the one in the middle stand for all.
+            // Dashes are stretched to fit each stroke. The median pattern stands for all.
             let mut dashes: Vec<Vec<f64>> =
                 pens.into_iter().map(|pen| pen.dash).filter(|dash| !dash.is_empty()).collect();
             dashes.sort_by(|a, b| a.iter().sum::<f64>().total_cmp(&b.iter().sum()));
@@ -77,7 +77,7 @@ impl Layers {
     }
 }
 
-/// What stands most often, of several the least.
+/// The most frequent value; the least of several.
 fn most<T: Ord + Copy>(of: impl Iterator<Item = T>) -> Option<T> {
     let mut counts: BTreeMap<T, usize> = BTreeMap::new();
     of.for_each(|value| *counts.entry(value).or_default() += 1);
@@ -85,7 +85,7 @@ fn most<T: Ord + Copy>(of: impl Iterator<Item = T>) -> Option<T> {
     counts.into_iter().find(|(_, count)| Some(*count) == most).map(|(value, _)| value)
 }
 
-/// How a mark is drawn.
+/// Pen of a mark.
 pub(crate) fn pen_of(sheet: &Sheet, mark: &Mark) -> Pen {
     let weight = |width: f64| {
         let wanted = (width * sheet.mm_per_unit * 100.0).round().clamp(0.0, 1e4) as i32;
@@ -105,10 +105,10 @@ pub(crate) fn pen_of(sheet: &Sheet, mark: &Mark) -> Pen {
     }
 }
 
-/// Most lengths of dashes and gaps that a type of line may have (AutoCAD DXF Reference, LTYPE).
+/// Most dash and gap lengths of a line type. Source: AutoCAD DXF Reference, LTYPE.
 const MAX_LENGTHS: usize = 12;
 
-/// One period of dashes and gaps that are written out one by one because they fit from corner to corner.
+/// One period of a dash pattern that was written out to fit from corner to corner.
 fn period(dash: &[f64]) -> &[f64] {
     let inner = dash.get(2..).unwrap_or_default();
     let alike = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-6 * a.abs();
@@ -120,7 +120,8 @@ fn period(dash: &[f64]) -> &[f64] {
     (2..=MAX_LENGTHS).step_by(2).find(repeats).map_or_else(whole, |length| &inner[..length])
 }
 
-/// The name of a mark's layer: the kind of line, hidden ones apart; what is no line by the layer of the drawing. Letters, digits and hyphens.
+/// Layer name of a mark in letters, digits and hyphens: the kind of line, with a prefix for hidden lines.
+/// Marks other than lines use the layer of the drawing.
 fn name_of(kind: LayerKind, mark: &Mark) -> String {
     let classes = &mark.provenance.classes;
     let line = if classes.contains(&"silhouette") { Some(&"silhouette") } else { classes.first() };

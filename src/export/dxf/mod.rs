@@ -4,14 +4,14 @@
 //! polylines and arcs, but fail on splines and on curves split into many segments. So curves become lines and
 //! arcs, and nothing is written twice. Coordinates have y up, with the page's lower left corner at (0, 0).
 //!
-//! 1. [`dxf_source`] selects the marks and the unit of length.
-//! 2. [`arc_recovery`] finds the arcs that cubics stand for; [`arc_fitting`] fits lines and arcs to all other
+//! 1. `dxf_source` selects the marks and the unit of length.
+//! 2. `arc_recovery` finds the arcs that cubics stand for; `arc_fitting` fits lines and arcs to all other
 //!    curves.
-//! 3. [`layers`] gives each kind of line a layer with its most common pen; [`colour_index`] finds the nearest
+//! 3. `layers` gives each kind of line a layer with its most common pen; `colour_index` finds the nearest
 //!    numbered colour.
-//! 4. [`entities`] writes the strokes and fills; [`tables`] and [`objects`] write the rest of the file.
+//! 4. `entities` writes the strokes and fills; `tables` and `objects` write the rest of the file.
 //!
-//! [`group_codes`] writes the pairs of code and value of which a DXF file consists.
+//! `group_codes` writes pairs of code and value, the only content of a DXF file.
 
 mod arc_fitting;
 mod arc_recovery;
@@ -32,9 +32,12 @@ use group_codes::Tags;
 use layers::Layers;
 
 impl Drawing {
-    /// The drawing as a DXF file. Lines of varying width are told by their middle, gradients by the colour in theirs; pictures and
-    /// paper are left out, and in release 12 fills ([`Self::left_out_of_dxf`]). Circles of the model are circles if the style is
-    /// [to scale](crate::Style::to_scale). The same drawing gives the same bytes.
+    /// Writes the drawing as a DXF file. Lines of varying width are written by their axis, and gradients by
+    /// their middle colour. Pictures and paper are left out, and in release 12 also fills
+    /// ([`Self::left_out_of_dxf`]).
+    ///
+    /// Circles of the model are circles if the style is [to scale](crate::Style::to_scale). The same drawing
+    /// gives the same bytes.
     ///
     /// ```
     /// use ligne::export::{DxfOptions, DxfVersion};
@@ -65,7 +68,7 @@ impl Drawing {
         tags.into_bytes()
     }
 
-    /// How many marks of the drawing have no place in such a DXF file: pictures, and in release 12 fills.
+    /// Number of marks that the file leaves out: pictures, and in release 12 fills.
     #[must_use]
     pub fn left_out_of_dxf(&self, options: &DxfOptions) -> usize {
         let drawn = self.layers.iter().filter(|layer| is_drawn(layer.kind));

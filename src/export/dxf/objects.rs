@@ -1,22 +1,26 @@
-//! Handles of what every file of release 2000 has, and the objects at its end.
+//! Fixed handles of release 2000, and the OBJECTS section.
 
 use super::group_codes::Tags;
 
-/// The dictionary that all objects hang on, and that of groups in it.
+/// Handle of the root dictionary.
 const ROOT: u32 = 0xC;
+/// Handle of the group dictionary.
 const GROUPS: u32 = 0xD;
 
-/// The block records of the model's space and of the sheet.
+/// Handle of the block record of model space.
 pub(crate) const MODEL_SPACE: u32 = 0x1A;
+/// Handle of the block record of paper space.
 pub(crate) const PAPER_SPACE: u32 = 0x1B;
 
-/// The blocks themselves begin here, tables and their entries there.
+/// First handle of blocks.
 pub(crate) const FIRST_OF_BLOCKS: u32 = 0x1C;
+/// First handle of tables and their entries.
 pub(crate) const FIRST_OF_TABLES: u32 = 0x20;
 
-/// Entities begin here: tables have fewer entries.
+/// First handle of entities. Tables have fewer entries than the gap before it.
 pub(crate) const FIRST_FREE: u32 = 0x200;
 
+/// Writes the OBJECTS section.
 pub(crate) fn write(tags: &mut Tags) {
     tags.section("OBJECTS");
     dictionary(tags, ROOT, 0);

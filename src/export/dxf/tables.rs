@@ -1,4 +1,4 @@
-//! What stands before the entities: the header, types of lines, layers and blocks.
+//! Header, tables and blocks of a DXF file.
 
 use super::colour_index;
 use super::dxf_source::{DxfVersion, Sheet};
@@ -6,13 +6,15 @@ use super::group_codes::Tags;
 use super::layers::{CONTINUOUS, Layers, ZERO};
 use super::objects::{self, MODEL_SPACE, PAPER_SPACE};
 
-/// Under which name entities say of which part they are.
+/// Application name of the extended data that holds part names.
 pub(crate) const APPLICATION: &str = "LIGNE";
 
-/// `$INSUNITS`: millimetres, and lengths without a unit.
+/// Value of `$INSUNITS` for millimetres.
 const MILLIMETRES: usize = 4;
+/// Value of `$INSUNITS` for lengths without a unit.
 const UNITLESS: usize = 0;
 
+/// Writes the HEADER section, and an empty CLASSES section in release 2000.
 pub(crate) fn header(tags: &mut Tags, sheet: &Sheet, next_handle: u32) {
     let modern = sheet.version == DxfVersion::R2000;
     let variable = |tags: &mut Tags, name: &str, code: u16, value: usize| {
@@ -45,7 +47,7 @@ pub(crate) fn header(tags: &mut Tags, sheet: &Sheet, next_handle: u32) {
     }
 }
 
-/// Writes tables, whose entries have handles and classes in release 2000.
+/// Writer of tables. In release 2000, entries have handles and subclasses.
 struct Tables<'a> {
     tags: &'a mut Tags,
     modern: bool,
@@ -58,6 +60,7 @@ impl Tables<'_> {
         self.handle - 1
     }
 
+    /// Writes a table with its entries.
     fn table(&mut self, name: &str, count: usize, entries: impl FnOnce(&mut Self, u32)) {
         self.tags.text(0, "TABLE");
         self.tags.text(2, name);
@@ -75,11 +78,13 @@ impl Tables<'_> {
         self.tags.text(0, "ENDTAB");
     }
 
+    /// Writes the start of a table entry with the next handle.
     fn entry(&mut self, kind: &str, class: &str, owner: u32, name: &str) {
         let handle = self.take();
         self.entry_of(handle, kind, class, owner, name);
     }
 
+    /// Writes the start of a table entry with a given handle.
     fn entry_of(&mut self, handle: u32, kind: &str, class: &str, owner: u32, name: &str) {
         self.tags.text(0, kind);
         if self.modern {
@@ -92,7 +97,7 @@ impl Tables<'_> {
     }
 }
 
-/// The tables of a drawing.
+/// Writes the tables of a drawing.
 pub(crate) fn write(tags: &mut Tags, sheet: &Sheet, layers: &Layers) {
     let modern = sheet.version == DxfVersion::R2000;
     tags.section("TABLES");
@@ -148,12 +153,13 @@ pub(crate) fn write(tags: &mut Tags, sheet: &Sheet, layers: &Layers) {
     tags.end_section();
 }
 
-/// Dashes and gaps of the types of lines that layers have.
+/// Names and dash patterns of the line types used by layers.
 fn patterns(layers: &Layers) -> Vec<(String, Vec<f64>)> {
     let dashed = layers.list.iter().filter(|entry| !entry.pen.dash.is_empty());
     dashed.map(|entry| (entry.line_type(), entry.pen.dash.clone())).collect()
 }
 
+/// Writes the viewport that shows the whole page.
 fn active_view(tables: &mut Tables, owner: u32, [low, high]: [[f64; 2]; 2]) {
     let [width, height] = [high[0] - low[0], high[1] - low[1]];
     tables.entry("VPORT", "AcDbViewportTableRecord", owner, "*ACTIVE");
@@ -183,7 +189,7 @@ fn active_view(tables: &mut Tables, owner: u32, [low, high]: [[f64; 2]; 2]) {
     }
 }
 
-/// A type of line; lengths are those of dashes and gaps in turn.
+/// Writes a line type; `pattern` holds dashes and gaps in turn.
 fn line_type(tables: &mut Tables, owner: u32, name: &str, told: &str, pattern: &[f64]) {
     tables.entry("LTYPE", "AcDbLinetypeTableRecord", owner, name);
     let tags = &mut *tables.tags;
@@ -210,7 +216,7 @@ fn layer(tables: &mut Tables, owner: u32, name: &str, line_type: &str, colour: u
     }
 }
 
-/// The blocks that every file has: the model's space, where all is, and an empty sheet.
+/// Writes the mandatory blocks: model space, which contains the drawing, and an empty paper space.
 pub(crate) fn blocks(tags: &mut Tags, version: DxfVersion) {
     tags.section("BLOCKS");
     if version == DxfVersion::R2000 {

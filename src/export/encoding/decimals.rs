@@ -1,43 +1,42 @@
-//! Decimal numbers as short as they can be, from fixed-point integers.
+//! Shortest decimal numbers, from fixed-point integers.
 //!
-//! Five times as fast as the standard library's formatting, which matters where a drawing is
-//! millions of numbers.
+//! Five times as fast as the standard library, which matters for drawings with millions of numbers.
 
-/// Most decimals that are written.
+/// Most decimals written.
 pub(crate) const MOST_DECIMALS: u8 = 8;
 
-/// A grid of decimal numbers that coordinates are rounded to.
+/// A grid of decimal numbers for rounding coordinates.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Decimals {
     count: usize,
     scale: f64,
-    /// 1 as a multiple of the step.
+    /// The number 1 as a multiple of the step.
     one: i64,
 }
 
 impl Decimals {
-    /// Numbers of at most so many decimals.
+    /// Grid of numbers with at most `count` decimals.
     pub fn new(count: u8) -> Self {
         let count = count.min(MOST_DECIMALS);
         let one = 10i64.pow(u32::from(count));
         Self { count: usize::from(count), scale: one as f64, one }
     }
 
-    /// Steps of the grid in 1.
+    /// Number of steps in 1.
     #[cfg(feature = "diff")]
     pub fn scale(self) -> f64 {
         self.scale
     }
 
-    /// The nearest number of the grid, as a multiple of its step; 0 for what is not a number.
+    /// Nearest number of the grid as a multiple of its step; 0 for NaN.
     #[inline]
     pub fn round(self, value: f64) -> i64 {
         let scaled = value * self.scale;
-        // The limit keeps differences of two such numbers inside an i64.
+        // The limit keeps the difference of two such numbers within an i64.
         (scaled + 0.5f64.copysign(scaled)).clamp(-1e18, 1e18) as i64
     }
 
-    /// Writes a multiple of the step without needless zeros, such as `.5`, `-12`, `3.25`; whether
+    /// Writes a multiple of the step without superfluous zeros, such as `.5`, `-12`, `3.25`. Returns whether
     /// it has a point.
     #[inline]
     pub fn write(self, out: &mut Vec<u8>, number: i64) -> bool {
@@ -50,7 +49,7 @@ impl Decimals {
             let digit = (rest % 10) as u8;
             rest /= 10;
             digits += 1;
-            // Zeros at the end of the fraction are left out.
+            // Skip zeros at the end of the fraction.
             started |= digit != 0;
             if started {
                 at -= 1;
@@ -78,13 +77,13 @@ impl Decimals {
         started
     }
 
-    /// Whether a multiple of the step is written with its point first.
+    /// Whether a multiple of the step is written with a leading point.
     #[inline]
     pub fn starts_with_point(self, number: i64) -> bool {
         number > 0 && number < self.one
     }
 
-    /// A value rounded and written.
+    /// A rounded value as text.
     pub fn text(self, value: f64) -> String {
         let mut out = Vec::new();
         self.write(&mut out, self.round(value));

@@ -1,4 +1,4 @@
-//! [`Pictures`]: the pictures of a drawing, each once, and the names by which marks refer to them.
+//! Embedded pictures of a drawing, each once, with ids for the marks that show them.
 
 use std::sync::Arc;
 
@@ -15,20 +15,21 @@ use crate::colour::srgb::Colour;
 use crate::drawing::{Drawing, ImagePaint, ImagePiece, Mark, Paint, Shows};
 use crate::geometry::numbers::tolerance::COVER_PX;
 
-/// Decimals of what a transform turns and stretches by, and of what it moves by.
+/// Decimals of the linear part of a transform.
 const TURN_DECIMALS: u8 = 6;
+/// Decimals of the shift of a transform.
 const SHIFT_DECIMALS: u8 = 3;
 
-/// The pictures of a drawing, each once.
+/// Pictures of a drawing, each once.
 pub(crate) struct Pictures<'a> {
     pub list: Vec<&'a Picture>,
-    /// The number of a picture, by where it lies in memory.
+    /// Number of a picture, by its address.
     numbers: FxHashMap<usize, usize>,
-    /// The ink of each picture that is shown through masks, as [`Pictures::ink`].
+    /// Ink of each picture shown through a mask; see [`Pictures::ink`].
     pub inks: Vec<Option<Colour>>,
 }
 
-/// The marks of a drawing that show pictures.
+/// Marks of a drawing that show pictures.
 pub(crate) fn marks(drawing: &Drawing) -> impl Iterator<Item = (&Mark, &ImagePaint)> {
     drawing.layers.iter().flat_map(|layer| &layer.marks).filter_map(|mark| match &mark.paint {
         Paint::Image(image) => Some((mark, image)),
@@ -37,6 +38,7 @@ pub(crate) fn marks(drawing: &Drawing) -> impl Iterator<Item = (&Mark, &ImagePai
 }
 
 impl<'a> Pictures<'a> {
+    /// Collects the pictures of a drawing and their inks.
     pub fn of(drawing: &'a Drawing) -> Self {
         let mut pictures = Self { list: Vec::new(), numbers: FxHashMap::default(), inks: Vec::new() };
         for (_, image) in marks(drawing) {
@@ -50,7 +52,7 @@ impl<'a> Pictures<'a> {
             });
         }
         pictures.inks = pictures.list.iter().map(|picture| half_clear_ink(picture)).collect();
-        // One mark that cannot be shown through a mask is enough: the document holds a picture once.
+        // The document holds each picture once. If any of its marks cannot use a mask, none does.
         let mut overlap = vec![false; pictures.list.len()];
         for (_, image) in marks(drawing) {
             let number = pictures.number(image);
@@ -68,27 +70,28 @@ impl<'a> Pictures<'a> {
         pictures
     }
 
-    /// The opaque ink of a picture whose pieces are shown through masks: of one colour, half-clear, and overlapping. Drawn over each
-    /// other, such pieces would be darker where they overlap.
+    /// Opaque ink of a picture that is shown through a mask: one colour, half-transparent, with overlapping
+    /// pieces. Drawn directly, such pieces would be darker where they overlap.
     pub fn ink(&self, image: &ImagePaint) -> Option<Colour> {
         self.inks.get(self.number(image)).copied().flatten()
     }
 
-    /// The number of what a mark shows.
+    /// Number of the picture that a mark shows.
     pub fn number(&self, image: &ImagePaint) -> usize {
         self.numbers.get(&address(&image.picture)).copied().unwrap_or_default()
     }
 }
 
-/// The ids of pictures, and of the marks that show them.
+/// Ids of pictures and of the marks that show them.
 pub(crate) struct Named<'a> {
     pictures: Pictures<'a>,
     ids: Vec<String>,
-    /// By where marks lie in memory.
+    /// Ids of marks, by their address.
     marks: FxHashMap<usize, String>,
 }
 
 impl<'a> Named<'a> {
+    /// Assigns ids to all pictures and to the marks that show them.
     pub fn of(drawing: &'a Drawing, ids: &mut Ids) -> Self {
         let pictures = Pictures::of(drawing);
         let numbered = |name: &str, number: usize| format!("{name}-{}", number + 1);
@@ -102,27 +105,27 @@ impl<'a> Named<'a> {
         Self { pictures, ids: names, marks }
     }
 
-    /// Whether there are none.
+    /// Whether there are no pictures.
     pub fn is_empty(&self) -> bool {
         self.ids.is_empty()
     }
 
-    /// The id of what a mark shows.
+    /// Id of the picture that a mark shows.
     pub fn picture(&self, image: &ImagePaint) -> &str {
         self.ids.get(self.pictures.number(image)).map_or("", String::as_str)
     }
 
-    /// The ink of what a mark shows through a mask.
+    /// Ink of a picture shown through a mask.
     pub fn ink(&self, image: &ImagePaint) -> Option<Colour> {
         self.pictures.ink(image)
     }
 
-    /// The id of a mark.
+    /// Id of a mark.
     pub fn mark(&self, mark: &Mark) -> &str {
         self.marks.get(&std::ptr::from_ref(mark).addr()).map_or("", String::as_str)
     }
 
-    /// Writes the pictures, none of which is drawn where it stands.
+    /// Writes the definitions of the pictures.
     pub fn write(&self, out: &mut Vec<u8>) {
         out.extend_from_slice(b"<defs>\n");
         let Pictures { list, inks, .. } = &self.pictures;
@@ -142,12 +145,12 @@ impl<'a> Named<'a> {
     }
 }
 
-/// Where a picture lies in memory: marks that share it are many.
+/// Address of a picture, which many marks share.
 pub(crate) fn address(picture: &Arc<Picture>) -> usize {
     Arc::as_ptr(picture).addr()
 }
 
-/// The numbers of a transform, in order, with something between them.
+/// Coefficients of a transform in order, with a separator.
 pub(crate) fn matrix(transform: Affine, between: &str) -> String {
     let coefficients = transform.as_coeffs();
     let decimals =
@@ -157,7 +160,7 @@ pub(crate) fn matrix(transform: Affine, between: &str) -> String {
     texts.collect::<Vec<_>>().join(between)
 }
 
-/// The opaque colour of a picture that is of one colour, and half-clear somewhere.
+/// Opaque colour of a picture with a single colour and some half-transparent pixels.
 fn half_clear_ink(picture: &Picture) -> Option<Colour> {
     let first = picture.pixels.first().map(|first| Colour { a: 255, ..*first })?;
     let is_half_clear = picture.pixels.iter().any(|pixel| !matches!(pixel.a, 0 | 255));
@@ -165,7 +168,7 @@ fn half_clear_ink(picture: &Picture) -> Option<Colour> {
     (is_half_clear && is_one).then_some(first)
 }
 
-/// Whether a piece shows pixels, or a colour that is an ink except for its opacity.
+/// Whether a piece shows pixels, or the ink's colour with any opacity.
 fn is_of_ink(piece: &ImagePiece, ink: Colour) -> bool {
     match piece.shows {
         Shows::Pixels(_) => true,
@@ -173,14 +176,14 @@ fn is_of_ink(piece: &ImagePiece, ink: Colour) -> bool {
     }
 }
 
-/// Whether the bounds of two pieces that follow each other have more in common than an edge.
+/// Whether the bounds of two consecutive pieces overlap by more than an edge.
 fn pieces_overlap(pieces: &[ImagePiece]) -> bool {
     let bounds: Vec<Rect> = pieces.iter().map(|piece| piece.outline.control_box()).collect();
     let sides = |common: Rect| common.width().min(common.height());
     bounds.iter().zip(bounds.iter().skip(1)).any(|(a, b)| sides(a.intersect(*b)) > COVER_PX)
 }
 
-/// A picture as a PNG file; without an alpha channel if every pixel is opaque.
+/// A picture as a PNG file, without an alpha channel if it is opaque.
 fn encode(picture: &Picture) -> Vec<u8> {
     let opaque = picture.pixels.iter().all(|pixel| pixel.a == 255);
     let (samples, colour): (Vec<u8>, _) = if opaque {
@@ -192,7 +195,7 @@ fn encode(picture: &Picture) -> Vec<u8> {
     encode_samples(picture, &samples, colour)
 }
 
-/// How opaque a picture is, as a grey PNG file.
+/// Opacity of a picture as a grey PNG file.
 fn encode_opacity(picture: &Picture) -> Vec<u8> {
     let samples: Vec<u8> = picture.pixels.iter().map(|pixel| pixel.a).collect();
     encode_samples(picture, &samples, png::ColorType::Grayscale)
@@ -205,7 +208,7 @@ fn encode_samples(picture: &Picture, samples: &[u8], colour: png::ColorType) -> 
     encoder.set_depth(png::BitDepth::Eight);
     encoder.set_compression(png::Compression::Balanced);
     encoder.set_filter(png::Filter::Adaptive);
-    // Into memory, where nothing can go wrong but the size, which is that of the pixels.
+    // Writing to memory can only fail for an invalid size, and the size is that of the pixels.
     let written = encoder.write_header().and_then(|mut writer| writer.write_image_data(samples));
     if written.is_ok() { file } else { Vec::new() }
 }

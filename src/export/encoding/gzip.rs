@@ -1,25 +1,25 @@
-//! Bytes packed as gzip, and unpacked: `.svgz` is SVG packed so.
+//! Compression and decompression of gzip, for `.svgz` files.
 //!
-//! Source: RFC 1952. No name and no time are written, so that the same bytes give the same file.
+//! Source: RFC 1952. Neither name nor time is written, so that equal bytes give equal files.
 
 use miniz_oxide::deflate::compress_to_vec;
 use miniz_oxide::inflate::decompress_to_vec_with_limit;
 
 use crate::error::Error;
 
-/// How much is tried to pack well, of 10.
+/// Compression level, 0 to 10.
 const LEVEL: u8 = 9;
 
-/// Mark, method, flags, time, effort (the most), system (unknown).
+/// Magic number, method, flags, time, extra flags (best compression), system (unknown).
 const HEAD: [u8; 10] = [0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 2, 255];
 
-/// Bytes as gzip.
+/// Compresses bytes as gzip.
 #[must_use]
 pub fn packed(bytes: &[u8]) -> Vec<u8> {
     let mut out = HEAD.to_vec();
     out.extend_from_slice(&compress_to_vec(bytes, LEVEL));
     out.extend_from_slice(&crc32(bytes).to_le_bytes());
-    // As the format has it: the length modulo 2^32.
+    // The format stores the length modulo 2^32.
     out.extend_from_slice(&(bytes.len() as u32).to_le_bytes());
     out
 }
@@ -30,10 +30,10 @@ pub fn is_packed(bytes: &[u8]) -> bool {
     bytes.starts_with(&[0x1f, 0x8b])
 }
 
-/// The bytes of a file that may be packed.
+/// Decompresses the bytes of a file if they are gzip.
 ///
 /// # Errors
-/// Where it is, and broken, or holds more than so many bytes.
+/// If the gzip data is damaged, or contains more than `most` bytes.
 pub fn plain(bytes: Vec<u8>, most: usize) -> Result<Vec<u8>, Error> {
     if !is_packed(&bytes) {
         return Ok(bytes);
@@ -43,7 +43,7 @@ pub fn plain(bytes: Vec<u8>, most: usize) -> Result<Vec<u8>, Error> {
     })
 }
 
-/// What gzip holds, at most so many bytes; `None` if it is broken or holds more.
+/// Decompresses gzip; `None` if it is damaged or contains more than `most` bytes.
 #[must_use]
 pub fn unpacked(bytes: &[u8], most: usize) -> Option<Vec<u8>> {
     let (head, rest) = bytes.split_at_checked(HEAD.len())?;
@@ -56,11 +56,15 @@ pub fn unpacked(bytes: &[u8], most: usize) -> Option<Vec<u8>> {
     right.then_some(out)
 }
 
-/// How long the fields are that flags say follow the head.
+/// Length of the optional header fields selected by the flags.
 fn extras(body: &[u8], flags: u8) -> Option<usize> {
+    /// The header has a checksum.
     const CHECKED: u8 = 2;
+    /// The header has an extra field.
     const EXTRA: u8 = 4;
+    /// The header has a file name.
     const NAMED: u8 = 8;
+    /// The header has a comment.
     const COMMENTED: u8 = 16;
     let mut at = 0;
     if flags & EXTRA != 0 {
@@ -78,8 +82,9 @@ fn extras(body: &[u8], flags: u8) -> Option<usize> {
     Some(at)
 }
 
-/// The check sum of gzip, bit by bit: drawings are packed once, and packing takes longer.
+/// CRC-32 computed bit by bit. Compression takes longer than this.
 fn crc32(bytes: &[u8]) -> u32 {
+    /// Reversed polynomial of CRC-32.
     const POLYNOMIAL: u32 = 0xedb8_8320;
     !bytes.iter().fold(u32::MAX, |sum, byte| {
         (0..8).fold(sum ^ u32::from(*byte), |sum, _| (sum >> 1) ^ (POLYNOMIAL & (sum & 1).wrapping_neg()))

@@ -1,7 +1,7 @@
-//! Numbers, text and pictures as they are written into files.
+//! Encoders for numbers, text and pictures in files.
 //!
-//! Files, in reading order: [`decimals`] shortest decimal numbers from fixed-point integers; [`xml`] escaped
-//! text and unique ids; [`embedded_pictures`] each picture of a drawing once, as PNG in base64; `gzip`
+//! Files, in reading order: `decimals` shortest decimal numbers from fixed-point integers; `xml` escaped
+//! text and unique ids; `embedded_pictures` each picture of a drawing once, as PNG in base64; `gzip`
 //! compression of `.svgz` files.
 
 pub(crate) mod decimals;

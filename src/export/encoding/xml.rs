@@ -1,11 +1,11 @@
-//! Text made safe for XML, and ids that are unique in a document.
+//! Escaped text for XML, and ids that are unique in a document.
 
 use std::borrow::Cow;
 
 use rustc_hash::FxHashSet;
 
-/// Writes text for an attribute or an element: markup is escaped, characters that XML cannot
-/// hold are replaced by U+FFFD.
+/// Writes text for an attribute or an element. Markup is escaped, and characters that XML cannot contain are
+/// replaced by U+FFFD.
 pub(crate) fn escape(out: &mut Vec<u8>, text: &str) {
     let plain = |byte: u8| byte >= 0x20 && !matches!(byte, b'&' | b'<' | b'>' | b'"') && byte < 0xef;
     if text.bytes().all(plain) {
@@ -19,7 +19,7 @@ pub(crate) fn escape(out: &mut Vec<u8>, text: &str) {
             '<' => b"&lt;",
             '>' => b"&gt;",
             '"' => b"&quot;",
-            // Plain ones would be read as blanks in an attribute.
+            // Unescaped ones would be read as blanks in an attribute.
             '\t' => b"&#9;",
             '\n' => b"&#10;",
             '\r' => b"&#13;",
@@ -30,7 +30,7 @@ pub(crate) fn escape(out: &mut Vec<u8>, text: &str) {
     }
 }
 
-/// Text with markup escaped, see [`escape`].
+/// Escaped text; see [`escape`].
 #[cfg(feature = "cli")]
 pub(crate) fn escaped(text: &str) -> String {
     let mut out = Vec::with_capacity(text.len());
@@ -38,37 +38,37 @@ pub(crate) fn escaped(text: &str) -> String {
     String::from_utf8_lossy(&out).into_owned()
 }
 
-/// A text as it reads back from what [`escape`] wrote.
+/// The text that a reader gets from the output of [`escape`].
 pub(crate) fn read_back(text: &str) -> Cow<'_, str> {
     let lost = |c: char| matches!(c, '\u{0}'..='\u{1f}' | '\u{fffe}' | '\u{ffff}') && !"\t\n\r".contains(c);
     if text.contains(lost) { Cow::Owned(text.replace(lost, "\u{fffd}")) } else { Cow::Borrowed(text) }
 }
 
-/// Ids given away so far.
+/// Generator of unique ids.
 pub(crate) struct Ids {
-    /// Before all ids of the document.
+    /// Prefix of all ids of the document.
     base: String,
-    /// Before those that are taken now.
+    /// Prefix of the ids generated now.
     prefix: String,
     taken: FxHashSet<String>,
 }
 
 impl Ids {
-    /// Ids that all begin with a prefix, which may be empty.
+    /// Creates a generator with a prefix, which may be empty.
     pub fn new(prefix: &str) -> Self {
         Self { base: safe(prefix), prefix: safe(prefix), taken: FxHashSet::default() }
     }
 
-    /// From here on ids begin with this name as well, or no longer with any if it is empty.
+    /// Adds a name to the prefix of the following ids, or removes it if the name is empty.
     pub fn within(&mut self, name: &str) {
         let parted = if name.is_empty() { String::new() } else { format!("{}-", safe(name)) };
         self.prefix = format!("{}{parted}", self.base);
     }
 
-    /// An id made of a name, numbered if it is taken.
+    /// A unique id made from a name, with a number if the name is taken.
     pub fn take(&mut self, name: &str) -> String {
         let wished = format!("{}{}", self.prefix, safe(name));
-        // A name must not begin with a digit.
+        // An XML name must not start with a digit.
         let wished = if wished.starts_with(|c: char| !c.is_alphabetic() && c != '_') {
             format!("_{wished}")
         } else {
@@ -84,8 +84,7 @@ impl Ids {
     }
 }
 
-/// The name with everything replaced that may not stand in an id or that a selector would need
-/// to escape.
+/// The name with all characters replaced that are not allowed in ids or need escaping in selectors.
 fn safe(name: &str) -> String {
     name.chars().map(|c| if c.is_ascii_alphanumeric() || c == '-' || c == '_' { c } else { '-' }).collect()
 }

@@ -1,4 +1,4 @@
-//! [`ApngFilm`]: frames as an animated PNG, exact and with clear pixels; what knows no animation shows the first.
+//! Animated PNG, exact and with transparency. Programs without animation show the first frame.
 
 use std::io::Write;
 
@@ -9,12 +9,12 @@ use super::frame_difference::Changed;
 use crate::error::Error;
 use crate::export::Pixels;
 
-/// Units of time a second.
+/// Time units per second.
 const PER_SECOND: u16 = 1000;
 
-/// Writes an animated PNG.
+/// Writer of an animated PNG.
 pub struct ApngFilm<W: Write> {
-    /// Until the first frame tells the size.
+    /// Writer, until the first frame determines the size.
     out: Option<W>,
     writer: Option<Writer<W>>,
     pace: Pace,
@@ -24,15 +24,15 @@ pub struct ApngFilm<W: Write> {
 }
 
 impl<W: Write> ApngFilm<W> {
-    /// A film of so many frames, which must all be given, and so many ticks a second.
+    /// Creates a film with `fps` ticks per second. Exactly `frames` frames must be pushed.
     pub fn new(out: W, fps: f64, frames: u32) -> Self {
         Self { out: Some(out), writer: None, pace: Pace::new(fps), frames, written: 0, before: None }
     }
 
-    /// Adds a frame that is shown for so many ticks.
+    /// Adds a frame that is shown for `ticks` ticks.
     ///
     /// # Errors
-    /// If it cannot be written, if it is of another size than the first, or one too many.
+    /// If it cannot be written, has another size than the first frame, or is one too many.
     pub fn push(&mut self, pixels: &Pixels, ticks: u32) -> Result<(), Error> {
         if self.written == self.frames {
             return Err(Error::new(format!("the film should have {} frames", self.frames)));
@@ -65,7 +65,7 @@ impl<W: Write> ApngFilm<W> {
         }
         let Some(writer) = &mut self.writer else { return Ok(()) };
         if self.before.is_some() {
-            // A frame that would reach beyond the picture for a moment is refused.
+            // The encoder refuses a frame that temporarily exceeds the picture.
             writer.reset_frame_position()?;
             writer.set_frame_dimension(changed.width, changed.height)?;
             writer.set_frame_position(changed.left, changed.top)?;
@@ -78,7 +78,7 @@ impl<W: Write> ApngFilm<W> {
     /// Ends the film.
     ///
     /// # Errors
-    /// If the end cannot be written, or if frames are missing.
+    /// If the end cannot be written, or frames are missing.
     pub fn finish(self) -> Result<(), Error> {
         let writer = self.writer.ok_or_else(|| Error::new("a film needs at least one frame"))?;
         if self.written < self.frames {

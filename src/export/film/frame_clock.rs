@@ -1,6 +1,6 @@
-//! [`Pace`]: how long frames are shown, in the units of a format, without adding up what rounding takes.
+//! Display times of frames in the time unit of a format, without accumulated rounding errors.
 
-/// Where a film is in time.
+/// Position in time of a film.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pace {
     fps: f64,
@@ -9,12 +9,13 @@ pub(crate) struct Pace {
 }
 
 impl Pace {
-    /// At the begin of a film of so many ticks a second.
+    /// Start of a film with `fps` ticks per second.
     pub fn new(fps: f64) -> Self {
         Self { fps, ticks: 0 }
     }
 
-    /// For how many of `per_second` the next frame is shown, which lasts so many ticks; at least for one.
+    /// Display time of the next frame in units of 1/`per_second` s, at least one. `ticks` is its number of
+    /// ticks.
     pub fn next(&mut self, ticks: u32, per_second: f64) -> u32 {
         let at = |ticks: u64| (ticks as f64 / self.fps * per_second).round();
         let after = self.ticks + u64::from(ticks);
@@ -23,7 +24,7 @@ impl Pace {
         delay.clamp(1.0, f64::from(u32::MAX)) as u32
     }
 
-    /// How long all frames so far are shown, in seconds.
+    /// Display time of all frames so far in seconds.
     pub fn seconds(&self) -> f64 {
         self.ticks as f64 / self.fps
     }

@@ -1,4 +1,4 @@
-//! [`Changed`]: the part of a frame in which it differs from the one before.
+//! The changed rectangle of a frame, compared with the previous one.
 
 use crate::export::Pixels;
 
@@ -12,12 +12,12 @@ pub(crate) struct Changed {
 }
 
 impl Changed {
-    /// All of a picture.
+    /// The whole picture.
     pub fn whole(pixels: &Pixels) -> Self {
         Self { left: 0, top: 0, width: pixels.width, height: pixels.height }
     }
 
-    /// The least rectangle round all that differs between two pictures of one size; a single pixel where nothing does.
+    /// Bounding box of all differing pixels of two pictures of equal size; one pixel if there are none.
     pub fn between(before: &Pixels, after: &Pixels) -> Self {
         let row = (after.width as usize * 4).max(1);
         let (mut top, mut bottom, mut left, mut right) = (u32::MAX, 0, u32::MAX, 0);
@@ -38,7 +38,7 @@ impl Changed {
         Self { left, top, width: right - left, height: bottom - top }
     }
 
-    /// The least rectangle around two.
+    /// Bounding box of two rectangles.
     pub fn around(self, other: Self) -> Self {
         let (left, top) = (self.left.min(other.left), self.top.min(other.top));
         let right = (self.left + self.width).max(other.left + other.width);
@@ -46,13 +46,13 @@ impl Changed {
         Self { left, top, width: right - left, height: bottom - top }
     }
 
-    /// With its left and its upper side at even pixels.
+    /// The rectangle extended to even left and top coordinates.
     pub fn even(self) -> Self {
         let (left, top) = (self.left & !1, self.top & !1);
         Self { left, top, width: self.left + self.width - left, height: self.top + self.height - top }
     }
 
-    /// Its rows, each as bytes.
+    /// Rows of the rectangle as bytes.
     pub fn rows<'a>(&self, pixels: &'a Pixels) -> impl Iterator<Item = &'a [u8]> {
         let Self { left, top, width, height } = *self;
         let row = pixels.width as usize * 4;

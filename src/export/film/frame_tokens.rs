@@ -1,33 +1,33 @@
-//! [`Tokens`]: frames as lists of numbers for their lines of text, so that what is written alike is known by one number.
+//! Frames as lists of numbers for their lines of text, so that equal lines have equal numbers.
 //!
-//! A path is known by all of it but where it begins: one that stands elsewhere, but is otherwise the same, has the same number.
+//! A path is identified by everything except its start point. Shifted copies have the same number.
 
 use rustc_hash::FxHashMap;
 
 /// A line of a frame.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Token {
-    /// A path: its number, and where it begins, as it is written.
+    /// A path: its number, and its start point as written.
     Path(usize, Box<str>),
-    /// Anything else, by the number of its text.
+    /// Any other line, by the number of its text.
     Other(usize),
 }
 
-/// A path without its place.
+/// A path without its start point.
 #[derive(Debug, Clone)]
 pub(crate) struct Shape {
-    /// What stands before the first coordinates, and behind them.
+    /// Text before and after the first coordinates.
     pub before: Box<str>,
     pub after: Box<str>,
-    /// Where it is in the first frame that has it.
+    /// Start point in the first frame that contains it.
     pub first: Box<str>,
-    /// How often it is there.
+    /// Number of occurrences.
     pub count: usize,
-    /// Whether it always begins where it began first.
+    /// Whether all occurrences start at the same point.
     pub stays: bool,
 }
 
-/// All that frames are made of, each once.
+/// All lines of all frames, each once.
 #[derive(Debug, Default)]
 pub(crate) struct Tokens {
     pub shapes: Vec<Shape>,
@@ -37,11 +37,12 @@ pub(crate) struct Tokens {
 }
 
 impl Tokens {
-    /// The tokens of a frame's lines.
+    /// Numbers the lines of a frame.
     pub fn of<'a>(&mut self, lines: impl Iterator<Item = &'a str>) -> Vec<Token> {
         lines.map(|line| self.token(line)).collect()
     }
 
+    /// Numbers a line of a frame.
     fn token(&mut self, line: &str) -> Token {
         let Some([before, place, after]) = parts(line) else {
             let next = self.others.len();
@@ -65,9 +66,10 @@ impl Tokens {
     }
 }
 
-/// What of a path stands before its first coordinates, these, and the rest; `None` for what cannot stand elsewhere.
+/// Text of a path before its first coordinates, the coordinates, and the rest; `None` for other lines and for
+/// paths that cannot be shifted.
 fn parts(line: &str) -> Option<[&str; 3]> {
-    // What refers to something, or has an axis of its own beside its outline, stays where it is.
+    // Paths with references, or with an axis next to the outline, cannot be shifted.
     let path = line.starts_with("<path") && (line.ends_with("/>") || line.ends_with("</path>"));
     if !path || line.contains("url(#") || line.contains(" id=\"") {
         return None;
@@ -84,7 +86,7 @@ fn parts(line: &str) -> Option<[&str; 3]> {
     Some([line.get(..start)?, rest.get(..end)?, rest.get(end..)?])
 }
 
-/// How long the number at the begin of a text is.
+/// Length of the number at the start of a text.
 fn number(text: &str) -> Option<usize> {
     let mut point = false;
     let goes_on = |(at, letter): (usize, char)| match letter {
@@ -97,7 +99,7 @@ fn number(text: &str) -> Option<usize> {
     (end > 0).then_some(end)
 }
 
-/// The two coordinates of a place.
+/// The two coordinates of a start point.
 pub(crate) fn coordinates(place: &str) -> Option<[&str; 2]> {
     let (x, rest) = place.split_at_checked(number(place)?)?;
     Some([x, rest.trim_start()])

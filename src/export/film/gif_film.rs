@@ -1,11 +1,12 @@
-//! [`GifFilm`]: frames as an animated GIF.
+//! Animated GIF.
 //!
-//! - Every frame holds only what changed since the one before, with its own palette.
-//! - GIF counts time in hundredths of a second, and browsers show a frame for two of them at least. A frame that would be shown for
-//!   less is left out: the film lasts as long as it should. Whether the last one has the time is known at the end, so frames are
-//!   written late.
-//! - A pixel is opaque or clear. Pixels that are half opaque or more keep their colour. Where a pixel becomes clear, the frame before
-//!   is disposed of: its rectangle is cleared, and holds all that is opaque.
+//! - Every frame contains only the changes since the previous one, with its own palette.
+//! - GIF counts time in hundredths of a second, and browsers show a frame for at least two of them. Frames
+//!   shown for less are left out, so that the film keeps its length. Whether the last frame is long enough is
+//!   known only at the end, so frames are written late.
+//! - A pixel is opaque or transparent. Pixels with an alpha of one half or more become opaque. If a pixel
+//!   becomes transparent, the previous frame is disposed of: its rectangle is cleared, and must contain all
+//!   opaque pixels.
 
 use std::collections::VecDeque;
 use std::io::Write;
@@ -17,44 +18,44 @@ use super::palette::Palette;
 use crate::error::Error;
 use crate::export::Pixels;
 
-/// Units of time a second.
+/// Time units per second.
 const PER_SECOND: f64 = 100.0;
 
-/// Shorter than two hundredths of a second browsers show a frame for a tenth.
+/// Shortest frame in hundredths of a second. Browsers show shorter frames for a tenth of a second.
 const SHORTEST: u64 = 2;
 
-/// Most pixels a side.
+/// Most pixels per side.
 const LONGEST_SIDE: u32 = u16::MAX as u32;
 
-/// Least alpha of an opaque pixel.
+/// Least alpha of a pixel that becomes opaque.
 const OPAQUE: u8 = 128;
 
-/// Writes an animated GIF.
+/// Writer of an animated GIF.
 pub struct GifFilm<W: Write> {
-    /// Until the first frame tells the size.
+    /// Writer, until the first frame determines the size.
     out: Option<W>,
     encoder: Option<Encoder<W>>,
     fps: f64,
     /// Ticks of all frames so far.
     ticks: u64,
-    /// Frames that are not written yet, each with its beginning in hundredths of a second: two at most.
+    /// Frames not yet written, at most two, each with its start in hundredths of a second.
     waiting: VecDeque<(Pixels, u64)>,
-    /// The canvas of the player when the next frame is drawn.
+    /// Canvas of the player when the next frame is drawn.
     canvas: Option<Pixels>,
     left_out: u64,
 }
 
 impl<W: Write> GifFilm<W> {
-    /// A film of so many ticks a second.
+    /// Creates a film with `fps` ticks per second.
     pub fn new(out: W, fps: f64) -> Self {
         let waiting = VecDeque::new();
         Self { out: Some(out), encoder: None, fps, ticks: 0, waiting, canvas: None, left_out: 0 }
     }
 
-    /// Adds a frame that is shown for so many ticks.
+    /// Adds a frame that is shown for `ticks` ticks.
     ///
     /// # Errors
-    /// If it cannot be written, if it is of another size than the first, or larger than the format allows.
+    /// If it cannot be written, has another size than the first frame, or exceeds the size limit of GIF.
     pub fn push(&mut self, pixels: &Pixels, ticks: u32) -> Result<(), Error> {
         let begin = self.now();
         self.ticks += u64::from(ticks);
@@ -74,7 +75,7 @@ impl<W: Write> GifFilm<W> {
         if self.waiting.len() > 2 { self.write_first() } else { Ok(()) }
     }
 
-    /// How many frames are left out, because they would be shown for less than two hundredths of a second.
+    /// Number of frames left out because they would be shown for less than two hundredths of a second.
     pub fn left_out(&self) -> u64 {
         self.left_out + u64::from(self.is_last_too_short())
     }
@@ -82,7 +83,7 @@ impl<W: Write> GifFilm<W> {
     /// Ends the film and returns its writer.
     ///
     /// # Errors
-    /// If the end cannot be written, or if there is no frame.
+    /// If the end cannot be written, or there is no frame.
     pub fn finish(mut self) -> Result<W, Error> {
         if self.is_last_too_short() {
             self.waiting.pop_back();
@@ -94,23 +95,24 @@ impl<W: Write> GifFilm<W> {
         encoder.into_inner().map_err(cannot_write)
     }
 
-    /// The beginning of the next frame, in hundredths of a second.
+    /// Start of the next frame in hundredths of a second.
     fn now(&self) -> u64 {
         (self.ticks as f64 / self.fps * PER_SECOND).round() as u64
     }
 
+    /// Whether the last waiting frame would be shown for too short a time.
     fn is_last_too_short(&self) -> bool {
         let end = self.now();
         self.waiting.len() > 1 && self.waiting.back().is_some_and(|(_, at)| end < at + SHORTEST)
     }
 
-    /// Writes the first frame that waits.
+    /// Writes the first waiting frame.
     fn write_first(&mut self) -> Result<(), Error> {
         let end = self.now();
         let Some((now, at)) = self.waiting.pop_front() else { return Ok(()) };
         let next = self.waiting.front();
         let delay = next.map_or(end, |(_, at)| *at).saturating_sub(at);
-        // After the last frame comes the first one, on a clear canvas.
+        // After the last frame, the first one follows on an empty canvas.
         let clears = next.map_or_else(|| is_clear_somewhere(&now), |(next, _)| becomes_clear(&now, next));
         let changed = match &self.canvas {
             None => Changed::whole(&now),
@@ -155,7 +157,7 @@ impl<W: Write> GifFilm<W> {
     }
 }
 
-/// The same with each pixel opaque, or clear and black.
+/// Makes each pixel opaque, or transparent black.
 fn opaque_or_clear(pixels: &Pixels) -> Pixels {
     let mut rgba = pixels.rgba.clone();
     for pixel in rgba.chunks_exact_mut(4) {
@@ -168,7 +170,7 @@ fn opaque_or_clear(pixels: &Pixels) -> Pixels {
     Pixels { rgba, ..*pixels }
 }
 
-/// A clear picture of the same size.
+/// A transparent picture of the same size.
 fn blank(pixels: &Pixels) -> Pixels {
     Pixels { rgba: vec![0; pixels.rgba.len()], ..*pixels }
 }
@@ -177,7 +179,7 @@ fn is_clear_somewhere(pixels: &Pixels) -> bool {
     pixels.rgba.chunks_exact(4).any(|pixel| pixel[3] == 0)
 }
 
-/// Whether some pixel is opaque, and clear in the next picture.
+/// Whether some opaque pixel is transparent in the next picture.
 fn becomes_clear(now: &Pixels, next: &Pixels) -> bool {
     now.rgba.chunks_exact(4).zip(next.rgba.chunks_exact(4)).any(|(a, b)| a[3] > 0 && b[3] == 0)
 }

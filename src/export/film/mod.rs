@@ -23,9 +23,9 @@
 //! # Ok::<(), ligne::Error>(())
 //! ```
 //!
-//! Files, in reading order: [`frame_clock`] frame times without accumulated rounding; [`frame_difference`]
-//! the changed rectangle of a frame; [`gif_film`] with [`palette`]; [`apng_film`]; [`webp_film`];
-//! [`svg_film`] with [`frame_tokens`] (lines of text as numbers) and [`path_runs`] (paths that always follow
+//! Files, in reading order: `frame_clock` frame times without accumulated rounding; `frame_difference`
+//! the changed rectangle of a frame; `gif_film` with `palette`; `apng_film`; `webp_film`;
+//! `svg_film` with `frame_tokens` (lines of text as numbers) and `path_runs` (paths that always follow
 //! each other).
 
 mod apng_film;

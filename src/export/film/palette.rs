@@ -1,14 +1,14 @@
-//! [`Palette`]: the at most 255 colours that stand for those of a frame, without dithering.
+//! Palette of at most 255 colours for a frame, without dithering.
 //!
-//! Where there are no more colours than that, all are exact. Otherwise the most frequent ones are: these are the flat fills,
-//! the ink and the paper. What is left, mixtures along the rims and pictures, shares the places that are left.
+//! With at most 255 colours, all are exact. Otherwise the most frequent ones are exact: flat fills, ink and
+//! paper. The remaining colours, which come from anti-aliasing and pictures, share the remaining entries.
 
 use rustc_hash::FxHashMap;
 
-/// Most colours of a palette: one of 256 places says that a pixel does not change.
+/// Most colours of a palette. One of 256 entries marks unchanged pixels.
 const MOST: usize = 255;
 
-/// So many of them are exact at least.
+/// Fewest exact colours.
 const EXACT: usize = 128;
 
 /// Opaque colours and their numbers.
@@ -19,7 +19,7 @@ pub(crate) struct Palette {
 }
 
 impl Palette {
-    /// The palette of some pixels.
+    /// Computes the palette of some pixels.
     pub fn of(pixels: impl Iterator<Item = [u8; 3]>) -> Self {
         let mut counts: FxHashMap<[u8; 3], u64> = FxHashMap::default();
         for pixel in pixels {
@@ -34,7 +34,7 @@ impl Palette {
         Self { colours, numbers }
     }
 
-    /// The number of the colour that is nearest to this one.
+    /// Number of the nearest colour.
     pub fn number(&mut self, colour: [u8; 3]) -> u8 {
         let nearest = || {
             let apart = |a: u8, b: u8| u32::from(a.abs_diff(b)).pow(2);
@@ -50,24 +50,26 @@ impl Palette {
         number
     }
 
-    /// The number that says that a pixel does not change.
+    /// Number that marks unchanged pixels.
     pub fn unchanged(&self) -> u8 {
         self.colours.len().min(MOST) as u8
     }
 
-    /// All colours, three bytes each, and one more for what does not change.
+    /// All colours with three bytes each, and one entry for unchanged pixels.
     pub fn bytes(&self) -> Vec<u8> {
         self.colours.iter().flatten().copied().chain([0, 0, 0]).collect()
     }
 }
 
-/// At most so many means of colours, each with how often it is there: the box round them is cut at its median across its
-/// longest side, again and again. Source: Heckbert, *Color image quantization for frame buffer display*, SIGGRAPH 1982, median cut.
+/// Mean colours of at most `most` groups, by median cut: the bounding box of the colours is repeatedly cut at
+/// its median along its longest side.
+///
+/// Source: Heckbert, *Color image quantization for frame buffer display*, SIGGRAPH 1982.
 fn means(colours: Vec<([u8; 3], u64)>, most: usize) -> Vec<[u8; 3]> {
     let mut boxes = vec![colours];
     boxes.retain(|own| !own.is_empty());
     while boxes.len() < most {
-        // Which is cut next: one that is long, and of those rather one of many pixels.
+        // Cut next a long box, preferably one with many pixels.
         let worth = |own: &Vec<([u8; 3], u64)>| {
             let count = own.iter().map(|(_, count)| count).sum::<u64>() as f64;
             f64::from(longest(own).0) * count.sqrt().sqrt()
@@ -98,7 +100,7 @@ fn means(colours: Vec<([u8; 3], u64)>, most: usize) -> Vec<[u8; 3]> {
     boxes.iter().map(mean).collect()
 }
 
-/// How long the box round some colours is, and along which channel.
+/// Length of the longest side of the bounding box of some colours, and its channel.
 fn longest(colours: &[([u8; 3], u64)]) -> (u8, usize) {
     let length = |channel: usize| {
         let own = || colours.iter().map(|(colour, _)| colour[channel]);

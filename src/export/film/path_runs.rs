@@ -1,30 +1,32 @@
-//! [`runs`]: paths that always follow each other, in every frame that has one of them.
+//! Runs of paths that always follow each other in every frame that contains one of them.
 //!
-//! What stands still under what moves is then used by one reference a frame, and not by one a path.
+//! A static background behind moving marks then needs one reference per frame instead of one per path.
 
 use super::frame_tokens::{Shape, Token};
 
-/// Who stands beside a path.
+/// Neighbour of a path across all frames.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Beside {
     Unknown,
-    /// Always this one.
+    /// Always this path.
     Always(usize),
     Varies,
 }
 
 impl Beside {
+    /// Adds an observation of the neighbour.
     fn sees(&mut self, other: Option<usize>) {
         let now = other.map_or(Self::Varies, Self::Always);
         *self = if *self == Self::Unknown || *self == now { now } else { Self::Varies };
     }
 }
 
-/// Lists of shapes, each longer than one, which stand in every frame in this order or not at all; in the order of their first shapes.
+/// Lists of two or more shapes that occur in every frame in this order or not at all, sorted by their first
+/// shape.
 pub(crate) fn runs(frames: &[Vec<Token>], shapes: &[Shape]) -> Vec<Vec<usize>> {
     let mut before = vec![Beside::Unknown; shapes.len()];
     let mut after = before.clone();
-    // A shape that is twice in a frame, or not where it was, is used by itself.
+    // A shape that occurs twice in a frame or moves between frames is not part of a run.
     let joins = |token: Option<&Token>| match token {
         Some(Token::Path(shape, _)) => shapes
             .get(*shape)
@@ -75,7 +77,7 @@ mod tests {
                 .collect();
             tokens.of(lines.iter().map(String::as_str))
         };
-        // Only what of the path stands before the coordinates is in its shape, so that letters are told apart by place alone.
+        // Each letter is a path with its own class and start point.
         let frames = ["abcdx", "abcydz", "wabc", "d"].map(&mut frame);
         let shapes: Vec<Shape> = tokens.shapes;
         let letters = |run: &Vec<usize>| run.len();

@@ -1,8 +1,11 @@
-//! [`SvgFilm`]: frames as one animated SVG.
+//! Animated SVG.
 //!
-//! Every frame is a group within `defs`; one `use` shows one after another, by a discrete `animate` of its `xlink:href`. That plays in
-//! browsers, also within `img`, and what knows no animation shows the first frame. What several frames have in common is written
-//! once: paths that stay, alone or in runs, and paths that moved without turning.
+//! Every frame is a group inside `defs`. One `use` shows the frames in turn through a discrete `animate` of
+//! its `xlink:href`. This plays in browsers, also inside `img`, and programs without animation show the first
+//! frame.
+//!
+//! Content shared by several frames is written once: unchanged paths, alone or in runs, and paths that only
+//! moved by a shift.
 
 use std::fmt::Write as _;
 
@@ -12,32 +15,33 @@ use super::path_runs::runs;
 use crate::drawing::{Drawing, Unit};
 use crate::export::SvgOptions;
 
-/// Shorter paths are written again: a reference would be no shorter.
+/// Shorter paths are repeated, because a reference would not be shorter.
 const SHORTEST_SHARED: usize = 48;
 
-/// Decimals of coordinates in px and mm, unless others are asked for: what moves is looked at less closely.
+/// Default decimals of coordinates in px and mm. Motion hides small errors.
 const DECIMALS: [u8; 2] = [1, 2];
 
-/// What a group of a drawing says to drawing programs, which cannot open frames as layers.
+/// Attributes that make a group a layer in drawing programs. Frames cannot be opened as layers.
 const LAYER: &str = " inkscape:groupmode=\"layer\" inkscape:label=\"";
 
-/// Makes an animated SVG.
+/// Writer of an animated SVG.
 #[derive(Debug)]
 pub struct SvgFilm {
     options: SvgOptions,
     fps: f64,
     pace: Pace,
-    /// The root element and the title, of the first frame.
+    /// Root element and title of the first frame.
     head: String,
     tokens: Tokens,
-    /// Frames, no two of which are the same.
+    /// Distinct frames.
     frames: Vec<Vec<Token>>,
-    /// The frames in the order in which they are shown, and for how many ticks.
+    /// Frames in display order with their numbers of ticks.
     shown: Vec<(usize, u32)>,
 }
 
 impl SvgFilm {
-    /// A film of so many ticks a second. Without a precision in the options coordinates have one decimal in px, and two in mm.
+    /// Creates a film with `fps` ticks per second. Without a precision in the options, coordinates have one
+    /// decimal in px and two in mm.
     #[must_use]
     pub fn new(fps: f64, options: &SvgOptions) -> Self {
         Self {
@@ -51,7 +55,7 @@ impl SvgFilm {
         }
     }
 
-    /// Adds a frame that is shown for so many ticks.
+    /// Adds a frame that is shown for `ticks` ticks.
     pub fn push(&mut self, drawing: &Drawing, ticks: u32) {
         let precision = self.options.precision.unwrap_or(match drawing.page.unit {
             Unit::Px => DECIMALS[0],
@@ -66,7 +70,7 @@ impl SvgFilm {
         if self.head.is_empty() {
             self.head = body.lines().take_while(is_head).fold(String::new(), |head, line| head + line + "\n");
         }
-        // The same groups in all frames: an id is given where something refers to it.
+        // Groups must be equal in all frames, so only ids that are referenced are kept.
         let own = format!(" id=\"{id_prefix}");
         let lines: Vec<String> = body.lines().skip_while(is_head).map(|line| plain(line, &own)).collect();
         let frame = self.tokens.of(lines.iter().map(String::as_str));
@@ -82,7 +86,7 @@ impl SvgFilm {
         }
     }
 
-    /// The film as SVG text; empty without a frame.
+    /// The film as SVG text; empty without frames.
     #[must_use]
     pub fn finish(self) -> String {
         if self.frames.is_empty() {
@@ -113,7 +117,7 @@ impl SvgFilm {
         out
     }
 
-    /// What shows one frame after another.
+    /// Writes the animation of the frames.
     fn animate(&self, out: &mut String) {
         let all: u64 = self.shown.iter().map(|(_, ticks)| u64::from(*ticks)).sum();
         if self.shown.len() < 2 {
@@ -128,7 +132,7 @@ impl SvgFilm {
             let _ = write!(out, "{}#{prefix}frame-{number}", if place > 0 { ";" } else { "" });
         }
         out.push('"');
-        // Without times all are shown equally long.
+        // Without `keyTimes` all frames are shown equally long.
         if self.shown.iter().any(|(_, ticks)| Some(ticks) != self.shown.first().map(|(_, ticks)| ticks)) {
             out.push_str(" keyTimes=\"");
             let mut before = 0_u64;
@@ -143,7 +147,7 @@ impl SvgFilm {
     }
 }
 
-/// A line without what makes a group a layer, and without the group's id, to which nothing refers.
+/// A line without layer attributes and without the group's id, which nothing references.
 fn plain(line: &str, own_id: &str) -> String {
     let Some(at) = line.find(LAYER) else { return line.to_owned() };
     let after = line.get(at + LAYER.len()..).and_then(|rest| rest.split_once('"'));
@@ -159,24 +163,24 @@ fn short(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// What is written once, and where it is used.
+/// Shared content and how it is referenced.
 struct Shared<'a> {
     prefix: &'a str,
     runs: Vec<Vec<usize>>,
-    /// One a shape.
+    /// One entry per shape.
     roles: Vec<Role>,
 }
 
 /// How a shape is written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Role {
-    /// Where it stands.
+    /// As a path in each frame.
     Plain,
-    /// By a reference to itself.
+    /// As a reference to the shape.
     Alone,
-    /// As the begin of this run.
+    /// As a reference to the run with this number, which it starts.
     Begins(usize),
-    /// Within a run that has begun.
+    /// Inside a run that has started.
     Within,
 }
 
@@ -199,7 +203,7 @@ impl<'a> Shared<'a> {
         Self { prefix, runs, roles }
     }
 
-    /// Writes what is used by reference.
+    /// Writes the definitions of shared content.
     fn define(&self, out: &mut String, shapes: &[Shape]) {
         for (number, (shape, role)) in shapes.iter().zip(&self.roles).enumerate() {
             if *role != Role::Alone {

@@ -1,7 +1,7 @@
-//! [`WebpFilm`]: frames as an animated WebP, exact and with clear pixels.
+//! Animated WebP, exact and with transparency.
 //!
-//! Source: the container of WebP, developers.google.com/speed/webp/docs/riff_container: `VP8X`, `ANIM`, and for each frame an
-//! `ANMF` that holds a still picture without its outermost header.
+//! Source: WebP container specification, developers.google.com/speed/webp/docs/riff_container. The file has
+//! `VP8X`, `ANIM`, and for each frame an `ANMF` with a still picture without its outermost header.
 
 use image_webp::{ColorType, WebPEncoder};
 
@@ -10,40 +10,40 @@ use super::frame_difference::Changed;
 use crate::error::Error;
 use crate::export::Pixels;
 
-/// Units of time a second.
+/// Time units per second.
 const PER_SECOND: f64 = 1000.0;
 
-/// Most pixels a side.
+/// Most pixels per side.
 const LONGEST_SIDE: u32 = 16_384;
 
-/// The outermost header of a still picture: `RIFF`, its length, `WEBP`.
+/// Length of the outermost header of a still picture: `RIFF`, its length, `WEBP`.
 const HEADER: usize = 12;
 
-/// Flags of `VP8X`: it moves, and has clear pixels.
+/// Flags of `VP8X`: animation and alpha.
 const MOVES_AND_CLEAR: u8 = 0x02 | 0x10;
 
-/// Flags of `ANMF`: its pixels replace what is there, and stay.
+/// Flags of `ANMF`: pixels replace the canvas without blending, and are not disposed of.
 const REPLACES: u8 = 0x02;
 
-/// Makes an animated WebP.
+/// Writer of an animated WebP.
 pub struct WebpFilm {
-    /// All chunks behind the outermost header.
+    /// All chunks after the outermost header.
     chunks: Vec<u8>,
     pace: Pace,
     before: Option<Pixels>,
 }
 
 impl WebpFilm {
-    /// A film of so many ticks a second.
+    /// Creates a film with `fps` ticks per second.
     #[must_use]
     pub fn new(fps: f64) -> Self {
         Self { chunks: Vec::new(), pace: Pace::new(fps), before: None }
     }
 
-    /// Adds a frame that is shown for so many ticks.
+    /// Adds a frame that is shown for `ticks` ticks.
     ///
     /// # Errors
-    /// If it is of another size than the first, or larger than the format allows.
+    /// If it has another size than the first frame, or exceeds the size limit of WebP.
     pub fn push(&mut self, pixels: &Pixels, ticks: u32) -> Result<(), Error> {
         if pixels.width.max(pixels.height) > LONGEST_SIDE {
             return Err(
@@ -60,7 +60,7 @@ impl WebpFilm {
                 extended.extend(low(pixels.width - 1));
                 extended.extend(low(pixels.height - 1));
                 self.chunk(*b"VP8X", &extended);
-                // A clear background, and no end of repetitions.
+                // A transparent background and infinite repetition.
                 self.chunk(*b"ANIM", &[0; 6]);
                 Changed::whole(pixels)
             }
@@ -82,10 +82,10 @@ impl WebpFilm {
         Ok(())
     }
 
-    /// The film as bytes.
+    /// Returns the film as bytes.
     ///
     /// # Errors
-    /// If there is no frame, or if the film is longer than the format allows.
+    /// If there is no frame, or the film exceeds the length limit of WebP.
     pub fn finish(self) -> Result<Vec<u8>, Error> {
         if self.before.is_none() {
             return Err(Error::new("a film needs at least one frame"));
@@ -99,7 +99,7 @@ impl WebpFilm {
         Ok(file)
     }
 
-    /// Adds a chunk; one of odd length is followed by a byte more.
+    /// Adds a chunk, padded to an even length.
     fn chunk(&mut self, name: [u8; 4], content: &[u8]) {
         self.chunks.extend(name);
         self.chunks.extend((content.len() as u32).to_le_bytes());

@@ -1,8 +1,8 @@
-//! The canonical form of a path: rounded, rid of pieces of no length, and begun where every way of writing it down would
-//! begin.
+//! Canonical form of a path: rounded, without zero-length pieces, and with a start and direction independent
+//! of how the path was written.
 //!
-//! Coordinates are rounded where they stand on the page, and all else is decided on the rounded ones: what is read
-//! back from the text is in the form already.
+//! Coordinates are rounded on the page, and everything else is decided on the rounded ones. So text that is
+//! read back is already in canonical form.
 
 use std::cmp::Ordering;
 
@@ -12,23 +12,23 @@ use super::path_data::Writer;
 use super::path_piece::{Kind, PathPiece, Step};
 use crate::export::encoding::decimals::Decimals;
 
-/// What of a path makes no difference to how it is painted.
+/// The changes to a path that do not affect how it is painted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Form {
-    /// Nothing, but for pieces of no length: dashes begin where the path does, and pens travel along it.
+    /// None, except dropping zero-length pieces. Dashes and pen plotters depend on start and direction.
     Kept,
-    /// Where it begins, and which way it runs: a solid line.
+    /// Start and direction: a solid line.
     Stroked,
-    /// Where its closed subpaths begin. The way they run tells holes from islands.
+    /// Start of closed subpaths. Direction matters, because it distinguishes holes from islands.
     Filled,
 }
 
-/// Writes paths in canonical form; keeps its memory from one path to the next.
+/// Writes paths in canonical form, reusing its buffers from path to path.
 #[derive(Debug)]
 pub(crate) struct Canonical {
     decimals: Decimals,
     form: Form,
-    /// The subpath that is being read: where it began, and its pieces.
+    /// Start, current point and pieces of the current subpath.
     begun: Option<Step>,
     pen: Step,
     pieces: Vec<PathPiece>,
@@ -56,7 +56,7 @@ impl Canonical {
         Step { y: self.decimals.round(point.y), x: self.decimals.round(point.x) }
     }
 
-    /// Writes the `d` of a path; where what is written begins.
+    /// Writes the `d` of a path, and returns its start point.
     pub fn write(&mut self, out: &mut Vec<u8>, path: &BezPath, form: Form) -> Option<Step> {
         let mut writer = Writer::new(out, self.decimals);
         self.form = form;
@@ -81,14 +81,15 @@ impl Canonical {
         self.first
     }
 
-    /// Whether points of the last path were left out, where markers might have stood.
+    /// Whether points of the last path were dropped, where markers may have been.
     #[cfg(feature = "diff")]
     pub fn has_lost_points(&self) -> bool {
         self.lost
     }
 
+    /// Adds a piece to the current subpath unless it has no length.
     fn piece(&mut self, kind: Kind, c1: Step, c2: Step, to: Step) {
-        // What follows a close without a move begins where that subpath began.
+        // Segments after a close without a move start where the closed subpath started.
         self.begun.get_or_insert(self.pen);
         let piece = PathPiece { from: self.pen, to, kind, c1, c2 };
         if piece.has_no_length() {
@@ -99,7 +100,7 @@ impl Canonical {
         self.pen = to;
     }
 
-    /// Ends the subpath that is being read, if there is one, and writes it.
+    /// Ends the current subpath, if any, and writes it.
     fn end(&mut self, writer: &mut Writer, closed: bool) {
         let Some(start) = self.begun.take() else { return };
         if closed {
@@ -134,19 +135,19 @@ impl Canonical {
         self.first.get_or_insert(first);
         writer.subpath(first, &self.pieces, closed);
         self.pieces.clear();
-        // Wherever it begins now, what follows begins where it did.
+        // The next segment starts at the original start, not at the rotated one.
         self.pen = start;
     }
 }
 
-/// Turns a closed subpath until it is the least of all that it may be: it begins at its least point then.
+/// Rotates a closed subpath to its least rotation, which starts at its least point.
 fn rotate(pieces: &mut [PathPiece]) {
     let turns = least_rotation(pieces);
     pieces.rotate_left(turns);
 }
 
-/// By how much a cycle is to be turned to be the least one, in time that grows with its length only: two candidates
-/// are compared, and where they part, all candidates of the greater one up to there are out.
+/// Rotation that makes a cycle the least, in linear time. Two candidates are compared. Where they differ, all
+/// candidates of the greater one up to that place are discarded.
 fn least_rotation<T: Ord>(cycle: &[T]) -> usize {
     let count = cycle.len();
     let (mut a, mut b, mut same) = (0, 1, 0);
@@ -188,7 +189,7 @@ mod tests {
 
     #[test]
     fn rings_begin_at_their_least_point() {
-        // A square written from every corner, both ways, with and without its last side.
+        // A square written from every corner, in both directions, with and without its last side.
         let corners = ["1 1", "5 1", "5 4", "1 4"];
         for first in 0..4 {
             for step in [1, 3] {
@@ -202,7 +203,7 @@ mod tests {
                 }
             }
         }
-        // The order of subpaths stays, and what follows a close begins at the old start.
+        // The order of subpaths is kept, and segments after a close start at the old start.
         assert_eq!(form("M5 5 L1 1 L9 1 Z L7 7", Form::Filled), "M1 1h8l-4 4zm4 4 2 2");
     }
 
@@ -228,7 +229,7 @@ mod tests {
         assert_eq!(form("M1 1 L1.001 1 L5 1 C5 1 5 1 5 1", Form::Stroked), "M1 1h4");
         assert_eq!(form("M1 1 L1.001 1 Z", Form::Stroked), "M1 1z");
         assert_eq!(form("M1 1 L1.001 1", Form::Filled), "M1 1h0");
-        // A loop has no ends apart, and yet a length.
+        // A loop has equal ends but a nonzero length.
         assert_eq!(form("M1 1 C3 1 1 3 1 1", Form::Filled), "M1 1c2 0 0 2 0 0");
     }
 }

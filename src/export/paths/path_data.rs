@@ -1,25 +1,25 @@
-//! Path data: relative, rounded, as short as the grammar of SVG allows.
+//! Path data with relative, rounded coordinates, as short as the grammar of SVG allows.
 //!
-//! Every coordinate is rounded where it stands on the page, and differences are taken of the
-//! rounded ones: rounding does not add up along a path.
+//! Every coordinate is rounded on the page, and differences are taken of the rounded values. So rounding
+//! errors do not accumulate along a path.
 
 use super::path_piece::{Kind, PathPiece, Step};
 use crate::export::encoding::decimals::Decimals;
 
-/// Writes the `d` of one path, subpath by subpath.
+/// Writer of the `d` of one path, subpath by subpath.
 pub(crate) struct Writer<'a> {
     out: &'a mut Vec<u8>,
     decimals: Decimals,
-    /// Where the pen is.
+    /// Current point.
     pen: Step,
-    /// The first control point that the shorthand for curves would stand for: the mirror of the
-    /// last one, or the pen after a line. After a quadratic curve readers disagree.
+    /// The control point implied by the shorthand for cubic curves: the mirror image of the last one, or the
+    /// current point after a line. `None` after a quadratic curve, where readers disagree.
     mirrored: Option<Step>,
-    /// The last command written, or the one that is implied now.
+    /// Last command written, or the command implied now.
     command: u8,
-    /// Whether the last number had a point, so that one starting with a point needs no blank.
+    /// Whether the last number had a point; then a number with a leading point needs no blank.
     point_before: bool,
-    /// Whether there was a move already: the first one is absolute.
+    /// Whether a move was written; the first one is absolute.
     moved: bool,
 }
 
@@ -29,7 +29,7 @@ impl<'a> Writer<'a> {
         Self { out, decimals, pen: start, mirrored: None, command: 0, point_before: false, moved: false }
     }
 
-    /// Writes a subpath whose pieces all have a length; those of a closed one lead back to its start.
+    /// Writes a subpath of pieces with nonzero length. Pieces of a closed subpath return to its start.
     pub fn subpath(&mut self, start: Step, pieces: &[PathPiece], closed: bool) {
         self.move_to(start);
         let drawn = match pieces {
@@ -49,7 +49,7 @@ impl<'a> Writer<'a> {
             self.command = b'z';
             self.pen = start;
         } else if pieces.is_empty() {
-            // A subpath of no length is a dot, and needs a piece for its caps to be drawn.
+            // A subpath of zero length is a dot, and needs a segment for its caps to be drawn.
             self.out.extend_from_slice(b"h0");
             self.command = b'h';
             self.point_before = false;
@@ -60,7 +60,7 @@ impl<'a> Writer<'a> {
         if self.moved {
             self.out.push(b'm');
             self.pair_after_letter(to.x - self.pen.x, to.y - self.pen.y);
-            // Pairs that follow a relative move are relative lines.
+            // Pairs after a relative move are relative lines.
             self.command = b'l';
         } else {
             self.out.push(b'M');
@@ -120,11 +120,12 @@ impl<'a> Writer<'a> {
             self.out.push(letter);
             self.command = letter;
             self.point_before = false;
-            // The blank before the first number is left out.
+            // No blank before the first number.
             self.fresh();
         }
     }
 
+    /// Marks that the first number after a command follows.
     fn fresh(&mut self) {
         self.command |= FRESH;
     }
@@ -147,7 +148,7 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Marks a command whose first number comes next; letters are ASCII and leave this bit free.
+/// Flag of a command whose first number follows. Letters are ASCII and leave this bit free.
 const FRESH: u8 = 0x80;
 
 #[cfg(test)]

@@ -1,15 +1,15 @@
-//! [`PathPiece`]: a piece of a path, rounded to steps of the written precision.
+//! Segments of a path with coordinates rounded to the written precision.
 
-/// A point in steps of the written precision; of two the upper one is less, and of those as high the left one.
+/// A point in steps of the written precision. Points are ordered from top to bottom, then from left to right.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub(crate) struct Step {
-    /// Down the page.
+    /// Steps down the page.
     pub y: i64,
-    /// To the right.
+    /// Steps to the right.
     pub x: i64,
 }
 
-/// What a piece of a path is.
+/// Kind of a path segment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Kind {
     Line,
@@ -17,7 +17,7 @@ pub(crate) enum Kind {
     Cubic,
 }
 
-/// A piece of a path. The order of its fields is that in which pieces are compared.
+/// A path segment. Segments are compared by the fields in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct PathPiece {
     pub from: Step,
@@ -30,13 +30,13 @@ pub(crate) struct PathPiece {
 }
 
 impl PathPiece {
-    /// The piece run through from its end.
+    /// The segment in the opposite direction.
     pub fn reversed(&self) -> Self {
         let (c1, c2) = if self.kind == Kind::Cubic { (self.c2, self.c1) } else { (self.c1, self.c2) };
         Self { from: self.to, to: self.from, kind: self.kind, c1, c2 }
     }
 
-    /// Whether it begins and ends in one point and has no control point elsewhere.
+    /// Whether all its points are equal.
     pub fn has_no_length(&self) -> bool {
         let at = |c: Step| c == self.from;
         self.from == self.to

@@ -1,4 +1,4 @@
-//! Pages of several drawings as PDF, for screens, presses and archives.
+//! PDF files of pages with several drawings, for screens, presses and archives.
 //!
 //! ```
 //! use ligne::drawing::{Composition, Drawing, Item, Page, Unit};
@@ -37,20 +37,23 @@ use crate::export::pdf::press::ink_plates::{Plates, srgb_profile};
 use crate::export::pdf::press::pdf_options::{Inks, PdfOptions, Standard};
 use crate::export::pdf::press::standards::{id, write_info, write_intent, xmp};
 
+/// Fixed object numbers.
 const CATALOG: Ref = Ref::new(1);
 const PAGES: Ref = Ref::new(2);
 const INFO: Ref = Ref::new(3);
 const RESOURCES: Ref = Ref::new(4);
 const XMP: Ref = Ref::new(5);
 const PROFILE: Ref = Ref::new(6);
+/// First object number that is assigned in order.
 const FIRST_FREE: i32 = 7;
 
-/// Pages of several drawings as one PDF file: a layer of the document for each drawing of a page, and within it for each of its own.
-/// The same pages give the same bytes: no clock and no chance is in them.
+/// Writes pages of several drawings as one PDF file. Each drawing of a page is a layer, which contains the
+/// drawing's own layers. The same pages give the same bytes, because neither the clock nor random numbers are
+/// used.
 ///
 /// # Errors
-/// Returns an error if there is no page, one has no size or boxes that are not within each other, options contradict each other, a
-/// profile is none or of another kind, or a standard wants a profile.
+/// If there is no page, a page has no size, or its boxes are not nested. Also if options contradict each
+/// other, a profile is invalid or of the wrong kind, or a standard lacks its profile.
 pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Error> {
     let Some(first) = pages.first() else {
         return Err(Error::new("a PDF needs at least one page").remedy("give a page"));
@@ -192,7 +195,7 @@ pub fn to_pdf(pages: &[Composition], options: &PdfOptions) -> Result<Vec<u8>, Er
     Ok(pdf.finish())
 }
 
-/// What a file says it is made for: the bytes of the profile, its channels and its name; none if no standard wants to know.
+/// Output intent of the file: profile bytes, number of channels and name; `None` without a standard.
 fn intent(plates: &Plates, options: &PdfOptions) -> Result<Option<(Vec<u8>, usize, String)>, Error> {
     let Some(standard) = options.standard else { return Ok(None) };
     if let Some((bytes, channels, name)) = &plates.profile {
@@ -208,7 +211,7 @@ fn intent(plates: &Plates, options: &PdfOptions) -> Result<Option<(Vec<u8>, usiz
     }
 }
 
-/// The half-tone screen, if it is one.
+/// The halftone screen after validation.
 fn screen(options: &PdfOptions) -> Result<Option<Screen>, Error> {
     let Some(screen) = options.screen else { return Ok(None) };
     if !(screen.lpi.is_finite() && (5.0..=200.0).contains(&screen.lpi) && screen.angle_deg.is_finite()) {
@@ -230,7 +233,7 @@ fn marks(drawing: &Drawing) -> impl Iterator<Item = &Mark> {
     drawing.layers.iter().flat_map(|layer| &layer.marks)
 }
 
-/// The opacities that are used, with inks below that stay or not.
+/// Opacities used, each with its overprint flag.
 fn states(pages: &[Composition], plates: &Plates) -> BTreeSet<(u8, bool)> {
     let state = |colour: Colour| (colour.a, plates.overprints(colour));
     let of_mark = |mark: &Mark| -> Vec<(u8, bool)> {
@@ -245,7 +248,7 @@ fn states(pages: &[Composition], plates: &Plates) -> BTreeSet<(u8, bool)> {
     };
     let paper = pages.iter().map(|page| &page.page).chain(drawings(pages).map(|drawing| &drawing.page));
     let paper = paper.filter_map(|page| page.background).map(state);
-    // Pictures and marks of the printer are opaque.
+    // Pictures and printer's marks are opaque.
     drawings(pages)
         .flat_map(marks)
         .flat_map(of_mark)

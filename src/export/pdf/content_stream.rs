@@ -1,4 +1,4 @@
-//! The operators of PDF that paint marks: a content stream, written only where the ink changes.
+//! Content stream of PDF: painting operators for marks, with graphics state written only where it changes.
 //!
 //! Source: ISO 32000-1, tables 57 (graphics state), 59 (path construction), 60 (path painting).
 
@@ -13,59 +13,60 @@ use crate::export::encoding::embedded_pictures::matrix;
 use crate::export::pdf::press::halftone_screen::Screen;
 use crate::export::pdf::press::ink_plates::{Ink, Plates};
 
-/// Decimals of widths and dashes, as in SVG, and of the channels of colours.
+/// Decimals of widths and dashes, as in SVG.
 const WIDTH_DECIMALS: u8 = 3;
+/// Decimals of colour channels.
 const CHANNEL_DECIMALS: u8 = 4;
 
-/// What prints marks, and in which fonts they are set.
+/// Inks and fonts for printing marks.
 #[derive(Clone, Copy)]
 pub(crate) struct Press<'a> {
     pub plates: &'a Plates,
-    /// None where letters are outlines.
+    /// `None` if letters are written as outlines.
     pub fonts: Option<&'a Fonts>,
-    /// The number that the first picture of the drawing has in the document.
+    /// Number of the drawing's first picture in the document.
     pub first_picture: usize,
-    /// How fills become dots.
+    /// Halftone settings for fills, if any.
     pub dots: Option<Dots>,
 }
 
-/// How fills become dots.
+/// Halftone settings for the fills of one drawing.
 #[derive(Clone, Copy)]
 pub(crate) struct Dots {
     pub screen: Screen,
-    /// From units of the drawing to those of its page.
+    /// Transform from drawing units to page units.
     pub place: Affine,
-    /// Units of the page in a mm.
+    /// Page units per mm.
     pub mm: f64,
 }
 
-/// Paints marks, one after the other.
+/// Writer of marks, one after another.
 pub(crate) struct Writer<'a> {
     pub(crate) out: Vec<u8>,
     decimals: Decimals,
-    /// The ink that is set; nothing is known at the start.
+    /// The current stroke; unknown at the start.
     stroke: Option<StrokePaint>,
     pub(crate) fill: Option<Colour>,
-    /// Opacity, and whether inks below stay.
+    /// Current opacity and overprint flag.
     state: Option<(u8, bool)>,
-    /// The number of the next gradient.
+    /// Number of the next gradient.
     patterns: usize,
-    /// None for the colours of screens and outlines of letters.
+    /// `None` for RGB colours and letters as outlines.
     pub(crate) press: Option<Press<'a>>,
 }
 
 impl<'a> Writer<'a> {
-    /// Coordinates get so many decimals; gradients are numbered on from `patterns`.
+    /// Creates a writer with the given decimals of coordinates. Gradients are numbered from `patterns`.
     pub(crate) fn new(decimals: Decimals, patterns: usize, press: Option<Press<'a>>) -> Self {
         Self { out: Vec::new(), decimals, stroke: None, fill: None, state: None, patterns, press }
     }
 
-    /// Paints a mark that is no picture.
+    /// Paints a mark that is not a picture.
     pub(crate) fn plain(&mut self, mark: &Mark) {
         self.mark(mark, &Crops::default());
     }
 
-    /// Paints one mark of a drawing with those pictures.
+    /// Paints a mark of a drawing with the given pictures.
     pub(crate) fn mark(&mut self, mark: &Mark, pictures: &Crops) {
         if mark.path.elements().is_empty() {
             self.patterns += usize::from(matches!(mark.paint, Paint::Gradient(_)));
@@ -137,7 +138,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Paints how opaque the pieces of a picture are: black where they are clear, white where they hide all.
+    /// Paints the opacity of the pieces of a picture: black for transparent, white for opaque.
     pub(crate) fn opacities(&mut self, image: &ImagePaint, pictures: &Crops, first: usize) {
         for piece in &image.pieces {
             match piece.shows {
@@ -163,7 +164,7 @@ impl<'a> Writer<'a> {
         });
     }
 
-    /// Lets that be seen of what is painted which lies inside a path.
+    /// Paints with a path as the clip region.
     pub(crate) fn clipped(&mut self, elements: &[PathEl], paint: impl FnOnce(&mut Self)) {
         let ink = (self.stroke.clone(), self.fill, self.state);
         self.out.extend_from_slice(b"q\n");
@@ -174,6 +175,7 @@ impl<'a> Writer<'a> {
         (self.stroke, self.fill, self.state) = ink;
     }
 
+    /// Sets the properties of a stroke that differ from the current ones.
     fn set_stroke(&mut self, stroke: &StrokePaint) {
         let old = self.stroke.take();
         let differs =
@@ -202,7 +204,7 @@ impl<'a> Writer<'a> {
         }
         if differs(|a, b| a.dash == b.dash && a.dash_offset == b.dash_offset) {
             self.out.push(b'[');
-            // A pattern that is all zero would be an error.
+            // A dash pattern of zeros would be an error.
             if stroke.dash.iter().any(|length| fine.round(*length) > 0) {
                 stroke.dash.iter().for_each(|length| self.value(fine, *length));
             }
@@ -213,7 +215,7 @@ impl<'a> Writer<'a> {
         self.stroke = Some(stroke.clone());
     }
 
-    /// Sets the colour of filled outlines.
+    /// Sets the fill colour.
     pub(crate) fn set_fill(&mut self, colour: Colour) {
         if self.fill != Some(colour) {
             self.colour(colour, b"rg");
@@ -221,17 +223,18 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Chooses the graphics state of what has that colour: its opacity, and printed over what is below or not.
+    /// Selects the graphics state for a colour: its opacity and its overprint flag.
     pub(crate) fn set_state(&mut self, colour: Colour) {
         let overprints = self.press.is_some_and(|press| press.plates.overprints(colour));
         self.choose((colour.a, overprints));
     }
 
-    /// Chooses the graphics state of that opacity, by its [`state_name`].
+    /// Selects the graphics state of an opacity, by its [`state_name`].
     fn set_opacity(&mut self, opacity: u8) {
         self.choose((opacity, false));
     }
 
+    /// Selects a graphics state unless it is current.
     pub(crate) fn choose(&mut self, state: (u8, bool)) {
         if self.state != Some(state) {
             self.out.push(b'/');
@@ -241,7 +244,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Sets a colour: `operator` is that of RGB, `rg` or `RG`.
+    /// Sets a colour. `operator` is the RGB operator `rg` or `RG`.
     fn colour(&mut self, colour: Colour, operator: &[u8]) {
         let fills = operator == b"rg";
         let fine = Decimals::new(CHANNEL_DECIMALS);
@@ -267,7 +270,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Begins a path.
+    /// Writes the path construction operators.
     pub(crate) fn path(&mut self, elements: &[PathEl]) {
         let mut pen = Point::ZERO;
         let mut start = Point::ZERO;
@@ -275,7 +278,7 @@ impl<'a> Writer<'a> {
             match *element {
                 PathEl::MoveTo(to) => {
                     self.points(&[to], b"m");
-                    // A subpath of no length is a dot, and needs a piece for its caps to be drawn.
+                    // A subpath of zero length is a dot, and needs a segment for its caps to be drawn.
                     if !matches!(elements.get(index + 1), Some(next) if !matches!(next, PathEl::MoveTo(_))) {
                         self.points(&[to], b"l");
                     }
@@ -321,7 +324,8 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Name of the state that sets a mask; `first_picture` is the number of the drawing's first picture in the document.
+/// Name of the graphics state that sets a mask. `first_picture` is the number of the drawing's first picture
+/// in the document.
 pub(crate) fn mask_name(first_picture: usize, number: usize) -> String {
     format!("M{first_picture}x{number}")
 }
@@ -336,12 +340,12 @@ pub(crate) fn pattern_name(number: usize) -> String {
     format!("G{number}")
 }
 
-/// Name of the colour space of an ink of its own.
+/// Name of the colour space of a spot ink.
 pub(crate) fn spot_name(number: usize) -> String {
     format!("S{number}")
 }
 
-/// Name of the graphics state of an opacity, with inks below that stay or not.
+/// Name of the graphics state of an opacity and an overprint flag.
 pub(crate) fn state_name((opacity, overprints): (u8, bool)) -> String {
     format!("{}{opacity}", if overprints { 'O' } else { 'A' })
 }

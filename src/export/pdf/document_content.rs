@@ -1,4 +1,4 @@
-//! [`Document`]: the layers of pages and the stretches of their content, gathered before anything is written.
+//! Layers and content segments of all pages, collected before the file is written.
 
 use kurbo::{Affine, Rect, Shape};
 use miniz_oxide::deflate::compress_to_vec_zlib;
@@ -21,12 +21,12 @@ const FINE: u8 = 6;
 /// A layer of the document.
 pub(crate) struct Group {
     pub label: String,
-    /// The page, and the layer it is within.
+    /// Index of the page, and index of the enclosing layer.
     page: usize,
     within: Option<usize>,
 }
 
-/// A stretch of the content of a page.
+/// A segment of the content of a page.
 pub(crate) enum Segment<'a> {
     Raw(Vec<u8>),
     Marks {
@@ -40,7 +40,7 @@ pub(crate) enum Segment<'a> {
 }
 
 impl Segment<'_> {
-    /// The content, deflated.
+    /// Writes the segment as deflated content.
     pub fn write(&self, press: Press) -> Vec<u8> {
         match self {
             Self::Raw(bytes) => compress_to_vec_zlib(bytes, DEFLATE_LEVEL),
@@ -54,15 +54,15 @@ impl Segment<'_> {
     }
 }
 
-/// What is gathered of the pages.
+/// Collected content of all pages.
 pub(crate) struct Document<'a> {
     press: Press<'a>,
     screen: Option<Screen>,
     pub groups: Vec<Group>,
-    /// Of each page.
+    /// Segments of each page.
     pub segments: Vec<Vec<Segment<'a>>>,
     titles: Vec<String>,
-    /// Gradients, and from their units to those of the paper.
+    /// Gradients, each with the transform from its units to the paper.
     pub gradients: Vec<(Affine, &'a Gradient)>,
     pictures: usize,
     drawings: usize,
@@ -74,12 +74,12 @@ impl<'a> Document<'a> {
         Self { press, screen, groups, segments, titles, gradients, pictures: 0, drawings: 0 }
     }
 
-    /// Gathers what is on a page; `crops` are of all drawings of all pages.
+    /// Collects the content of a page; `crops` holds the pictures of all drawings of all pages.
     pub fn page(&mut self, page: &'a Composition, sheet: &Sheet, crops: &'a [Crops<'a>], marks: bool) {
         let decimals = Decimals::new(SvgOptions::default().decimals(page.page.unit));
         self.segments.push(Vec::new());
         self.titles.push(page.title.clone());
-        // Miters end where they do in SVG.
+        // The miter limit of SVG.
         let mut start = format!("q\n{} cm\n4 M\n", matrix(sheet.matrix(), " ")).into_bytes();
         if let Some(colour) = page.page.background {
             let dots = self.dots(Affine::IDENTITY, sheet);
@@ -95,12 +95,12 @@ impl<'a> Document<'a> {
         self.raw(b"Q\n".to_vec());
     }
 
-    /// How fills become dots in a drawing in that place.
+    /// Halftone settings for a drawing at a place of the page.
     fn dots(&self, place: Affine, sheet: &Sheet) -> Option<Dots> {
         self.screen.map(|screen| Dots { screen, place, mm: sheet.mm })
     }
 
-    /// Paints paper.
+    /// Paints a rectangle of paper.
     fn paper(&self, rect: Rect, colour: Colour, decimals: Decimals, dots: Option<Dots>) -> Vec<u8> {
         let mut writer = Writer::new(decimals, 0, Some(Press { dots, ..self.press }));
         let (path, paint) = (rect.to_path(0.0), Paint::Fill(colour));
@@ -108,18 +108,21 @@ impl<'a> Document<'a> {
         writer.out
     }
 
+    /// Adds raw content to the current page.
     fn raw(&mut self, bytes: Vec<u8>) {
         if let Some(page) = self.segments.last_mut() {
             page.push(Segment::Raw(bytes));
         }
     }
 
+    /// Adds a layer and returns its index.
     fn group(&mut self, label: &str, within: Option<usize>) -> usize {
         let page = self.segments.len().saturating_sub(1);
         self.groups.push(Group { label: label.to_owned(), page, within });
         self.groups.len() - 1
     }
 
+    /// Collects the content of one drawing of a page.
     fn item(&mut self, item: &'a Item, sheet: &Sheet, crops: &'a [Crops<'a>], unit: Unit) {
         let drawing = &item.drawing;
         let Some(crops) = crops.get(self.drawings) else { return };
@@ -131,7 +134,7 @@ impl<'a> Document<'a> {
             Writer::new(Decimals::new(SvgOptions::default().decimals(unit)), 0, Some(self.press));
         writer.out.extend_from_slice(format!("/OC /{} BDC\nq\n", group_name(group)).as_bytes());
         if let Some(clip) = &item.clip {
-            // Nothing is seen through a clip that is no path.
+            // An empty clip hides everything.
             if clip.elements().is_empty() {
                 writer.out.extend_from_slice(b"0 0 m\n");
             }
@@ -150,7 +153,7 @@ impl<'a> Document<'a> {
             writer.out.extend_from_slice(b"EMC\n");
         }
         self.raw(writer.out);
-        // Where a drawing is enlarged its coordinates get more decimals.
+        // Coordinates of enlarged drawings get more decimals.
         let larger = item.place.determinant().abs().sqrt();
         let more = [1.0, 10.0, 100.0].iter().filter(|step| larger > **step).count() as u8;
         let decimals = Decimals::new(SvgOptions::default().decimals(drawing.page.unit) + more);
@@ -174,7 +177,7 @@ impl<'a> Document<'a> {
         self.raw(b"Q\nEMC\n".to_vec());
     }
 
-    /// Lists the layers as programs show them: by page, the front ones first, those of a drawing under it.
+    /// Writes the layer list: by page, front layers first, with the layers of a drawing below it.
     pub fn write_layers(&self, catalog: &mut pdf_writer::writers::Catalog, ids: &[Ref]) {
         if ids.is_empty() {
             return;
@@ -196,6 +199,7 @@ impl<'a> Document<'a> {
         }
     }
 
+    /// Writes the layers of one page, front layers first.
     fn write_page_layers(&self, list: &mut pdf_writer::Array, page: usize, ids: &[Ref]) {
         let own =
             || self.groups.iter().zip(ids).enumerate().filter(|(_, (group, _))| group.page == page).rev();

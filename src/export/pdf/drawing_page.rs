@@ -1,7 +1,7 @@
-//! A drawing as PDF: one page of vectors, with a layer of the document for each of the drawing.
+//! A drawing as PDF: one page of vectors, with an optional-content layer for each layer of the drawing.
 //!
-//! Source: ISO 32000-1 (PDF 1.7), section 8.11 (optional content, which viewers show as layers).
-//! Coordinates stay in user units with y down, under one matrix.
+//! Source: ISO 32000-1 (PDF 1.7), section 8.11 (optional content, which viewers show as layers). Coordinates
+//! stay in user units with y down, under one matrix.
 
 use std::collections::BTreeSet;
 
@@ -17,36 +17,39 @@ use crate::drawing::{Drawing, Gradient, LayerKind, Mark, OutlinePaint, Paint, Un
 use crate::export::SvgOptions;
 use crate::export::encoding::decimals::Decimals;
 
-/// Points, of which there are 72 to the inch, in a user unit.
+/// Points (1/72 inch) per px.
 pub(crate) const POINTS_PER_PX: f64 = 0.75;
+/// Points per millimetre.
 pub(crate) const POINTS_PER_MM: f64 = 72.0 / 25.4;
 
-/// The longest side of a page that all viewers show, in points.
+/// Longest side of a page that all viewers show, in points.
 pub(crate) const LONGEST_SIDE: f64 = 14_400.0;
 
-/// Marks that one stream holds. Fixed, so that the bytes do not depend on the number of threads.
+/// Marks per stream. A fixed number, so that the bytes do not depend on the number of threads.
 pub(crate) const CHUNK: usize = 2048;
 
-/// Quick, and within a tenth of what the slowest level saves.
+/// Fast level, whose files are at most a tenth larger than those of the slowest level.
 pub(crate) const DEFLATE_LEVEL: u8 = 4;
 
+/// Fixed object numbers.
 const CATALOG: Ref = Ref::new(1);
 const PAGES: Ref = Ref::new(2);
 const PAGE: Ref = Ref::new(3);
 const INFO: Ref = Ref::new(4);
+/// First object number that is assigned in order.
 const FIRST_FREE: i32 = 5;
 
-/// A layer of the document, and its painting.
+/// A layer of the document and its marks.
 struct Group<'a> {
     label: String,
     marks: &'a [Mark],
 }
 
 impl Drawing {
-    /// The drawing as a PDF file of one page, as large as the drawing: a px is 1/96 inch. The same
-    /// drawing gives the same bytes: no date and no chance is in them.
+    /// Writes the drawing as a PDF file of one page of the same size; a px is 1/96 inch. The same drawing
+    /// gives the same bytes, because neither dates nor random numbers are written.
     ///
-    /// Pages longer than 200 inches are scaled with the unit of their user space.
+    /// Pages longer than 200 inches use a larger unit of user space.
     #[must_use]
     pub fn to_pdf(&self) -> Vec<u8> {
         let per_unit = match self.page.unit {
@@ -126,7 +129,7 @@ impl Drawing {
             pdf.ext_graphics(*id).stroking_alpha(alpha).non_stroking_alpha(alpha);
         }
         for ((gradient, id), function) in gradients.iter().zip(&pattern_ids).zip(&function_ids) {
-            // Patterns know the page as it is before any matrix of its content.
+            // The matrix of a pattern is relative to the page, not to the current matrix of the content.
             let matrix = [scale, 0.0, 0.0, -scale, 0.0, self.page.height * scale].map(|x| x as f32);
             write_gradient(&mut pdf, gradient, matrix, [*id, *function], None);
         }
@@ -152,7 +155,7 @@ impl Drawing {
         pdf.finish()
     }
 
-    /// The layers of the document, back to front, the paper first.
+    /// Layers of the document, back to front, with the paper first.
     fn groups(&self) -> Vec<Group<'_>> {
         let paper =
             self.page.background.map(|_| Group { label: LayerKind::Paper.id().to_owned(), marks: &[] });
@@ -161,7 +164,7 @@ impl Drawing {
         paper.into_iter().chain(layers).collect()
     }
 
-    /// The content of the page, deflated, in pieces that follow each other.
+    /// Content of the page as consecutive deflated pieces.
     fn streams(&self, groups: &[Group], pictures: &Crops, scale: f64) -> Vec<Vec<u8>> {
         let decimals = Decimals::new(SvgOptions::default().decimals(self.page.unit));
         let fine = Decimals::new(6);
@@ -175,7 +178,7 @@ impl Drawing {
             })
             .collect();
         let last = pieces.len().saturating_sub(1);
-        // How many gradients there are before each piece.
+        // Number of gradients before each piece.
         let graded =
             |marks: &[Mark]| marks.iter().filter(|mark| matches!(mark.paint, Paint::Gradient(_))).count();
         let before: Vec<usize> = pieces
@@ -191,7 +194,7 @@ impl Drawing {
                 if at == 0 {
                     let top = fine.text(self.page.height * scale);
                     let scale = fine.text(scale);
-                    // Miters end where they do in SVG.
+                    // The miter limit of SVG.
                     let matrix = format!("q {scale} 0 0 -{scale} 0 {top} cm 4 M\n");
                     writer.out.extend_from_slice(matrix.as_bytes());
                 }
@@ -217,10 +220,10 @@ impl Drawing {
             .collect()
     }
 
-    /// The gradients of all marks.
+    /// Gradients of all marks.
     pub(crate) fn gradients<'a>(&'a self) -> Vec<&'a Gradient> {
         let marks = self.layers.iter().flat_map(|layer| &layer.marks);
-        // Marks without a path are not painted, but their gradients count.
+        // Marks without a path are not painted, but their gradients are counted.
         let of = |mark: &'a Mark| match &mark.paint {
             Paint::Gradient(gradient) => Some(gradient),
             _ => None,
@@ -228,7 +231,7 @@ impl Drawing {
         marks.filter_map(of).collect()
     }
 
-    /// All opacities that are used.
+    /// All opacities used.
     fn opacities(&self) -> BTreeSet<u8> {
         let marks = self.layers.iter().flat_map(|layer| &layer.marks);
         let of_marks = marks.map(|mark| match &mark.paint {
@@ -241,8 +244,8 @@ impl Drawing {
     }
 }
 
-/// The root of the document: its pages, and its layers in their order from the front, as
-/// programs list them.
+/// Writes the document catalog with the pages and the layers. Layers are listed from front to back, as in
+/// drawing programs.
 fn write_catalog(pdf: &mut Pdf, groups: &[Ref]) {
     let mut catalog = pdf.catalog(CATALOG);
     catalog.pages(PAGES);

@@ -1,4 +1,4 @@
-//! [`Fonts`]: the fonts of pages, of which a PDF holds the letters that are used.
+//! Embedded fonts of a PDF, reduced to the glyphs used.
 //!
 //! Source: ISO 32000-1, sections 9.7 (composite fonts) and 9.10.3 (ToUnicode).
 
@@ -13,35 +13,36 @@ use subsetter::GlyphRemapper;
 use crate::drawing::{FontFile, TextRun};
 use crate::export::encoding::decimals::Decimals;
 
-/// Letters are set in thousandths of an em, with so many decimals.
+/// Decimals of glyph positions in thousandths of an em.
 const THOUSANDTH_DECIMALS: u8 = 3;
 
+/// A slower level than for page content.
 const DEFLATE_LEVEL: u8 = 8;
 
-/// Objects that each font takes.
+/// PDF objects per font.
 pub(crate) const OBJECTS_PER_FONT: usize = 5;
 
-/// How both the font and its letters are numbered.
+/// Character collection of fonts and glyphs.
 const ORDER: SystemInfo = SystemInfo { registry: Str(b"Adobe"), ordering: Str(b"Identity"), supplement: 0 };
 
-/// A font and those of its letters that are used.
+/// A font and its used glyphs.
 pub(crate) struct UsedFont {
     file: Arc<FontFile>,
-    /// The letters by their number: how wide each is, ems, and what it shows first.
+    /// Advance in ems and the first text shown, by glyph number.
     glyphs: BTreeMap<u16, (f64, String)>,
     numbers: GlyphRemapper,
-    /// The part of the font that is used, once it is made; fonts that cannot be cut to it are not embedded.
+    /// The subset of the font once it is made. Fonts that cannot be subset are not embedded.
     part: Vec<u8>,
 }
 
-/// The fonts of a document, in the order in which they are met.
+/// Fonts of a document in order of first use.
 #[derive(Default)]
 pub(crate) struct Fonts {
     pub list: Vec<UsedFont>,
 }
 
 impl Fonts {
-    /// Notes the letters of a run.
+    /// Records the glyphs of a text run.
     pub fn note(&mut self, run: &TextRun) {
         if !run.font.embeddable {
             return;
@@ -62,7 +63,7 @@ impl Fonts {
         }
     }
 
-    /// Cuts the fonts to what is used of them, and leaves out those for which that cannot be done.
+    /// Subsets the fonts, and drops those for which this fails.
     pub fn cut(&mut self) {
         for font in &mut self.list {
             for id in font.glyphs.keys() {
@@ -77,12 +78,12 @@ impl Fonts {
         self.list.retain(|font| !font.part.is_empty());
     }
 
-    /// The number of a font.
+    /// Number of a font.
     pub fn position(&self, file: &Arc<FontFile>) -> Option<usize> {
         self.list.iter().position(|font| Arc::ptr_eq(&font.file, file) || font.file == *file)
     }
 
-    /// Sets a run in its font, with the fill that is set.
+    /// Writes a run in its font with the current fill. Returns whether it did.
     pub fn set(&self, out: &mut Vec<u8>, run: &TextRun, decimals: Decimals) -> bool {
         let Some(number) = self.position(&run.font) else { return false };
         let Some(font) = self.list.get(number) else { return false };
@@ -93,7 +94,7 @@ impl Fonts {
         };
         out.extend_from_slice(format!("BT\n/{} 1 Tf\n", font_name(number)).as_bytes());
         let mut line: Option<f64> = None;
-        // Where the pen is, thousandths of an em, as a viewer goes on.
+        // Pen position in thousandths of an em, as a viewer computes it.
         let mut pen = 0.0;
         for glyph in run.glyphs.iter() {
             let Some(id) = font.numbers.get(glyph.id) else { continue };
@@ -128,7 +129,7 @@ impl Fonts {
         true
     }
 
-    /// Writes the fonts as objects, five of each.
+    /// Writes the fonts, five objects for each.
     pub fn write(&self, pdf: &mut Pdf, ids: &[Ref]) {
         for (number, (font, ids)) in self.list.iter().zip(ids.chunks(OBJECTS_PER_FONT)).enumerate() {
             if let [font_id, cid, descriptor, data, unicode] = *ids {
@@ -140,7 +141,7 @@ impl Fonts {
 
 impl UsedFont {
     fn write(&self, pdf: &mut Pdf, number: usize, [id, cid, descriptor, data, unicode]: [Ref; 5]) {
-        // Parts of fonts have a name of six letters before that of the font, all different.
+        // Font subsets have a unique prefix of six letters before the name of the font.
         let tag: String = (0..6).rev().map(|place| letter(number / 26_usize.pow(place))).collect();
         let name = format!("{tag}+{}", self.file.name);
         let is_cff = table(&self.part, *b"glyf").is_none();
@@ -176,7 +177,7 @@ impl UsedFont {
             .italic_angle(self.file.italic_deg as f32)
             .ascent(em(self.file.ascent))
             .descent(em(self.file.descent));
-        // Nobody knows how thick stems are, and no viewer of embedded fonts asks.
+        // The true stem width is unknown, and viewers do not use it for embedded fonts.
         about.cap_height(em(self.file.cap_height)).stem_v(95.0);
         if is_cff {
             about.font_file3(data);
@@ -217,7 +218,7 @@ fn letter(number: usize) -> char {
     char::from(b'A' + (number % 26) as u8)
 }
 
-/// How wide a letter is, as it is written.
+/// Advance of a glyph in thousandths of an em, as written.
 fn thousandths(ems: f64) -> f64 {
     (ems * 1e6).round() / 1e3
 }

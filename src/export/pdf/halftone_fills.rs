@@ -1,4 +1,4 @@
-//! Fills as dots: a content stream of PDF for a screen of its own.
+//! Fills as halftone dots in a PDF content stream.
 
 use std::collections::BTreeMap;
 
@@ -12,22 +12,23 @@ use crate::export::encoding::embedded_pictures::matrix;
 use crate::export::pdf::press::halftone_screen::{Tone, diameter, dots as screen_dots, share_of, tone};
 use crate::export::pdf::press::ink_plates::Ink;
 
-/// Decimals of the channels of colours and of widths of dots.
+/// Decimals of ink channels and of dot diameters.
 const DECIMALS: u8 = 4;
 
-/// Dots that are painted at once: programs take their time with long paths.
+/// Dots per path, because viewers are slow with long paths.
 const DOTS_OF_PATH: usize = 1000;
 
-/// Classes of marks that are drawn with a pen, filled as they may be.
+/// Classes of marks drawn with a pen, although they are filled.
 const DRAWN: [&str; 3] = ["hatch", "pattern", "grain"];
 
 impl Writer<'_> {
-    /// Paints a fill as dots, and says so; fills that are not dots stay.
+    /// Paints a fill as dots, and returns whether it did. Fills that are not halftoned are left to the
+    /// caller.
     pub(crate) fn screened(&mut self, mark: &Mark, opacity: u8) -> bool {
         let Some((press, dots)) = self.press.and_then(|press| Some((press, press.dots?))) else {
             return false;
         };
-        // Strokes, dots and grain of styles are no tones.
+        // Hatching strokes, pattern dots and grain are not tones.
         if mark.provenance.classes.iter().any(|class| DRAWN.contains(class)) {
             return false;
         }
@@ -49,7 +50,7 @@ impl Writer<'_> {
         if is_flat && flat.iter().all(|ink| tone(*ink) != Tone::Dots) && opacity == 255 {
             return false;
         }
-        // What is below goes away, as below any fill.
+        // An opaque fill removes the inks below it.
         if opacity == 255 {
             self.choose((255, false));
             self.out.extend_from_slice(b"0 0 0 0 k\n");
@@ -60,7 +61,7 @@ impl Writer<'_> {
         self.clipped(mark.path.elements(), |writer| {
             writer.choose((255, true));
             let mut before = Affine::IDENTITY;
-            // Solid plates first: viewers that show no overprint then show the dots of the others as well.
+            // Solid plates first, so that viewers without overprint also show the dots of the other plates.
             let is_solid = |ink: &f64| is_flat && tone(*ink) == Tone::Solid;
             let solids = flat.iter().enumerate().filter(|(_, ink)| is_solid(ink));
             let rest = flat.iter().enumerate().filter(|(_, ink)| !is_solid(ink));
@@ -72,7 +73,7 @@ impl Writer<'_> {
                 if let Some(one) = solid.get_mut(plate) {
                     *one = 1.0;
                 }
-                // From the lattice to units of the drawing.
+                // Transform from the lattice to drawing units.
                 let lattice = dots.place.inverse() * dots.screen.lattice(plate, dots.mm);
                 let outline = lattice.inverse() * &mark.path;
                 let share = |at: Point| match gradient {
@@ -104,7 +105,8 @@ impl Writer<'_> {
         true
     }
 
-    /// Lays dots of an ink: neighbours in a row are one line of a round pen, whose dashes are points one apart.
+    /// Paints the dots of an ink. Neighbours in a row are one line with round caps and zero-length dashes at
+    /// distance one.
     fn lay(&mut self, dots: &BTreeMap<u8, Vec<(i32, i32)>>, solid: [f64; 4]) {
         solid.into_iter().for_each(|ink| self.value(Decimals::new(DECIMALS), ink));
         self.operator(b"K");
@@ -115,7 +117,7 @@ impl Writer<'_> {
             for places in places.chunks(DOTS_OF_PATH) {
                 for run in places.chunk_by(|a, b| b.1 == a.1 && b.0 == a.0 + 1) {
                     let ([(x, y), ..], [.., (end, _)]) = (run, run) else { continue };
-                    // Half a step more, so that the last point is within.
+                    // Half a step more, so that the last dot is included.
                     let end = f64::from(*end) + 0.5;
                     self.out.extend_from_slice(format!("{x} {y} m {end} {y} l\n").as_bytes());
                 }

@@ -2,14 +2,14 @@
 //!
 //! Source: ISO 32000-1 (PDF 1.7).
 //!
-//! 1. [`document_content`] collects layers and content segments of all pages.
-//! 2. [`content_stream`] writes the painting operators of each segment, in parallel.
-//! 3. Fonts, pictures, masks and gradients become objects ([`fonts`], [`picture_crops`], [`soft_masks`],
-//!    [`paint_objects`]).
-//! 4. [`resources`] names all objects for the pages, and [`composition_pages`] writes the file.
+//! 1. `document_content` collects layers and content segments of all pages.
+//! 2. `content_stream` writes the painting operators of each segment, in parallel.
+//! 3. Fonts, pictures, masks and gradients become objects (`fonts`, `picture_crops`, `soft_masks`,
+//!    `paint_objects`).
+//! 4. `resources` names all objects for the pages, and `composition_pages` writes the file.
 //!
-//! Also: [`drawing_page`] the short way for a single drawing; [`press`] inks, halftone screens and standards;
-//! [`halftone_fills`] fills as dots; [`page_boxes`] trim, bleed and printer's marks.
+//! Also: `drawing_page` the short way for a single drawing; `press` inks, halftone screens and standards;
+//! `halftone_fills` fills as dots; `page_boxes` trim, bleed and printer's marks.
 
 #[cfg(feature = "pdf")]
 pub mod composition_pages;

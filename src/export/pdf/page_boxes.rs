@@ -1,4 +1,4 @@
-//! [`Sheet`]: where a page lies on the paper that is printed: its boxes, and the marks by which it is cut and inks are registered.
+//! A page on its sheet of paper: boxes, crop marks and registration marks.
 
 use kurbo::{Affine, BezPath, Circle, Rect, Shape};
 
@@ -7,39 +7,43 @@ use crate::drawing::{Composition, Unit};
 use crate::error::Error;
 use crate::export::encoding::decimals::Decimals;
 
-/// Crop marks begin this far from the trimmed page, or where the bleed ends, mm, and are so long and wide.
+/// Distance of crop marks from the trimmed page in mm, unless the bleed is wider.
 const CROP_GAP: f64 = 3.0;
+/// Length of crop marks in mm.
 const CROP_LENGTH: f64 = 5.0;
+/// Line width of all printer's marks in mm.
 const MARK_WIDTH: f64 = 0.1;
 
-/// The radius of the circle of registration marks, mm; its lines are twice as long.
+/// Radius of the circle of registration marks in mm. Their lines are four times as long.
 const REGISTER: f64 = 1.25;
 
-/// How much paper is left beyond marks, mm.
+/// Paper left outside the marks in mm.
 const MARGIN: f64 = 1.0;
 
-/// The name of the colour space of all inks.
+/// Name of the colour space of all inks.
 pub(crate) const ALL_INKS: &str = "All";
 
-/// A page on its paper; boxes are in units of the page, y down.
+/// A page on its sheet; boxes in page units, y down.
 pub(crate) struct Sheet {
     pub media: Rect,
     pub trim: Rect,
     pub bleed: Rect,
-    /// Whether the page is cut, or a standard wants to know.
+    /// Whether bleed and trim boxes are written.
     pub has_boxes: bool,
-    /// Points in a unit of the page.
+    /// Points per page unit.
     pub scale: f64,
     pub user_unit: f64,
-    /// Units of the page in a mm.
+    /// Page units per mm.
     pub mm: f64,
-    /// Where lines end that are drawn from the trimmed page outward.
+    /// Outer end of the crop marks, measured from the trimmed page.
     reach: f64,
 }
 
 impl Sheet {
+    /// Places a page on its sheet, with room for printer's marks if `marks`.
+    ///
     /// # Errors
-    /// Returns an error if the page has no size or its boxes are not within each other.
+    /// If the page has no size or its boxes are not nested.
     pub fn new(page: &Composition, marks: bool) -> Result<Self, Error> {
         let (width, height) = (page.page.width, page.page.height);
         if !(width.is_finite() && height.is_finite() && width > 0.0 && height > 0.0) {
@@ -71,20 +75,20 @@ impl Sheet {
         Ok(Self { media, trim, bleed, has_boxes, scale: per_unit / user_unit, user_unit, mm, reach })
     }
 
-    /// From units of the page to those of its paper, y up.
+    /// Transform from page units to paper units, y up.
     pub fn matrix(&self) -> Affine {
         let s = self.scale;
         Affine::new([s, 0.0, 0.0, -s, -self.media.x0 * s, self.media.y1 * s])
     }
 
-    /// A box on the paper.
+    /// A box in paper units.
     pub fn on_paper(&self, rect: Rect) -> pdf_writer::Rect {
         let rect = self.matrix().transform_rect_bbox(rect);
         let [x0, y0, x1, y1] = [rect.x0, rect.y0, rect.x1, rect.y1].map(|x| x as f32);
         pdf_writer::Rect::new(x0, y0, x1, y1)
     }
 
-    /// Paints the marks with all inks, in units of the page.
+    /// Content stream of the printer's marks in all inks, in page units.
     pub fn paint_marks(&self, decimals: Decimals) -> Vec<u8> {
         let mut out = format!("q\n/{ALL_INKS} CS\n1 SCN\n/A255 gs\n0 J\n").into_bytes();
         let value = |out: &mut Vec<u8>, value: f64| {
@@ -121,14 +125,14 @@ impl Sheet {
         out
     }
 
-    /// The middles of the registration marks: beside the middles of the four sides.
+    /// Centres of the registration marks, next to the middles of the four sides.
     fn registers(&self) -> [(f64, f64); 4] {
         let (middle, out) = (self.trim.center(), self.reach - 2.0 * REGISTER * self.mm);
         let Rect { x0, y0, x1, y1 } = self.trim;
         [(middle.x, y0 - out), (x1 + out, middle.y), (middle.x, y1 + out), (x0 - out, middle.y)]
     }
 
-    /// Crop marks at the corners and the lines of registration marks.
+    /// Lines of crop marks and registration marks.
     fn lines(&self) -> Vec<(f64, f64, f64, f64)> {
         let Rect { x0, y0, x1, y1 } = self.trim;
         let (near, far) = (self.reach - CROP_LENGTH * self.mm, self.reach);

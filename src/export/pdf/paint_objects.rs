@@ -1,4 +1,4 @@
-//! Gradients and pictures as objects of a PDF, in the colours of screens or the inks of a press.
+//! Gradients and pictures as PDF objects, in RGB or in press inks.
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::FunctionShadingType;
@@ -10,18 +10,18 @@ use crate::colour::srgb::Colour;
 use crate::drawing::Gradient;
 use crate::export::pdf::press::ink_plates::{Ink, Plates};
 
-/// As that of content.
+/// The same level as for page content.
 const DEFLATE_LEVEL: u8 = 4;
 
-/// Pictures are worth some time.
+/// A slower level than for page content.
 const PICTURE_DEFLATE_LEVEL: u8 = 8;
 
-/// How many channels a colour has.
+/// Number of channels of a colour.
 fn channels(press: Option<&Plates>) -> usize {
     if press.is_some_and(Plates::is_press) { 4 } else { 3 }
 }
 
-/// The channels of a colour, eight bits each.
+/// Channels of a colour with eight bits each.
 fn samples(colour: Colour, press: Option<&Plates>) -> Vec<u8> {
     match press.map(|plates| plates.process(colour)) {
         Some(Ink::Cmyk(inks)) => inks.iter().map(|ink| (ink * 255.0).round() as u8).collect(),
@@ -37,7 +37,7 @@ fn space(space: ColorSpace, press: Option<&Plates>) {
     }
 }
 
-/// A gradient: a shading along its line, with its colours sampled evenly.
+/// Writes a gradient as an axial shading with evenly sampled colours.
 pub(crate) fn write_gradient(
     pdf: &mut Pdf,
     gradient: &Gradient,
@@ -65,10 +65,10 @@ pub(crate) fn write_gradient(
     sampled.finish();
 }
 
-/// Samples of the colours of a gradient.
+/// Number of samples of a gradient.
 const SHADES: usize = 128;
 
-/// A part of a picture as an object of the document; where some of it is clear, with a mask.
+/// Writes a part of a picture as an image object, with a soft mask if it has transparent pixels.
 pub(crate) fn write_picture(pdf: &mut Pdf, crop: &Crop, [id, mask]: [Ref; 2], press: Option<&Plates>) {
     let (width, height) = (crop.width as i32, crop.height as i32);
     let deflated = |samples: Vec<u8>| compress_to_vec_zlib(&samples, PICTURE_DEFLATE_LEVEL);

@@ -1,7 +1,7 @@
-//! [`Crops`]: the pictures of a drawing as objects of a PDF: small ones whole, large ones in the parts that pieces show.
+//! Pictures of a drawing as PDF objects: small ones whole, large ones in the parts that are shown.
 //!
-//! Many viewers go through all of an object each time it is shown, so that a thousand pieces of one large picture
-//! would take them minutes.
+//! Many viewers decode a whole image object each time it is shown. A thousand pieces of one large picture
+//! would take minutes.
 
 use kurbo::{Affine, PathEl, Rect};
 use rustc_hash::FxHashMap;
@@ -11,13 +11,13 @@ use crate::colour::srgb::Colour;
 use crate::drawing::{Drawing, ImagePaint, ImagePiece, Shows};
 use crate::export::encoding::embedded_pictures::{Pictures, marks};
 
-/// Pictures of no more pixels stay whole.
+/// Largest number of pixels of a picture written as a whole.
 const SMALL: usize = 1 << 18;
 
-/// Parts are no longer than this, pixels, unless one piece shows more.
+/// Longest side of a part in pixels, unless a single piece shows more.
 const LONGEST: f64 = 320.0;
 
-/// Pixels around what a piece shows, for those that are mixed with their neighbours.
+/// Margin in pixels around a piece, for interpolation with neighbours.
 const MARGIN: f64 = 2.0;
 
 /// A part of a picture.
@@ -27,23 +27,24 @@ pub(crate) struct Crop<'a> {
     pub top: usize,
     pub width: usize,
     pub height: usize,
-    /// Whether it is part of a mask: of it only the opacity is written.
+    /// Whether the part is used in a mask; then only its opacity is written.
     pub is_mask: bool,
 }
 
-/// The parts of the pictures of a drawing.
+/// Parts of the pictures of a drawing.
 #[derive(Default)]
 pub(crate) struct Crops<'a> {
     pub list: Vec<Crop<'a>>,
-    /// The content of masks, in the order of the marks.
+    /// Contents of masks in the order of marks.
     pub masked: Vec<&'a ImagePaint>,
-    /// The number and the ink of what is shown through a mask, by where it lies in memory.
+    /// Number and ink of the mask of a picture, by the address of its paint.
     inks: FxHashMap<usize, (usize, Colour)>,
-    /// The number of the part that a piece shows, by where the piece lies in memory.
+    /// Number of the part shown by a piece, by the address of the piece.
     of_piece: FxHashMap<usize, usize>,
 }
 
 impl<'a> Crops<'a> {
+    /// Divides the pictures of a drawing into parts.
     pub fn of(drawing: &'a Drawing) -> Self {
         let pictures = Pictures::of(drawing);
         let mut shown: Vec<Vec<(usize, Rect)>> = vec![Vec::new(); pictures.list.len()];
@@ -69,7 +70,7 @@ impl<'a> Crops<'a> {
                 crops.add((picture, is_mask), whole, &pieces);
                 continue;
             }
-            // Those that are near each other in the picture follow each other; of equal ones the first stays so.
+            // Nearby parts of the picture follow each other. The sort is stable.
             pieces.sort_by_key(|(_, rect)| along_curve(rect));
             let mut rest = &pieces[..];
             while let Some(((_, first), others)) = rest.split_first() {
@@ -91,6 +92,7 @@ impl<'a> Crops<'a> {
         crops
     }
 
+    /// Adds a part of a picture with the pieces that it contains.
     fn add(&mut self, (picture, is_mask): (&'a Picture, bool), part: Rect, pieces: &[(usize, Rect)]) {
         let [left, top] = [part.x0, part.y0].map(|low| low as usize);
         let (width, height) = ((part.width() as usize).max(1), (part.height() as usize).max(1));
@@ -98,12 +100,12 @@ impl<'a> Crops<'a> {
         self.list.push(Crop { picture, left, top, width, height, is_mask });
     }
 
-    /// The number of the mask through which a picture is shown, and the ink that it lets through; `None` without a mask.
+    /// Number of the mask of a picture, and the ink it lets through; `None` without a mask.
     pub fn mask(&self, image: &ImagePaint) -> Option<(usize, Colour)> {
         self.inks.get(&std::ptr::from_ref(image).addr()).copied()
     }
 
-    /// The number of the part that a piece shows, and the part.
+    /// Number of the part that a piece shows, and the part.
     pub fn shown(&self, piece: &ImagePiece) -> Option<(usize, &Crop<'a>)> {
         let number = *self.of_piece.get(&address(piece))?;
         Some((number, self.list.get(number)?))
@@ -111,14 +113,15 @@ impl<'a> Crops<'a> {
 }
 
 impl Crop<'_> {
-    /// Some samples of each pixel, row by row.
+    /// Samples of each pixel, row by row.
     pub fn samples<T, const N: usize>(&self, of: impl Fn(crate::colour::srgb::Colour) -> [T; N]) -> Vec<T> {
         let pixels = (0..self.width * self.height)
             .map(|k| self.picture.at(self.left + k % self.width, self.top + k / self.width));
         pixels.flat_map(of).collect()
     }
 
-    /// From the part as an object, one unit wide and high and standing on its last row, to pixels of the picture.
+    /// Transform from the unit square of the image object, whose last row is at y = 0, to pixels of the
+    /// picture.
     pub fn pixels_from_object(&self) -> Affine {
         let [width, height] = [self.width, self.height].map(|count| count as f64);
         let (left, bottom) = (self.left as f64, (self.top + self.height) as f64);
@@ -126,12 +129,12 @@ impl Crop<'_> {
     }
 }
 
-/// Where a piece lies in memory.
+/// Address of a piece.
 fn address(piece: &ImagePiece) -> usize {
     std::ptr::from_ref(piece).addr()
 }
 
-/// The whole pixels that a piece shows.
+/// Bounding box of the pixels that a piece shows.
 fn needed(piece: &ImagePiece, transform: Affine, picture: &Picture) -> Rect {
     let back = transform.inverse();
     let points = piece.outline.elements().iter().filter_map(PathEl::end_point).map(|p| back * p);
@@ -150,7 +153,7 @@ fn needed(piece: &ImagePiece, transform: Affine, picture: &Picture) -> Rect {
     Rect::new(left, top, right, bottom)
 }
 
-/// The place of the middle of a part along a curve that keeps together what is near (Morton, 1966).
+/// Position of a part's centre along a Z-order curve (Morton 1966), which keeps nearby parts together.
 fn along_curve(part: &Rect) -> u64 {
     let middle = part.center();
     let spread = |x: f64| (0..16).fold(0_u64, |all, bit| all | ((x as u64 >> bit & 1) << (2 * bit)));
@@ -164,7 +167,7 @@ mod tests {
     use super::*;
     use crate::drawing::{Layer, LayerKind, Mark, Page, Paint, Provenance, Unit};
 
-    /// A drawing of a picture of so many pixels a side, in squares of ten px.
+    /// A drawing of a picture with `side` pixels per side, in squares of ten px.
     fn drawing(side: usize) -> Drawing {
         let picture =
             Arc::new(Picture { width: side, height: side, pixels: vec![Colour::WHITE; side * side] });

@@ -1,4 +1,4 @@
-//! What the content of pages names: states, inks of their own, gradients, layers, pictures and fonts.
+//! Resource dictionary of pages: graphics states, spot inks, gradients, layers, pictures and fonts.
 
 use pdf_writer::types::OverprintMode;
 use pdf_writer::writers::{ColorSpace, Resources};
@@ -10,17 +10,17 @@ use super::fonts::{OBJECTS_PER_FONT, font_name};
 use super::page_boxes::ALL_INKS;
 use crate::export::pdf::press::ink_plates::{Ink, Plates};
 
-/// The objects that are named, by their numbers.
+/// Object numbers of the named resources.
 pub(crate) struct Ids<'a> {
     pub groups: &'a [Ref],
     pub patterns: &'a [Ref],
     pub pictures: &'a [Ref],
     pub fonts: &'a [Ref],
-    /// The states that set masks, by their names.
+    /// Graphics states that set masks, with their names.
     pub masks: &'a [(&'a str, Ref)],
 }
 
-/// Writes the names, which all pages share, and the states: opacities with inks below that stay or not.
+/// Writes the resource dictionary shared by all pages, and the graphics states for opacity and overprint.
 pub(crate) fn write_resources(
     pdf: &mut Pdf,
     id: Ref,
@@ -83,7 +83,7 @@ pub(crate) fn write_resources(
     }
 }
 
-/// The colour spaces of inks: that of all of them, for the marks of the printer, and those of inks of their own.
+/// Writes the colour spaces: `All` for printer's marks, and one for each spot ink.
 fn write_spaces(resources: &mut Resources, plates: &Plates, marks: bool) {
     if marks || !plates.spots.is_empty() {
         let mut spaces = resources.color_spaces();

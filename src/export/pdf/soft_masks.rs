@@ -1,6 +1,7 @@
-//! Soft masks: how much ink the pieces of half-clear pictures let through, so that pieces that overlap are no darker there.
+//! Soft masks: opacity of pictures with half-transparent pieces, so that overlapping pieces are not painted
+//! twice.
 //!
-//! Source: ISO 32000-1, sections 11.5.3 (masks by luminosity) and 11.6.5.
+//! Source: ISO 32000-1, sections 11.5.3 (luminosity masks) and 11.6.5.
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
 use pdf_writer::types::MaskType;
@@ -12,7 +13,7 @@ use crate::drawing::{Drawing, ImagePaint};
 use crate::export::SvgOptions;
 use crate::export::encoding::decimals::Decimals;
 
-/// As for the content of pages.
+/// The same level as for page content.
 const DEFLATE_LEVEL: u8 = 4;
 
 /// One mask of a drawing.
@@ -26,7 +27,7 @@ pub(crate) struct Mask<'a> {
 }
 
 impl<'a> Mask<'a> {
-    /// The masks of a drawing, in the order of their numbers.
+    /// Masks of a drawing in the order of their numbers.
     pub fn all(drawing: &Drawing, crops: &'a Crops<'a>, first_picture: usize) -> Vec<Self> {
         let decimals = Decimals::new(SvgOptions::default().decimals(drawing.page.unit) + 1);
         let size = [drawing.page.width, drawing.page.height];
@@ -41,7 +42,7 @@ impl<'a> Mask<'a> {
         crops.masked.iter().enumerate().map(of).collect()
     }
 
-    /// Writes the state and the form that it shows; `pictures` are those of the whole document.
+    /// Writes the graphics state and its form; `pictures` are the pictures of the whole document.
     pub fn write(&self, pdf: &mut Pdf, [state, form]: [Ref; 2], pictures: &[Ref]) {
         let mut writer = Writer::new(self.decimals, 0, None);
         writer.opacities(self.image, self.crops, self.first_picture);

@@ -1,42 +1,45 @@
-//! [`Coverage`]: how much of each pixel a filled path covers, by exact areas.
+//! Coverage of pixels by a filled path, from exact areas.
 //!
-//! Each edge of the path adds, to the cells (pixels) it passes, its signed height and the signed area to its right. A sweep along
-//! each row sums both: the result is the area of the path within each pixel, times the winding number. Cells are kept only where
-//! edges pass, so that a long slanted line costs as much as it is long.
+//! 1. Each edge of the path adds its signed height, and the signed area to its right, to the cells (pixels)
+//!    that it crosses.
+//! 2. A sweep along each row sums both. The result is the area of the path inside each pixel, times the
+//!    winding number.
+//! 3. Cells are stored only where edges pass, so the cost of an edge is proportional to its length.
 //!
 //! Where parts of one path overlap inside a pixel, their areas add up, to one at most.
 //!
-//! Source: the rasterisers of LibArt (Levien) and FreeType (Turner), after "anti-aliased, scanline-based polygon filling".
+//! Source: the rasterisers of LibArt (Levien) and FreeType (Turner), after "anti-aliased, scanline-based
+//! polygon filling".
 
 use tiny_skia::{Path, PathSegment, PixmapMut, Point, PremultipliedColorU8, Transform};
 
-/// Largest distance between a curve and its chords, px. A chord is never too long by more than this, whatever the curve.
+/// Largest distance between a curve and its chords in px.
 const FLATNESS_PX: f64 = 0.01;
 
-/// Most chords of one curve.
+/// Most chords per curve.
 const MAX_CHORDS: f64 = 1000.0;
 
-/// Which winding numbers are inside.
+/// Fill rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Winding {
-    /// All but zero.
+    /// All winding numbers except zero are inside.
     NonZero,
-    /// Odd numbers.
+    /// Odd winding numbers are inside.
     EvenOdd,
 }
 
-/// The coverage that the edges of a path add to a pixel.
+/// Coverage added to one pixel by the edges of a path.
 #[derive(Debug, Clone, Copy)]
 struct Cell {
     row: u32,
     column: u32,
-    /// Signed height of the edges in the pixel.
+    /// Signed height of the edges inside the pixel.
     height: f64,
-    /// Signed area between the edges and the pixel's right side.
+    /// Signed area between the edges and the right side of the pixel.
     area: f64,
 }
 
-/// The cells of one path on a canvas.
+/// Cells of one path on a canvas.
 pub(crate) struct Coverage {
     width: f64,
     height: f64,
@@ -44,12 +47,12 @@ pub(crate) struct Coverage {
 }
 
 impl Coverage {
-    /// For a canvas of this size in pixels.
+    /// Creates an empty coverage for a canvas in pixels.
     pub fn new(width: u32, height: u32) -> Self {
         Self { width: f64::from(width), height: f64::from(height), cells: Vec::new() }
     }
 
-    /// Adds the edges of a path; open contours are closed. `to` leads from the path to pixels.
+    /// Adds the edges of a path and closes open contours. `to` transforms the path to pixels.
     pub fn add(&mut self, path: &Path, to: Transform) {
         let [sx, kx, ky, sy, tx, ty] = [to.sx, to.kx, to.ky, to.sy, to.tx, to.ty].map(f64::from);
         let place = |p: Point| {
@@ -95,7 +98,8 @@ impl Coverage {
             let [x, y] = [0, 1].map(|k| a[k] - 2.0 * b[k] + c[k]);
             (x * x + y * y).sqrt()
         };
-        // Source: Wang 1984: n chords of a cubic are off by at most 6/8 of its largest second difference over n squared.
+        // The error of n chords of a cubic is at most 6/8 of its largest second difference over n squared.
+        // Source: Wang 1984.
         let chords = (0.75 * bend(a, b, c).max(bend(b, c, d)) / FLATNESS_PX).sqrt().ceil();
         let chords = if chords.is_finite() { chords.clamp(1.0, MAX_CHORDS) } else { 1.0 };
         let mut last = a;
@@ -111,7 +115,7 @@ impl Coverage {
         self.edge(last, d);
     }
 
-    /// Adds an edge, cut to the canvas. What lies to the left of it counts as its left side.
+    /// Adds an edge clipped to the canvas. Parts left of the canvas are moved onto its left side.
     fn edge(&mut self, from: [f64; 2], to: [f64; 2]) {
         if ![from, to].iter().flatten().all(|value| value.is_finite()) {
             return;
@@ -124,7 +128,7 @@ impl Coverage {
         let slope = (bottom[0] - top[0]) / (bottom[1] - top[1]);
         let at = |y: f64| top[0] + (y - top[1]) * slope;
         let within = |x: f64| x.clamp(top[0].min(bottom[0]), top[0].max(bottom[0]));
-        // Cuts at the left and right side of the canvas, in order of y.
+        // Crossings with the left and right sides of the canvas, in order of y.
         let mut cuts = [0.0, self.width].map(|x| top[1] + (x - top[0]) / slope);
         if slope < 0.0 {
             cuts.reverse();
@@ -145,7 +149,7 @@ impl Coverage {
         }
     }
 
-    /// Adds an edge within the canvas that runs down, or the same up if `sign` is negative.
+    /// Adds an edge inside the canvas that runs down, or up if `sign` is negative.
     fn clipped(&mut self, [x0, y0]: [f64; 2], [x1, y1]: [f64; 2], sign: f64) {
         let slope = (x1 - x0) / (y1 - y0);
         let mut x = x0;
@@ -159,7 +163,7 @@ impl Coverage {
         }
     }
 
-    /// Adds an edge within a row, of a signed height.
+    /// Adds an edge inside one row with a signed height.
     fn in_row(&mut self, row: f64, [x0, x1]: [f64; 2], height: f64) {
         let (left, right) = if x0 <= x1 { (x0, x1) } else { (x1, x0) };
         let last = self.width - 1.0;
@@ -191,7 +195,7 @@ impl Coverage {
         }
     }
 
-    /// Paints what is covered over the canvas, whose size is that given before.
+    /// Paints the covered pixels. The canvas must have the size given to [`Self::new`].
     pub fn paint(mut self, ink: Ink, winding: Winding, pixmap: &mut PixmapMut) {
         self.cells.sort_by_key(|cell| (cell.row, cell.column));
         let columns = pixmap.width() as usize;
@@ -208,14 +212,14 @@ impl Coverage {
                 sum += cells.iter().map(|cell| cell.height).sum::<f64>();
                 next = column + 1;
             }
-            // What the right side of the canvas cuts off goes on to it.
+            // The area extends to the right side of the canvas, which clips it.
             ink.run(line.get_mut(next..), winding.inside(sum));
         }
     }
 }
 
 impl Winding {
-    /// The part of a pixel that is inside, by the sum of its signed areas.
+    /// Covered part of a pixel, from the sum of its signed areas.
     fn inside(self, sum: f64) -> f64 {
         match self {
             Self::NonZero => sum.abs().min(1.0),
@@ -227,28 +231,28 @@ impl Winding {
     }
 }
 
-/// A colour to paint with.
+/// A paint colour.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ink {
     rgb: [f64; 3],
     /// Opacity, 0 to 1.
     opacity: f64,
-    /// Whether pixels are covered in whole or not at all.
+    /// Whether pixels are covered completely or not at all.
     is_crisp: bool,
 }
 
 impl Ink {
-    /// Channels from 0 to 255, and an opacity from 0 to 1.
+    /// Ink with channels from 0 to 255 and an opacity from 0 to 1.
     pub fn new(rgb: [u8; 3], opacity: f64) -> Self {
         Self { rgb: rgb.map(f64::from), opacity: opacity.clamp(0.0, 1.0), is_crisp: false }
     }
 
-    /// The same, for pixels that are covered in whole or not at all.
+    /// The same ink without anti-aliasing.
     pub fn crisp(self) -> Self {
         Self { is_crisp: true, ..self }
     }
 
-    /// Paints pixels of one coverage.
+    /// Paints pixels of equal coverage.
     fn run(self, pixels: Option<&mut [PremultipliedColorU8]>, coverage: f64) {
         let Some(pixels) = pixels.filter(|pixels| !pixels.is_empty()) else { return };
         let coverage = match self.is_crisp {
@@ -257,7 +261,7 @@ impl Ink {
             false => coverage,
         };
         let alpha = coverage * self.opacity;
-        // Less than half a step of alpha is no ink.
+        // Less than half a step of alpha has no effect.
         if alpha * 510.0 < 1.0 {
             return;
         }

@@ -1,7 +1,8 @@
-//! Marks that show pictures, painted on pixels: each piece from the picture, or from a smaller copy of it where it shrinks.
+//! Rasterisation of marks that show pictures: each piece is sampled from the picture, or from a smaller copy
+//! where it is minified.
 //!
-//! Source of the copies that are smaller along one axis only: Larson and Shah, "Texture mapping with ripmaps", 1990; their pixels
-//! are means over areas of the picture.
+//! Source of the copies that are smaller along one axis only: Larson and Shah, "Texture mapping with
+//! ripmaps", 1990. Their pixels are area averages of the picture.
 
 use std::collections::hash_map::Entry;
 
@@ -17,18 +18,18 @@ use crate::colour::srgb::Colour;
 use crate::drawing::{ImagePaint, Shows};
 use crate::export::encoding::embedded_pictures::address;
 
-/// Copies get smaller in steps of this: a pixel of the one that is shown is 0.7 to 1 px of the drawing long.
+/// Ratio of sizes of consecutive copies. A pixel of the selected copy is 0.7 to 1 px of the drawing long.
 const STEP: f64 = std::f64::consts::SQRT_2;
 
-/// Most steps: the square root of two to this power is longer than any picture.
+/// Most steps: the square root of two to this power exceeds the size of any picture.
 const MAX_STEPS: u32 = 30;
 
-/// A picture may be shown this much smaller without a smaller copy: the rounding of a scale of one.
+/// Largest minification without a smaller copy: rounding of a scale of one.
 const SCALE_ROUNDING: f64 = 1.0001;
 
-/// Paints the pieces of a picture inside an outline; `scale` leads from user units to pixels.
+/// Paints the pieces of a picture inside an outline; `scale` transforms user units to pixels.
 ///
-/// Where pieces overlap the last one replaces those below it, so that half-clear ones do not add up.
+/// Where pieces overlap, the last one replaces those below, so that half-transparent ones do not add up.
 pub(crate) fn paint(
     pixmap: &mut Pixmap,
     outline: &BezPath,
@@ -69,7 +70,7 @@ pub(crate) fn paint(
     pixmap.draw_pixmap(bounds.x(), bounds.y(), layer.as_ref(), &paint, Transform::identity(), None);
 }
 
-/// The pixels that a path may cover.
+/// Bounding box of a path in pixels, clipped to the canvas.
 fn pixels_of(path: &Path, scale: Transform, pixmap: &Pixmap) -> Option<IntRect> {
     let bounds = path.bounds().transform(scale)?;
     let whole = IntRect::from_xywh(0, 0, pixmap.width(), pixmap.height())?;
@@ -83,13 +84,13 @@ fn page(scale: Transform) -> Affine {
     Affine::new([scale.sx, scale.ky, scale.kx, scale.sy, scale.tx, scale.ty].map(f64::from))
 }
 
-/// The copies of pictures that were painted before, by where the pictures lie in memory.
+/// Copies of pictures painted so far, by the address of the picture.
 pub(crate) type KnownCopies = FxHashMap<usize, Copies>;
 
-/// A picture, and copies of it that are smaller along one axis or both.
+/// A picture with copies that are smaller along one or both axes.
 pub(crate) struct Copies {
     whole: Option<Pixmap>,
-    /// By steps along and across.
+    /// Copies by number of steps along each axis.
     smaller: FxHashMap<[u32; 2], Pixmap>,
 }
 
@@ -104,10 +105,11 @@ impl Copies {
         Self { whole, smaller: FxHashMap::default() }
     }
 
-    /// The copy for a picture that `to_pixels` brings to pixels of the drawing, and what makes it as large as the whole.
+    /// The copy for a picture transformed to pixels by `to_pixels`, and the scale from the copy to the whole
+    /// picture.
     fn for_pixels(&mut self, to_pixels: Affine) -> Option<(&Pixmap, Affine)> {
         let whole = self.whole.as_ref()?;
-        // How far across the picture one pixel of the drawing reaches, along each axis of the picture.
+        // Length in picture pixels of one drawing pixel, along each axis of the picture.
         let [a, b, c, d, ..] = to_pixels.inverse().as_coeffs();
         let reaches = [(a * a + c * c).sqrt(), (b * b + d * d).sqrt()];
         let sides = [whole.width(), whole.height()];
@@ -138,7 +140,7 @@ impl Copies {
     }
 }
 
-/// A smaller copy, whose pixels are means over areas of the whole: first along rows, then along columns.
+/// A smaller copy by area averages: first along rows, then along columns.
 fn averaged(whole: &Pixmap, [width, height]: [u32; 2]) -> Option<Pixmap> {
     let channels = |pixel: &PremultipliedColorU8| {
         [pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()].map(f32::from)
@@ -171,7 +173,7 @@ fn averaged(whole: &Pixmap, [width, height]: [u32; 2]) -> Option<Pixmap> {
     Some(copy)
 }
 
-/// Which of `from` equal places lie in each of `to` longer ones, and what share each has.
+/// For each of `to` longer intervals, the overlapping ones of `from` equal intervals with their weights.
 fn shares(from: u32, to: u32) -> Vec<Vec<(usize, f32)>> {
     let long = f64::from(from) / f64::from(to);
     let of = |k: u32| {
@@ -186,7 +188,7 @@ fn shares(from: u32, to: u32) -> Vec<Vec<(usize, f32)>> {
     (0..to).map(of).collect()
 }
 
-/// A path as the rasteriser has it; none if there is nothing of it.
+/// A path as a type of the rasteriser; `None` if it is empty.
 pub(crate) fn path(outline: &BezPath) -> Option<Path> {
     let mut path = PathBuilder::new();
     for element in outline.elements() {

@@ -1,4 +1,4 @@
-//! A page of several drawings as PNG: what its SVG text shows, with pictures from their pixels.
+//! A page of several drawings as PNG, from its SVG text and the pixels of its pictures.
 
 use kurbo::Affine;
 use tiny_skia::{FillRule, Mask, Pixmap, PixmapPaint, Transform};
@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::export::svg::svg_options::SvgOptions;
 
 impl Composition {
-    /// The page as a PNG file; transparent where it has no background.
+    /// Writes the page as a PNG file, transparent where it has no background.
     ///
     /// # Errors
     /// As [`crate::drawing::Drawing::to_png`].
@@ -24,7 +24,7 @@ impl Composition {
         let mut background = self.page.background;
         for items in self.items.chunk_by(|a, b| !a.drawing.shows_pictures() && !b.drawing.shows_pictures()) {
             let part = match items {
-                // Pictures are painted from their pixels, which SVG text does not reach.
+                // Pictures are painted from their pixels, not from the SVG text.
                 [item] if item.drawing.shows_pictures() => {
                     let paper = part(&[], background.take());
                     rasterise(paper.to_svg(&SvgOptions::default()), &self.page, &mut pixmap, to)?;
@@ -44,7 +44,7 @@ impl Composition {
     }
 }
 
-/// Paints one drawing within its frame.
+/// Paints one drawing inside its frame.
 fn paint(item: &Item, pixmap: &mut Pixmap, to: Affine) -> Result<(), Error> {
     let (width, height) = (pixmap.width(), pixmap.height());
     let (Some(mut own), Some(mut frame)) = (Pixmap::new(width, height), Mask::new(width, height)) else {

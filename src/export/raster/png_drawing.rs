@@ -1,4 +1,4 @@
-//! A drawing as PNG, rasterised from the same SVG text.
+//! A drawing as PNG, rasterised from its SVG text.
 
 use kurbo::Affine;
 use tiny_skia::{Pixmap, Transform};
@@ -9,38 +9,39 @@ use crate::drawing::{Drawing, Layer, Mark, Page, Paint, Unit};
 use crate::error::Error;
 use crate::export::SvgOptions;
 
-/// Dots an inch of a drawing in millimetres, unless others are asked for.
+/// Default resolution of drawings in millimetres, in dots per inch.
 const PRINT_DPI: f64 = 300.0;
-/// CSS pixels an inch.
+/// CSS pixels per inch.
 const CSS_DPI: f64 = 96.0;
 const MM_PER_INCH: f64 = 25.4;
-/// More pixels than this are refused: a gigabyte of memory.
+/// Most pixels of a picture, which take a gigabyte of memory.
 const MOST_PIXELS: f64 = 268_435_456.0;
+/// Most pixels per side.
 const LONGEST_SIDE: f64 = 65_535.0;
 
-/// How many pixels there are.
+/// Resolution of a raster.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub enum Resolution {
-    /// One to a px of the drawing, or 300 an inch of a drawing in millimetres.
+    /// One pixel per px of the drawing, or 300 per inch for drawings in millimetres.
     #[default]
     Natural,
-    /// So many an inch; a px of the drawing is 1/96 inch.
+    /// Pixels per inch; a px of the drawing is 1/96 inch.
     Dpi(f64),
-    /// So many across; the height follows.
+    /// Width in pixels; the height keeps the aspect ratio.
     Width(u32),
 }
 
-/// How PNG is written.
+/// Options of PNG.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct PngOptions {
-    /// How many pixels there are. Default: natural.
+    /// Resolution. Default: natural.
     pub resolution: Resolution,
 }
 
 impl PngOptions {
-    /// With so many pixels.
+    /// Options with a given resolution.
     #[must_use]
     pub const fn of_resolution(resolution: Resolution) -> Self {
         Self { resolution }
@@ -50,18 +51,18 @@ impl PngOptions {
 /// A drawing as pixels, row by row from the top.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pixels {
-    /// Pixels in a row.
+    /// Pixels per row.
     pub width: u32,
-    /// Rows.
+    /// Number of rows.
     pub height: u32,
-    /// Four bytes a pixel: red, green, blue (not multiplied by alpha) and alpha.
+    /// Four bytes per pixel: red, green, blue (not premultiplied) and alpha.
     pub rgba: Vec<u8>,
-    /// Pixels an inch.
+    /// Pixels per inch.
     pub dpi: f64,
 }
 
 impl Pixels {
-    /// The same on white paper, all opaque.
+    /// The same pixels on white paper, all opaque.
     #[must_use]
     pub fn on_white(&self) -> Self {
         let mut rgba = self.rgba.clone();
@@ -79,16 +80,16 @@ impl Pixels {
 }
 
 impl Drawing {
-    /// The drawing as a PNG file; transparent where the page has no background.
+    /// Writes the drawing as a PNG file, transparent where the page has no background.
     ///
     /// # Errors
-    /// If the picture would have no pixels, or more than memory should hold, or if the drawing
-    /// has more paths than the rasteriser takes.
+    /// If the picture has no pixels or exceeds the size limits, or if the drawing has more paths than the
+    /// rasteriser accepts.
     pub fn to_png(&self, options: &PngOptions) -> Result<Vec<u8>, Error> {
         self.to_pixels(options)?.encode(&self.page)
     }
 
-    /// The drawing as pixels, as they are in its PNG file.
+    /// Rasterises the drawing to the pixels of its PNG file.
     ///
     /// # Errors
     /// As [`Drawing::to_png`].
@@ -100,13 +101,13 @@ impl Drawing {
         Ok(Pixels { width, height, rgba: pixmap.take_demultiplied(), dpi })
     }
 
-    /// Whether it shows pictures.
+    /// Whether any mark shows a picture.
     pub(crate) fn shows_pictures(&self) -> bool {
         self.layers.iter().any(|layer| layer.marks.iter().any(|mark| matches!(mark.paint, Paint::Image(_))))
     }
 
-    /// Paints the drawing: what shows pictures from their pixels, and all between them as its SVG text says. `to` leads from its
-    /// units to pixels.
+    /// Paints the drawing: marks that show pictures from their pixels, and all marks between them from their
+    /// SVG text. `to` transforms user units to pixels.
     pub(crate) fn paint(&self, pixmap: &mut Pixmap, to: Affine) -> Result<(), Error> {
         let shows = |mark: &Mark| matches!(mark.paint, Paint::Image(_));
         if !self.shows_pictures() {
@@ -133,13 +134,13 @@ impl Drawing {
         next.rasterise(pixmap, to)
     }
 
-    /// Paints a drawing without pictures over what is there.
+    /// Paints a drawing without pictures over the existing pixels.
     fn rasterise(&self, pixmap: &mut Pixmap, to: Affine) -> Result<(), Error> {
         rasterise(self.to_svg(&SvgOptions::default()), &self.page, pixmap, to)
     }
 }
 
-/// Paints the SVG text of a page over what is there; `to` leads from the units of the page to pixels.
+/// Paints the SVG text of a page over the existing pixels; `to` transforms page units to pixels.
 pub(crate) fn rasterise(svg: String, page: &Page, pixmap: &mut Pixmap, to: Affine) -> Result<(), Error> {
     let tree = usvg::Tree::from_str(&svg, &usvg::Options::default()).map_err(|error| {
         Error::new(format!("the drawing cannot be rasterised: {error}")).remedy("write SVG instead")
@@ -152,13 +153,13 @@ pub(crate) fn rasterise(svg: String, page: &Page, pixmap: &mut Pixmap, to: Affin
     Ok(())
 }
 
-/// A transform in the words of the rasteriser.
+/// A transform as a type of the rasteriser.
 pub(crate) fn transform(affine: Affine) -> Transform {
     let [a, b, c, d, x, y] = affine.as_coeffs().map(|value| value as f32);
     Transform::from_row(a, b, c, d, x, y)
 }
 
-/// Empty pixels for a page, and how many there are to an inch.
+/// Empty pixels for a page, and pixels per inch.
 pub(crate) fn canvas(page: &Page, options: &PngOptions) -> Result<(Pixmap, f64), Error> {
     let (width, height, dpi) = page.pixels(options)?;
     let pixmap = Pixmap::new(width, height)
@@ -167,7 +168,7 @@ pub(crate) fn canvas(page: &Page, options: &PngOptions) -> Result<(Pixmap, f64),
 }
 
 impl Page {
-    /// From units of the page to pixels that it fills.
+    /// Transform from page units to the pixels that the page fills.
     pub(crate) fn fill(&self, pixmap: &Pixmap) -> Affine {
         Affine::scale_non_uniform(
             f64::from(pixmap.width()) / self.width,
@@ -175,7 +176,7 @@ impl Page {
         )
     }
 
-    /// Width and height in pixels, and pixels an inch.
+    /// Width and height in pixels, and pixels per inch.
     fn pixels(&self, options: &PngOptions) -> Result<(u32, u32, f64), Error> {
         let (per_inch, natural) = match self.unit {
             Unit::Px => (CSS_DPI, CSS_DPI),
@@ -200,7 +201,7 @@ impl Page {
 }
 
 impl Pixels {
-    /// The file; without an alpha channel if the paper is opaque.
+    /// Encodes the file, without an alpha channel if the paper is opaque.
     pub(crate) fn encode(self, page: &Page) -> Result<Vec<u8>, Error> {
         let opaque = page.background.is_some_and(|colour| colour.a == 255);
         encode([self.width, self.height], self.rgba, opaque, self.dpi)
@@ -208,7 +209,7 @@ impl Pixels {
     }
 }
 
-/// The file; without an alpha channel if every pixel is opaque.
+/// Encodes the file, without an alpha channel if every pixel is opaque.
 fn encode(
     [width, height]: [u32; 2],
     mut pixels: Vec<u8>,

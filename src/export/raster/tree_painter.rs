@@ -1,7 +1,8 @@
-//! The tree of an SVG text, painted on pixels: paths of one colour by exact coverage, all else by resvg.
+//! Painter for parsed SVG: paths of one colour by exact coverage, everything else by resvg.
 //!
-//! The rasteriser of resvg paints strokes of a pixel or less as hairlines: a slanted one is too thin by the cosine of its slant.
-//! It samples wider ones, and fills, four times a pixel, so that a line of 1.1 px has 1 or 1.25 px of ink.
+//! The rasteriser of resvg paints strokes up to one pixel as hairlines, so a slanted one is too thin by the
+//! cosine of its slope. It samples wider strokes and fills four times per pixel, so a line of 1.1 px gets 1
+//! or 1.25 px of ink.
 
 use tiny_skia::{
     BlendMode, IntRect, Mask, MaskType, PathSegment, Pixmap, PixmapMut, PixmapPaint, Point, Rect, Transform,
@@ -10,43 +11,43 @@ use usvg::{Group, Node, Paint, PaintOrder};
 
 use super::area_coverage::{Coverage, Ink, Winding};
 
-/// Lines of more segments are cut to the window before they are outlined.
+/// Longest line, in segments, that is outlined without clipping it to the window first.
 const FEW_SEGMENTS: usize = 64;
 
-/// Paints a tree over what is there; `to` leads from its units to pixels.
+/// Paints a tree over the existing pixels; `to` transforms its units to pixels.
 pub(crate) fn render(tree: &usvg::Tree, to: Transform, pixmap: &mut PixmapMut) {
     Painter::default().nodes(tree.root(), to, pixmap);
 }
 
-/// How a path is painted where it is not painted as the file says.
+/// Override of how a path is painted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(not(feature = "diff"), allow(dead_code))]
 pub(crate) enum Look {
-    /// As the file says.
+    /// As in the file.
     Own,
     /// Not at all.
     Absent,
-    /// In black, or with lines of 1 px, or both.
+    /// In black, with lines of 1 px, or both.
     Plain { black: bool, thin: bool },
 }
 
-/// What of a tree is painted, and how.
+/// Options for painting a tree.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Painter<'a> {
-    /// Only nodes that touch this are painted; in the units of the tree.
+    /// If set, only nodes that touch this rectangle are painted; in tree units.
     pub window: Option<Rect>,
-    /// Whether each pixel is covered in whole or not at all.
+    /// Whether each pixel is covered completely or not at all.
     pub crisp: bool,
-    /// How each path is painted.
+    /// Override for each path.
     pub look: Option<&'a dyn Fn(&usvg::Path) -> Look>,
-    /// Whether groups have no opacity, mask or filter.
+    /// Whether opacities, masks and filters of groups are ignored.
     pub plain: bool,
-    /// Whether lines are outlined more precisely than a person sees.
+    /// Whether lines are outlined with eight times the usual precision.
     pub precise: bool,
 }
 
 impl Painter<'_> {
-    /// Paints all nodes of a group.
+    /// Paints all children of a group.
     pub fn nodes(self, parent: &Group, to: Transform, pixmap: &mut PixmapMut) {
         for node in parent.children().iter().filter(|node| self.touches(node)) {
             let painted = match node {
@@ -73,7 +74,7 @@ impl Painter<'_> {
             && bounds.bottom() >= window.top()
     }
 
-    /// Paints a group; `None` if it has masks, filters or rare ways of blending.
+    /// Paints a group; `None` if it has masks, filters or unusual blend modes.
     fn group(self, group: &Group, to: Transform, pixmap: &mut PixmapMut) -> Option<()> {
         let plain = self.plain;
         if !group.should_isolate() || plain && group.clip_path().is_none() {
@@ -91,7 +92,7 @@ impl Painter<'_> {
                 ((bounds.right() + 2.0).ceil() as i32, (bounds.bottom() + 2.0).ceil() as i32);
             IntRect::from_ltrb(left, top, right, bottom)?.intersect(&canvas)
         }) else {
-            // Nothing of it lies on the canvas.
+            // The group is outside the canvas.
             return Some(());
         };
         let mut layer = Pixmap::new(bounds.width(), bounds.height())?;
@@ -106,7 +107,7 @@ impl Painter<'_> {
         Some(())
     }
 
-    /// Cuts a layer to a clip path.
+    /// Clips a layer to a clip path.
     fn clip(self, clip: &usvg::ClipPath, to: Transform, layer: &mut Pixmap) -> Option<()> {
         let mut inside = Pixmap::new(layer.width(), layer.height())?;
         self.clip_areas(clip.root(), to.pre_concat(clip.transform()), &mut inside)?;
@@ -147,7 +148,7 @@ impl Painter<'_> {
         Some(())
     }
 
-    /// Paints a path; `None` if it has other paint than colours, or no smooth edges.
+    /// Paints a path; `None` if it has paints other than colours, or no anti-aliasing.
     fn path(self, path: &usvg::Path, to: Transform, pixmap: &mut PixmapMut) -> Option<()> {
         let look = self.look.map_or(Look::Own, |look| look(path));
         if !path.is_visible() || look == Look::Absent {
@@ -178,7 +179,7 @@ impl Painter<'_> {
                     true => {
                         let t = path.abs_transform();
                         let scale = (t.sx * t.sy - t.kx * t.ky).abs().sqrt().max(f32::MIN_POSITIVE);
-                        // Round, so that a line looks the same in one piece and in several.
+                        // Round, so that a line in several pieces looks like one line.
                         let (line_cap, line_join) = (tiny_skia::LineCap::Round, tiny_skia::LineJoin::Round);
                         tiny_skia::Stroke {
                             width: 1.0 / scale,
@@ -230,11 +231,12 @@ impl Painter<'_> {
         Some(())
     }
 
-    /// The segments of a long solid line that touch the window, if any; `None` where the line is taken as a whole.
+    /// The segments of a long solid line that touch the window, if any; `None` if the whole line is to be
+    /// used.
     fn near(self, path: &usvg::Path, stroke: &tiny_skia::Stroke) -> Option<Option<tiny_skia::Path>> {
         let window = self.window.filter(|_| path.data().len() > FEW_SEGMENTS && stroke.dash.is_none())?;
         let window = window.transform(path.abs_transform().invert()?)?;
-        // As far as a corner or an end reaches.
+        // The reach of a mitred corner or a cap.
         let reach = stroke.width * stroke.miter_limit.max(2.0);
         let window = window.outset(reach, reach)?;
         let mut near = tiny_skia::PathBuilder::new();
@@ -276,7 +278,7 @@ impl Painter<'_> {
     }
 }
 
-/// Paints a node by resvg, which shifts it to its bounds.
+/// Paints a node with resvg, which moves the node's bounding box to the origin.
 fn others(node: &Node, to: Transform, pixmap: &mut PixmapMut) {
     if let Some(bounds) = node.abs_layer_bounding_box() {
         resvg::render_node(node, to.pre_translate(bounds.x(), bounds.y()), pixmap);

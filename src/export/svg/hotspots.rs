@@ -1,19 +1,20 @@
-//! The topmost layer of SVG: areas of parts that are not painted, but answer the pointer. In a drawing with a title for screen readers they
-//! are buttons in the tab order, by the names of their parts.
+//! Hot-spots: the topmost layer of an SVG, with invisible areas of parts that answer the pointer. If the
+//! drawing has a title for screen readers, they are buttons in the tab order with the names of their parts.
 
 use crate::drawing::Hotspot;
 use crate::export::encoding::decimals::Decimals;
 use crate::export::encoding::xml::escape;
 use crate::export::paths::canonical_path::{Canonical, Form};
 
-/// The id and the label of the layer.
+/// Id and label of the layer.
 pub(crate) const LAYER: &str = "hotspots";
 
-/// Writes the rest of the layer's start tag, the areas and the end tag. The class of the layer is its name without any prefix of ids.
+/// Writes the areas, and completes the start and end tags of the layer. The class of the layer is its name
+/// without an id prefix.
 pub(crate) fn write(out: &mut Vec<u8>, spots: &[Hotspot], decimals: Decimals, read_aloud: bool) {
     out.extend_from_slice(format!(" class=\"{LAYER}\" fill=\"none\" pointer-events=\"all\">\n").as_bytes());
     let mut canonical = Canonical::new(decimals);
-    // None covers another one: they stand in the order of the canonical form.
+    // Areas do not overlap, so they are sorted by part.
     let mut spots: Vec<&Hotspot> = spots.iter().collect();
     spots.sort_by(|a, b| a.part.cmp(&b.part));
     for Hotspot { part, outline } in spots {

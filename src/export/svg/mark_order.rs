@@ -1,6 +1,6 @@
-//! Marks that may be exchanged, in an order that does not depend on how they were found: by name, and where they begin.
+//! Canonical order of marks that may be exchanged: by name, then by start point and path.
 //!
-//! Neighbours that are painted alike may: one colour over itself is the same either way round.
+//! Neighbours of equal paint may be exchanged, because one colour over itself looks the same in either order.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -15,13 +15,13 @@ use crate::export::encoding::xml::read_back;
 use crate::export::paths::canonical_path::{Canonical, Form};
 use crate::export::paths::path_piece::Step;
 
-/// Marks that one task writes.
+/// Number of marks written per task.
 pub(crate) const CHUNK: usize = 2048;
 
-/// What a mark is called; the order of the fields is that in which marks are compared.
+/// Name of a mark. Marks are compared by the fields in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub(crate) struct Name<'a> {
-    /// Its classes, as they are written.
+    /// Classes as written.
     pub classes: &'a str,
     /// The part of the model.
     pub part: Option<&'a str>,
@@ -31,15 +31,15 @@ pub(crate) struct Name<'a> {
     pub tone: Option<u16>,
 }
 
-/// The path data of marks.
+/// Path data of marks.
 pub(crate) struct Paths {
-    /// Of each chunk of marks.
+    /// Text of each chunk of marks.
     texts: Vec<Vec<u8>>,
-    /// Of each mark.
+    /// Ranges of each mark.
     places: Vec<Place>,
 }
 
-/// Where the data of a mark is: first that of its axis, then its own.
+/// Ranges of a mark's data in its chunk: first its axis, then its own path.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     begin: usize,
@@ -49,7 +49,7 @@ struct Place {
 }
 
 impl Paths {
-    /// Writes the paths of marks; where these are ordered, each runs as it does.
+    /// Writes the paths of marks. If these are ordered, each path keeps its direction.
     pub fn of(marks: &[&Mark], ordered: bool, decimals: Decimals) -> Self {
         let write = |chunk: &[&Mark]| {
             let mut text = Vec::with_capacity(chunk.len() * 64);
@@ -81,7 +81,7 @@ impl Paths {
         self.text(mark, |place| place.axis_end..place.end)
     }
 
-    /// The middle of a line that is drawn as an outline.
+    /// Axis of a line drawn as an outline, as path data.
     pub fn axis(&self, mark: usize) -> &[u8] {
         self.text(mark, |place| place.begin..place.axis_end)
     }
@@ -92,7 +92,7 @@ impl Paths {
     }
 }
 
-/// What of a mark's path makes no difference.
+/// The changes to a mark's path that do not affect how it is painted.
 fn form(mark: &Mark, ordered: bool) -> Form {
     match &mark.paint {
         _ if ordered => Form::Kept,
@@ -102,14 +102,14 @@ fn form(mark: &Mark, ordered: bool) -> Form {
     }
 }
 
-/// Neighbours that are painted alike.
+/// A run of neighbours of equal paint.
 pub(crate) struct AlikeMarks {
-    /// Which of the marks, in the order that they are written in.
+    /// Positions of the marks in the written order.
     pub range: Range<usize>,
     pub attributes: Attributes,
 }
 
-/// The runs of marks that are painted alike.
+/// Runs of marks of equal paint.
 pub(crate) fn runs(marks: &[&Mark]) -> Vec<AlikeMarks> {
     let mut at = 0;
     let run = |run: &[&Mark]| {
@@ -120,25 +120,25 @@ pub(crate) fn runs(marks: &[&Mark]) -> Vec<AlikeMarks> {
     marks.chunk_by(|a, b| alike(a, b)).filter_map(run).collect()
 }
 
-/// What a mark is ordered by, but for its path.
+/// Sort key of a mark, apart from its path data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Key {
     rank: Option<usize>,
     start: Option<Step>,
 }
 
-/// The order that marks are written in: those of a run by name, start and path.
+/// Written order of marks: within a run by name, start point and path.
 pub(crate) fn sorted(marks: &[&Mark], runs: &[AlikeMarks], paths: &Paths) -> Vec<usize> {
     let ranks = ranks(marks);
     let key = |mark: usize| {
         let start = paths.places.get(mark).and_then(|place| place.start);
         (Key { rank: ranks.get(mark).copied(), start }, mark)
     };
-    // Keys lie beside the numbers of their marks, so that comparing seldom looks elsewhere.
+    // Keys are stored next to the mark numbers to avoid cache misses.
     let mut order: Vec<(Key, usize)> = (0..marks.len()).into_par_iter().map(key).collect();
     for run in runs.iter().filter(|run| run.range.len() > 1) {
         let Some(of_run) = order.get_mut(run.range.clone()) else { continue };
-        // The number of the mark decides in the end, so that the sort need not be stable.
+        // The mark number breaks ties, so the sort need not be stable.
         of_run.par_sort_unstable_by(|(key, a), (other, b)| {
             key.cmp(other).then_with(|| paths.data(*a).cmp(paths.data(*b))).then(a.cmp(b))
         });
@@ -146,7 +146,7 @@ pub(crate) fn sorted(marks: &[&Mark], runs: &[AlikeMarks], paths: &Paths) -> Vec
     order.into_iter().map(|(_, mark)| mark).collect()
 }
 
-/// The place of each mark's name among all names.
+/// Rank of each mark's name among all names.
 fn ranks(marks: &[&Mark]) -> Vec<usize> {
     let mut known: FxHashMap<Called, usize> = FxHashMap::default();
     let mut names: Vec<Called> = Vec::new();
@@ -155,7 +155,7 @@ fn ranks(marks: &[&Mark]) -> Vec<usize> {
     for mark in marks {
         let called = Called::of(mark);
         let number = match last {
-            // Most marks are called as the one before.
+            // Most marks have the same name as the previous one.
             Some((same, number)) if same == called => number,
             _ => *known.entry(called).or_insert_with(|| {
                 names.push(called);
@@ -174,7 +174,7 @@ fn ranks(marks: &[&Mark]) -> Vec<usize> {
     };
     let mut order: Vec<usize> = (0..names.len()).collect();
     order.sort_by(|a, b| name(*a).cmp(&name(*b)));
-    // Names that read alike are one.
+    // Names with equal text have equal rank.
     let mut ranks = vec![0; names.len()];
     let mut rank = 0;
     for (index, number) in order.iter().enumerate() {
@@ -189,7 +189,7 @@ fn ranks(marks: &[&Mark]) -> Vec<usize> {
     numbers.into_iter().filter_map(|number| ranks.get(number).copied()).collect()
 }
 
-/// What a mark is called, before it is written.
+/// Name of a mark before it is written as text.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Called<'a> {
     classes: &'a [&'static str],
@@ -206,7 +206,7 @@ impl<'a> Called<'a> {
         Self { classes, tone: *tone, part: part.as_deref(), material }
     }
 
-    /// Classes, part and material as they read back.
+    /// Classes, part and material as they read back from the file.
     fn texts(&self) -> [Option<Cow<'a, str>>; 3] {
         let mut classes = Vec::new();
         write_classes(&mut classes, self.classes, self.tone);
@@ -215,7 +215,7 @@ impl<'a> Called<'a> {
     }
 }
 
-/// Writes the classes of a mark, its tone last.
+/// Writes the classes of a mark, the tone last.
 pub(crate) fn write_classes(out: &mut Vec<u8>, classes: &[&str], tone: Option<u16>) {
     for (index, class) in classes.iter().enumerate() {
         if index > 0 {

@@ -1,6 +1,7 @@
-//! Which marks may touch: the cells of the page that a mark paints in, or may.
+//! Conservative test whether marks may touch, by the cells of the page that they may paint.
 //!
-//! Two marks that share no cell share no pixel, whatever the resolution: they may be painted in either order.
+//! Two marks without a common cell have no common pixel at any resolution, so they may be painted in either
+//! order.
 
 use kurbo::{Affine, BezPath, PathEl, Point, flatten};
 
@@ -9,13 +10,13 @@ use crate::drawing::{Mark, Page, Paint, Unit};
 /// Cells along the longer side of the page.
 const CELLS: f64 = 256.0;
 
-/// How far from its path the rim of a mark is blurred by smoothing, px at 96 to the inch.
+/// Reach of anti-aliasing around a mark, in px at 96 per inch.
 const BLUR_PX: f64 = 1.5;
 
-/// A mitred corner is as far from the path as so many half widths at most.
+/// Reach of a mitred corner, in half line widths.
 const MITER: f64 = 4.0;
 
-/// The page in square cells.
+/// The page divided into square cells.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Cells {
     size: f64,
@@ -25,7 +26,7 @@ pub(crate) struct Cells {
 }
 
 impl Cells {
-    /// Those of a page.
+    /// The cells of a page.
     pub fn of(page: &Page) -> Self {
         let px = match page.unit {
             Unit::Px => 1.0,
@@ -36,7 +37,7 @@ impl Cells {
         Self { size, blur: BLUR_PX * px, columns: count(page.width), rows: count(page.height) }
     }
 
-    /// The cells that a mark may paint in, sorted, each once.
+    /// Cells that a mark may paint, sorted and unique.
     pub fn under(&self, mark: &Mark) -> Vec<u32> {
         let (reach, filled) = match &mark.paint {
             Paint::Stroke(stroke) => (MITER * stroke.width / 2.0, false),
@@ -56,7 +57,7 @@ impl Cells {
         found
     }
 
-    /// The straight pieces of a path in cells; where it is filled, its open subpaths are closed.
+    /// Straight segments of a path in cell units. For fills, open subpaths are closed.
     fn sides(&self, path: &BezPath, filled: bool) -> Vec<[Point; 2]> {
         let mut sides = Vec::new();
         let (mut begun, mut pen) = (Point::ZERO, Point::ZERO);
@@ -67,7 +68,7 @@ impl Cells {
                     sides.push([pen, begun]);
                 }
                 (begun, pen) = (to, to);
-                // A subpath may be a dot.
+                // A subpath may be a single point.
                 sides.push([to, to]);
             }
             PathEl::LineTo(to) => {
@@ -86,8 +87,10 @@ impl Cells {
         sides
     }
 
+    /// Adds the cells within `margin` of a segment; all lengths in cells.
     fn add_side(&self, found: &mut Vec<u32>, from: Point, to: Point, margin: f64) {
-        // What is far off the page needs no steps: it is as long as the page, and a cell, at most.
+        // Limit the steps of segments far off the page. On the page, a segment is at most as long as the page
+        // plus a cell.
         let steps = (to - from).hypot().ceil().clamp(1.0, 4.0 * CELLS);
         // The path was flattened within a tenth of a cell.
         let margin = margin + 0.1 + 0.5 * ((to - from).hypot() / steps - 1.0).max(0.0);
@@ -103,7 +106,7 @@ impl Cells {
         }
     }
 
-    /// Cells whose middle lies inside; those on the rim are there already.
+    /// Adds the cells whose centre is inside. Cells on the border were added with the segments.
     fn add_inside(&self, found: &mut Vec<u32>, sides: &[[Point; 2]]) {
         let mut crossings: Vec<Vec<(f64, i32)>> = vec![Vec::new(); usize::try_from(self.rows).unwrap_or(0)];
         for [from, to] in sides {

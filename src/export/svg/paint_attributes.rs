@@ -1,4 +1,4 @@
-//! Painting attributes of SVG, hoisted to the groups that share them.
+//! Painting attributes of SVG, moved to the groups that share them.
 
 use rustc_hash::FxHashMap;
 
@@ -13,23 +13,24 @@ enum Value {
     Any,
     /// `none`.
     None,
-    /// A colour; its opacity is an attribute of its own.
+    /// A colour; its opacity is a separate attribute.
     Colour(Colour),
     /// 0 to 255.
     Opacity(u8),
-    /// Steps of [`WIDTH_DECIMALS`].
+    /// Width in steps of [`WIDTH_DECIMALS`].
     Width(i64),
     Cap(Cap),
     Join(Join),
 }
 
-/// Decimals of widths, finer than those of coordinates: 0.25 mm is 0.945 px.
+/// Decimals of widths. Finer than coordinates, because 0.25 mm is 0.945 px.
 pub(crate) const WIDTH_DECIMALS: u8 = 3;
 
+/// Attribute names in written order.
 const NAMES: [&str; 7] =
     ["fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-linecap", "stroke-linejoin"];
 
-/// What holds where nothing is written.
+/// Initial values of SVG.
 const INITIAL: Attributes = Attributes([
     Value::Colour(Colour::BLACK),
     Value::Opacity(255),
@@ -40,12 +41,12 @@ const INITIAL: Attributes = Attributes([
     Value::Join(Join::Miter),
 ]);
 
-/// How marks are painted, but for dashes: one value for each of [`NAMES`].
+/// Painting attributes of a mark except dashes: one value for each of [`NAMES`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Attributes([Value; 7]);
 
 impl Attributes {
-    /// The attributes a mark needs.
+    /// The attributes that a mark needs.
     pub fn of(mark: &Mark) -> Self {
         use Value::Any;
         match &mark.paint {
@@ -58,7 +59,7 @@ impl Attributes {
                 Value::Cap(stroke.cap),
                 Value::Join(stroke.join),
             ]),
-            // The gradient is the mark's own: it is written beside these.
+            // Each gradient is written separately as the mark's own fill.
             Paint::Gradient(gradient) => {
                 let opacity = gradient.stops.first().map_or(255, |(_, colour)| colour.a);
                 Self([Any, Value::Opacity(opacity), Value::None, Any, Any, Any, Any])
@@ -72,13 +73,13 @@ impl Attributes {
                 Any,
                 Any,
             ]),
-            // Its pieces of one colour are filled, opaque, and nothing else.
+            // Only its pieces of one colour use these attributes: opaque fills.
             Paint::Image(_) => Self([Any, Value::Opacity(255), Value::None, Any, Any, Any, Any]),
         }
     }
 
-    /// What is best written on a group: of each attribute the value of the most marks, the first
-    /// of equally frequent ones. Of each run of marks that are painted alike, the attributes and how many they are.
+    /// Best attributes for a group: for each attribute, the value of most marks, or the first of equally
+    /// frequent ones. `runs` holds the attributes and the number of marks of each run.
     pub fn common(runs: &[(Self, usize)]) -> Self {
         let mut common = INITIAL;
         for (index, best) in common.0.iter_mut().enumerate() {
@@ -102,19 +103,19 @@ impl Attributes {
         common
     }
 
-    /// Writes what a group must say at the top of the document; `ink` is the colour that is `currentColor`.
+    /// Writes the attributes of an outermost group; `ink` is the colour written as `currentColor`.
     pub fn write(&self, out: &mut Vec<u8>, ink: Option<Colour>) {
         let mut outer = INITIAL;
         if ink == Some(Colour::BLACK)
             && let Some(fill) = outer.0.first_mut()
         {
-            // Black, which goes without saying elsewhere, is another colour here.
+            // Black is the initial fill, but must be written if it is `currentColor`.
             *fill = Value::Any;
         }
         self.write_over(&outer, out, ink);
     }
 
-    /// Writes what differs inside a group that says `outer`.
+    /// Writes the attributes that differ from an outer group.
     pub fn write_over(&self, outer: &Self, out: &mut Vec<u8>, ink: Option<Colour>) {
         for ((name, value), outer) in NAMES.iter().zip(&self.0).zip(&outer.0) {
             if value == outer || *value == Value::Any {
@@ -149,13 +150,13 @@ impl Attributes {
         }
     }
 
-    /// Whether nothing needs to be written inside a group that says `outer`.
+    /// Whether no attribute differs from an outer group.
     pub fn fits(&self, outer: &Self) -> bool {
         self.0.iter().zip(&outer.0).all(|(value, outer)| value == outer || *value == Value::Any)
     }
 }
 
-/// Whether two marks are painted alike but for their dashes: they need the same attributes.
+/// Whether two marks need the same attributes, apart from dashes.
 #[inline]
 pub(crate) fn alike(a: &Mark, b: &Mark) -> bool {
     match (&a.paint, &b.paint) {
@@ -166,12 +167,12 @@ pub(crate) fn alike(a: &Mark, b: &Mark) -> bool {
         }
         (Paint::Stroke(_) | Paint::Gradient(_) | Paint::Image(_), _)
         | (_, Paint::Stroke(_) | Paint::Gradient(_) | Paint::Image(_)) => false,
-        // The outline of a line is filled as a region is.
+        // Outlines of lines are filled like regions.
         (a, b) => filled(a) == filled(b),
     }
 }
 
-/// The colour that a path is filled with.
+/// Fill colour of a path.
 fn filled(paint: &Paint) -> Option<Colour> {
     match paint {
         Paint::Stroke(_) | Paint::Gradient(_) | Paint::Image(_) => None,
@@ -184,7 +185,7 @@ fn opaque(colour: Colour) -> Colour {
     Colour { a: 255, ..colour }
 }
 
-/// `#rgb` where it says the same as `#rrggbb`.
+/// A colour as `#rgb` where that equals `#rrggbb`.
 pub(crate) fn hex(colour: Colour) -> String {
     let Colour { r, g, b, .. } = colour;
     if [r, g, b].iter().all(|channel| channel % 17 == 0) {

@@ -1,8 +1,8 @@
-//! A drawing as groups of parts that paints the same picture as its layers.
+//! Marks grouped by part, without changing the picture.
 //!
-//! A line of one part lies over the fill of its neighbour, and the other way round: a part is several groups where one would put
-//! something over what lies over it. Where the order of marks makes a difference (they may touch, and are not of one colour) it
-//! stays; else all of a part is in one group.
+//! A line of one part may cover the fill of its neighbour and vice versa. So a part is split into several
+//! groups where one group would reverse such an order. Two marks keep their order if they may touch and have
+//! different colours. All other marks of a part share a group.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -15,13 +15,13 @@ use super::page_cells::Cells;
 use crate::colour::srgb::Colour;
 use crate::drawing::{Drawing, Layer, Mark, OutlinePaint, Paint};
 
-/// Marks of one part that follow each other.
+/// Consecutive marks of one part.
 #[derive(Debug, Default)]
 pub(crate) struct PartGroup<'a> {
-    /// The part; none for marks that belong to none.
+    /// Name of the part; `None` for marks without a part.
     pub name: Option<Arc<str>>,
     pub marks: Vec<&'a Mark>,
-    /// Whether some are of an ordered layer.
+    /// Whether any mark belongs to an ordered layer.
     pub ordered: bool,
 }
 
@@ -32,7 +32,7 @@ struct Bundle<'a> {
     ordered: bool,
 }
 
-/// The marks of a drawing by part, back to front.
+/// Marks of a drawing grouped by part, back to front.
 pub(crate) fn part_groups(drawing: &Drawing) -> Vec<PartGroup<'_>> {
     let mut names: Vec<Option<Arc<str>>> = Vec::new();
     let bundles = bundles(drawing, &mut names);
@@ -54,7 +54,7 @@ pub(crate) fn part_groups(drawing: &Drawing) -> Vec<PartGroup<'_>> {
     groups
 }
 
-/// The marks in bundles, in their order; `names` are those of the parts, by number.
+/// Bundles of marks in painting order; `names` receives the names of the parts by number.
 fn bundles<'a>(drawing: &'a Drawing, names: &mut Vec<Option<Arc<str>>>) -> Vec<Bundle<'a>> {
     let mut numbers: FxHashMap<Option<&str>, usize> = FxHashMap::default();
     let mut bundles: Vec<Bundle> = Vec::new();
@@ -94,7 +94,7 @@ fn is_of_one_colour(layer: &Layer) -> bool {
     first.is_some() && colours.all(|other| other == first)
 }
 
-/// The one colour that a mark is painted in.
+/// Colour of a mark of a single colour.
 fn colour(mark: &Mark) -> Option<Colour> {
     match &mark.paint {
         Paint::Stroke(stroke) => Some(stroke.colour),
@@ -103,9 +103,9 @@ fn colour(mark: &Mark) -> Option<Colour> {
     }
 }
 
-/// Of each bundle those that must come after it.
+/// For each bundle, the bundles that must be painted after it.
 fn precedence(bundles: &[Bundle], cells: &Cells) -> Vec<Vec<usize>> {
-    // In each cell what is painted there, back to front.
+    // Bundles painted in each cell, back to front.
     let mut painted: Vec<(u32, usize, Option<Colour>)> = bundles
         .par_iter()
         .enumerate()
@@ -119,7 +119,7 @@ fn precedence(bundles: &[Bundle], cells: &Cells) -> Vec<Vec<usize>> {
             own
         })
         .collect();
-    // Stable: marks of a bundle keep their order.
+    // A stable sort keeps the order of marks within a bundle.
     painted.par_sort_by_key(|(cell, index, _)| (*cell, *index));
     painted.dedup();
     let mut known: FxHashSet<(usize, usize)> = FxHashSet::default();
@@ -139,12 +139,12 @@ fn precedence(bundles: &[Bundle], cells: &Cells) -> Vec<Vec<usize>> {
     after
 }
 
-/// The bundles in an order that keeps to what must come after what, each part as long as it can go on.
+/// Topological order of the bundles that continues each part as long as possible.
 fn schedule(bundles: &[Bundle], after: &[Vec<usize>]) -> Vec<usize> {
     let mut waits = vec![0_usize; bundles.len()];
     after.iter().flatten().for_each(|above| waits[*above] += 1);
     let parts = bundles.iter().map(|bundle| bundle.part + 1).max().unwrap_or(0);
-    // What is ready, by part, first come first.
+    // Bundles ready to be painted, by part, in original order.
     let mut ready: Vec<BinaryHeap<Reverse<usize>>> = vec![BinaryHeap::new(); parts];
     let mut firsts: BinaryHeap<Reverse<(usize, usize)>> = BinaryHeap::new();
     let mut order = Vec::with_capacity(bundles.len());

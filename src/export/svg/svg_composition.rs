@@ -1,4 +1,4 @@
-//! A page of several drawings as SVG: a group for each, with its layers inside.
+//! A page of several drawings as SVG: one group for each drawing, with its layers inside.
 
 use kurbo::{Affine, BezPath};
 
@@ -11,8 +11,9 @@ use crate::export::encoding::xml::{Ids, escape};
 use crate::export::paths::canonical_path::{Canonical, Form};
 
 impl Composition {
-    /// The page as SVG text: each drawing is a layer that is called as it is, within its frame and in its place, and holds the
-    /// layers that the drawing has by itself. Their ids begin with the name of the drawing. The same page gives the same bytes.
+    /// Writes the page as SVG text. Each drawing is a layer with its name, clipped to its frame and moved to
+    /// its place, and contains the drawing's own layers. Their ids start with the name of the drawing. The
+    /// same page gives the same bytes.
     ///
     /// ```
     /// use ligne::drawing::{Composition, Drawing, Item, Page, Unit};
@@ -47,7 +48,7 @@ impl Composition {
         for ((item, (id, clip)), named) in self.items.iter().zip(&ids_of).zip(&pictures) {
             ids.within("");
             if let (Some(id), Some(path)) = (clip, &item.clip) {
-                // A frame stands in the units of what it frames.
+                // The clip path is in the units of the clipped drawing.
                 let decimals = Decimals::new(options.decimals(item.drawing.page.unit));
                 write_clip(&mut out, id, &(item.place.inverse() * path.clone()), decimals);
             }
@@ -66,7 +67,7 @@ fn write_clip(out: &mut Vec<u8>, id: &str, path: &BezPath, decimals: Decimals) {
     out.extend_from_slice(b"\"/></clipPath>\n");
 }
 
-/// The start tag of a drawing's group.
+/// Writes the start tag of a drawing's group.
 fn open_item(out: &mut Vec<u8>, (id, name): (&str, &str), clip: Option<&str>, place: Affine) {
     out.extend_from_slice(b"<g id=\"");
     out.extend_from_slice(id.as_bytes());
@@ -80,7 +81,7 @@ fn open_item(out: &mut Vec<u8>, (id, name): (&str, &str), clip: Option<&str>, pl
     out.extend_from_slice(b">\n");
 }
 
-/// The attribute that brings a drawing to its place, if it needs one.
+/// The `transform` attribute that places a drawing; empty for the identity.
 fn transform(place: Affine) -> String {
     let [a, b, c, d, x, y] = place.as_coeffs();
     if [a, b, c, d] != [1.0, 0.0, 0.0, 1.0] {
@@ -94,5 +95,5 @@ fn transform(place: Affine) -> String {
     }
 }
 
-/// Decimals of what a drawing is moved by: finer than what it holds.
+/// Decimals of a drawing's shift, finer than its coordinates.
 const SHIFT_DECIMALS: u8 = 4;

@@ -1,4 +1,4 @@
-//! A drawing as SVG: Inkscape layers or groups of parts, small and fast to write.
+//! A drawing as SVG: Inkscape layers or groups of parts, compact and fast to write.
 
 use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
@@ -15,18 +15,19 @@ use crate::export::encoding::decimals::Decimals;
 use crate::export::encoding::embedded_pictures::Named;
 use crate::export::encoding::xml::{Ids, escape};
 
-/// Decimals of dash lengths: finer than coordinates, since they add up along a path.
+/// Decimals of dash lengths. Finer than coordinates, because errors accumulate along a path.
 const DASH_DECIMALS: u8 = 3;
 
-/// Decimals of the places of stops in a gradient.
+/// Decimals of gradient stop positions.
 const STOP_DECIMALS: u8 = 4;
 
 impl Drawing {
-    /// The drawing as SVG text, in canonical form: the same drawing gives the same bytes, and one that differs a little
-    /// a text that differs a little. Marks that may be exchanged stand in an order of their own, and paths begin where
-    /// every way of writing them would; see [`Layer::ordered`].
+    /// Writes the drawing as SVG text in canonical form. The same drawing gives the same bytes, and a small
+    /// change of the drawing gives a small change of the text.
     ///
-    /// Coordinates are off by at most half a unit of the last written decimal.
+    /// Marks that may be exchanged are sorted, and paths start at a point that does not depend on how they
+    /// were created; see [`Layer::ordered`]. The error of coordinates is at most half a unit of the last
+    /// written decimal.
     #[must_use]
     pub fn to_svg(&self, options: &SvgOptions) -> String {
         let mut ids = Ids::new(&options.id_prefix);
@@ -38,7 +39,7 @@ impl Drawing {
         finished(out)
     }
 
-    /// Pictures, paper, layers and areas to click on.
+    /// Writes pictures, paper, layers and hot-spots.
     pub(crate) fn write_content(
         &self,
         out: &mut Vec<u8>,
@@ -72,7 +73,7 @@ impl Drawing {
                             out.extend_from_slice(b"<g id=\"");
                             out.extend_from_slice(ids.take(&format!("part-{name}")).as_bytes());
                             out.push(b'"');
-                            // Hot-spots say the names of parts already.
+                            // Hot-spots already have the names of parts.
                             if options.read_aloud && !self.hotspots.is_empty() {
                                 out.extend_from_slice(b" aria-hidden=\"true\"");
                             }
@@ -95,12 +96,12 @@ impl Drawing {
         }
     }
 
-    /// The coloured paper.
+    /// Writes the coloured paper.
     pub(crate) fn paper(&self, out: &mut Vec<u8>, ids: &mut Ids) {
         let Some(colour) = self.page.background else { return };
         let number = |value: f64| Decimals::new(4).text(value);
         let kind = LayerKind::Paper;
-        // A paper layer with marks of its own follows; the plain colour lies below it.
+        // The plain colour is a separate layer below a paper layer with marks.
         let taken = self.layers.iter().any(|layer| layer.kind == kind);
         open_layer(out, ids, if taken { "paper-colour" } else { kind.id() }, kind.id());
         let opacity = match colour.a {
@@ -116,7 +117,8 @@ impl Drawing {
         out.extend_from_slice(rectangle.as_bytes());
     }
 
-    /// Id and label of a layer. Layers of several pens are numbered, and labelled by their pen.
+    /// Id and label of a layer. If several layers have one kind, their ids are numbered by pen, and the pen
+    /// is the label.
     pub(crate) fn names(&self, layer: &Layer) -> (String, String) {
         let id = layer.kind.id();
         let mut same = self.layers.iter().filter(|other| other.kind == layer.kind);
@@ -129,8 +131,8 @@ impl Drawing {
     }
 }
 
-/// The root element and the title; what is used needs a namespace of its own. For screen readers it is one picture, or a group if there are
-/// buttons in it: the contents of a picture have neither roles nor names.
+/// Writes the start of the root element and the title. For screen readers, the root has the role of one
+/// picture, or of a group if it contains buttons: the content of a picture has neither roles nor names.
 pub(crate) fn open(
     out: &mut Vec<u8>,
     (title, page): (&String, &Page),
@@ -173,14 +175,14 @@ pub(crate) fn open(
     }
 }
 
-/// The document, which ends here.
+/// Writes the end of the document and returns its text.
 pub(crate) fn finished(mut out: Vec<u8>) -> String {
     out.extend_from_slice(b"</svg>\n");
-    // All that is written is ASCII or copied from text.
+    // Everything written is ASCII or copied from text.
     String::from_utf8(out).unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned())
 }
 
-/// The start tag of a layer, but for its attributes of painting and its closing bracket.
+/// Writes the start tag of a layer, without its painting attributes and closing bracket.
 fn open_layer(out: &mut Vec<u8>, ids: &mut Ids, id: &str, label: &str) {
     out.extend_from_slice(b"<g id=\"");
     out.extend_from_slice(ids.take(id).as_bytes());
@@ -189,27 +191,27 @@ fn open_layer(out: &mut Vec<u8>, ids: &mut Ids, id: &str, label: &str) {
     out.push(b'"');
 }
 
-/// Marks that are written as one group.
+/// Marks written as one group.
 struct Group<'a> {
     marks: &'a [&'a Mark],
-    /// Whether they stay in their order, and paths run as they do.
+    /// Whether marks keep their order, and paths their direction.
     ordered: bool,
     decimals: Decimals,
     named: &'a Named<'a>,
-    /// The ids of the gradients of marks, by the number of the mark.
+    /// Ids of the gradients, by index of the mark.
     fills: FxHashMap<usize, String>,
-    /// The colour that is written as `currentColor`.
+    /// Colour written as `currentColor`.
     ink: Option<Colour>,
 }
 
-/// Ids for the gradients of marks.
+/// Creates ids for the gradients of marks.
 fn gradient_ids(marks: &[&Mark], ids: &mut Ids) -> FxHashMap<usize, String> {
     let graded = marks.iter().enumerate().filter(|(_, mark)| matches!(mark.paint, Paint::Gradient(_)));
     graded.map(|(index, _)| (index, ids.take("gradient"))).collect()
 }
 
 impl Group<'_> {
-    /// The rest of a group whose start tag is open: shared attributes, `head`, marks, end tag.
+    /// Writes the rest of a group whose start tag is open: shared attributes, `head`, marks and end tag.
     fn write(&self, out: &mut Vec<u8>, head: &[u8]) {
         let runs = mark_order::runs(self.marks);
         let counts: Vec<(Attributes, usize)> =
@@ -240,7 +242,7 @@ impl Group<'_> {
         out.extend_from_slice(b"</g>\n");
     }
 
-    /// The gradients of the group's marks.
+    /// Writes the gradients of the group's marks.
     fn write_gradients(&self, out: &mut Vec<u8>) {
         if self.fills.is_empty() {
             return;
@@ -254,8 +256,8 @@ impl Group<'_> {
         out.extend_from_slice(b"</defs>\n");
     }
 
-    /// Some marks of the group, the first of which is the `from`th; neighbours that are painted alike, but unlike the
-    /// group, share a group of their own.
+    /// Writes a chunk of marks, starting with number `from`. Neighbours of equal paint that differs from the
+    /// group's paint share an inner group.
     fn write_chunk(&self, out: &mut Vec<u8>, chunk: &[usize], from: usize, shared: &Shared) {
         let Shared { common, paths, runs } = shared;
         let first = runs.partition_point(|run| run.range.end <= from);
@@ -291,14 +293,14 @@ impl Group<'_> {
     }
 }
 
-/// What the chunks of a group share.
+/// Data shared by the chunks of a group.
 struct Shared<'a> {
     common: Attributes,
     paths: &'a Paths,
     runs: &'a [AlikeMarks],
 }
 
-/// One gradient.
+/// Writes one gradient.
 fn write_gradient(out: &mut Vec<u8>, gradient: &Gradient, id: &str, decimals: Decimals) {
     let number = |value: f64| decimals.text(value);
     let Gradient { start, end, stops } = gradient;
@@ -318,17 +320,17 @@ fn write_gradient(out: &mut Vec<u8>, gradient: &Gradient, id: &str, decimals: De
     out.extend_from_slice(b"</linearGradient>\n");
 }
 
-/// Letters of an identity: enough that no two lines of a drawing share one but by a chance of one in thousands.
+/// Characters of a mark's id. 30 bits make equal ids of two lines of a drawing unlikely.
 const ID_LETTERS: u32 = 6;
 
-/// An identity in letters and digits.
+/// An id in letters and digits.
 fn short_id(identity: u64) -> String {
     const DIGITS: &[u8; 32] = b"0123456789abcdefghjkmnpqrstuvwxy";
     let digit = |place: u32| char::from(DIGITS[(identity >> (5 * place) & 31) as usize]);
     (0..ID_LETTERS).map(digit).collect()
 }
 
-/// One path.
+/// Writes one path.
 fn write_mark(
     out: &mut Vec<u8>,
     mark: &Mark,

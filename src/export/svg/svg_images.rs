@@ -1,10 +1,13 @@
-//! Marks that show pictures, in SVG: a group within the mark's outline, which uses a picture of the document piece by piece.
+//! Marks that show pictures, in SVG: a group clipped to the mark's outline, which uses a picture of the
+//! document piece by piece.
 //!
-//! Only what every reader of SVG knows is written: clipping by one path, masks, `use`, and a transform. A clip and its content
-//! stand in the units of the page, so that the pieces of one picture meet to the last written decimal.
+//! The output uses only widely supported features: clipping by one path, masks, `use` and a transform. A clip
+//! path and its content are in page units, so that the pieces of one picture meet to the last written
+//! decimal.
 //!
-//! Pieces overlap a little, so that no gap is seen between them. Half-clear ones would be darker there. They are written into a
-//! mask, opaque and as light as they let ink through, and the mark's outline is filled through it.
+//! Pieces overlap slightly to avoid visible gaps. Half-transparent pieces would be darker there. They are
+//! written into a mask instead, opaque and with a lightness equal to their opacity, and the mark's outline is
+//! filled through it.
 
 use kurbo::BezPath;
 
@@ -62,7 +65,7 @@ pub(crate) fn write(
     out.extend_from_slice(b"</g>\n");
 }
 
-/// Writes the pieces of the picture of an id; for a mask, as light as they let ink through.
+/// Writes the pieces of a picture; inside a mask, with a lightness equal to their opacity.
 fn pieces(
     out: &mut Vec<u8>,
     image: &ImagePaint,
@@ -103,7 +106,7 @@ fn pieces(
     }
 }
 
-/// Whether two pieces that follow each other are one path.
+/// Whether two consecutive pieces can share one path.
 fn of_one_colour(a: &ImagePiece, b: &ImagePiece) -> bool {
     let colour = |piece: &ImagePiece| -> Option<Colour> {
         match piece.shows {

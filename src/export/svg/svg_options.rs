@@ -1,9 +1,9 @@
-//! [`SvgOptions`]: how SVG is written.
+//! Options of SVG.
 
 use crate::colour::srgb::Colour;
 use crate::drawing::Unit;
 
-/// What the groups of the document are.
+/// Meaning of the groups in the document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[non_exhaustive]
 pub enum Grouping {
@@ -14,7 +14,7 @@ pub enum Grouping {
     Part,
 }
 
-/// How SVG is written.
+/// Options of SVG.
 ///
 /// ```
 /// use ligne::export::{Grouping, SvgOptions};
@@ -27,44 +27,45 @@ pub enum Grouping {
 pub struct SvgOptions {
     /// Decimals of coordinates, at most 8. Default: 2 for pixels, 3 for millimetres.
     pub precision: Option<u8>,
-    /// Put before every id, so that several drawings fit into one page. Default: empty.
+    /// Prefix of all ids, so that several drawings can share a page. Default: empty.
     pub id_prefix: String,
-    /// What the groups are. Default: layers.
+    /// Meaning of the groups. Default: layers.
     pub group: Grouping,
-    /// A colour that is written as `currentColor`: the drawing then takes that of the text around it. Default: none.
+    /// Colour written as `currentColor`, so that it takes the colour of the surrounding text. Default: none.
     pub ink: Option<Colour>,
-    /// What is seen in the drawing, in a sentence or more. Default: nothing.
+    /// Description of the drawing in one or more sentences. Default: none.
     pub desc: Option<String>,
-    /// Whether readers of screens are told that the drawing is one picture, by its title and description. Default: no.
+    /// Whether the drawing has a role, title and description for screen readers. Default: no.
     pub read_aloud: bool,
 }
 
 impl SvgOptions {
-    /// With so many decimals of coordinates, at most 8.
+    /// Sets the decimals of coordinates, at most 8.
     #[must_use]
     pub fn with_precision(self, decimals: u8) -> Self {
         Self { precision: Some(decimals), ..self }
     }
 
-    /// With this before every id.
+    /// Sets the prefix of all ids.
     #[must_use]
     pub fn with_id_prefix(self, prefix: impl Into<String>) -> Self {
         Self { id_prefix: prefix.into(), ..self }
     }
 
-    /// With these groups.
+    /// Sets the meaning of the groups.
     #[must_use]
     pub fn grouped_by(self, group: Grouping) -> Self {
         Self { group, ..self }
     }
 
-    /// With what is of this colour in that of the text around the drawing.
+    /// Writes marks of this colour in the colour of the surrounding text.
     #[must_use]
     pub fn with_current_ink(self, ink: Colour) -> Self {
         Self { ink: Some(ink), ..self }
     }
 
-    /// As one picture for screen readers, with a description, which may be empty. With hot-spots it is a group of buttons.
+    /// Adds a role and a description, which may be empty, for screen readers. The drawing is one picture, or
+    /// a group of buttons if it has hot-spots.
     #[must_use]
     pub fn read_aloud(self, desc: impl Into<String>) -> Self {
         Self { desc: Some(desc.into()), read_aloud: true, ..self }

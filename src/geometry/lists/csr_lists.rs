@@ -1,13 +1,14 @@
-//! [`Grouped`]: values sorted by the number of the group they belong to, by a counting sort.
+//! [`Grouped`]: a list of values for each group, in compressed sparse row (CSR) form, built by a counting
+//! sort.
 
 use std::ops::Range;
 
 use crate::parallel::prelude::*;
 
-/// Values by the groups they belong to, in each in the order in which they came.
+/// Lists of values, one per group, in CSR form. Values of a group keep their order of insertion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Grouped<T> {
-    /// Where each group begins among the values, and where the last one ends; empty where there are no groups.
+    /// Start of each group in `values`, and the end of the last; empty without groups.
     starts: Vec<u32>,
     values: Vec<T>,
 }
@@ -18,10 +19,12 @@ impl<T> Default for Grouped<T> {
     }
 }
 
-/// Sorts what `fill` puts into `count` groups: `fill` runs twice and must put the same both times, group first.
+/// Builds the lists of `count` groups from the pairs (group, value) that `fill` passes to its argument.
+///
+/// `fill` is called twice and must pass the same pairs both times.
 pub fn grouped<T: Copy>(count: usize, fill: impl Fn(&mut dyn FnMut(usize, T))) -> Grouped<T> {
-    // Of each group the number stands two places on, then its start one place on, which moves to its end while it is filled: that
-    // is where the next one starts.
+    // Counting sort in one array: counts are stored two places ahead and become starts one place ahead.
+    // Filling a group advances its start to its end, which is the start of the next group.
     let mut starts = vec![0u32; count + 2];
     let mut any = None;
     fill(&mut |group, value| {
@@ -41,12 +44,12 @@ pub fn grouped<T: Copy>(count: usize, fill: impl Fn(&mut dyn FnMut(usize, T))) -
     Grouped { starts, values }
 }
 
-/// Sorts pairs of group and value into `count` groups; of the same pairs twice as fast as [`grouped`], which has them called for.
+/// Builds the lists of `count` groups from an iterator of pairs, twice as fast as [`grouped`].
 pub fn grouped_pairs<T: Copy>(count: usize, pairs: impl Iterator<Item = (usize, T)> + Clone) -> Grouped<T> {
     let Some((_, blank)) = pairs.clone().next() else {
         return Grouped { starts: vec![0; count + 1], values: Vec::new() };
     };
-    // As above.
+    // Counting sort as in `grouped`.
     let mut starts = vec![0u32; count + 2];
     pairs.clone().for_each(|(group, _)| starts[group + 2] += 1);
     for group in 0..count {
@@ -62,50 +65,50 @@ pub fn grouped_pairs<T: Copy>(count: usize, pairs: impl Iterator<Item = (usize, 
     Grouped { starts, values }
 }
 
-/// So many groups one task tidies.
+/// Groups that one task rewrites.
 const CHUNK: usize = 1 << 13;
 
 impl<T: Copy> Grouped<T> {
-    /// How many groups there are.
+    /// Number of groups.
     pub fn count(&self) -> usize {
         self.starts.len().saturating_sub(1)
     }
 
-    /// How many values all groups have together.
+    /// Number of values in all groups.
     pub fn value_count(&self) -> usize {
         self.values.len()
     }
 
-    /// The values of a group.
+    /// Values of a group.
     #[inline]
     pub fn of(&self, group: usize) -> &[T] {
         &self.values[self.range(group)]
     }
 
-    /// The values of a group, to be changed.
+    /// Mutable values of a group.
     pub fn of_mut(&mut self, group: usize) -> &mut [T] {
         let range = self.range(group);
         &mut self.values[range]
     }
 
-    /// The values of groups that follow each other.
+    /// Values of consecutive groups.
     pub fn of_all(&self, groups: Range<usize>) -> &[T] {
         &self.values[self.starts[groups.start] as usize..self.starts[groups.end] as usize]
     }
 
-    /// One of all values, to be changed.
+    /// Mutable value at an index into all values.
     pub fn at_mut(&mut self, at: usize) -> &mut T {
         &mut self.values[at]
     }
 
-    /// Where the values of a group lie among all of them.
+    /// Range of a group's values within all values.
     #[inline]
     pub fn range(&self, group: usize) -> Range<usize> {
         self.starts[group] as usize..self.starts[group + 1] as usize
     }
 
-    /// These groups after `tidy` has ordered and joined the values of each that is not empty; of many groups several threads
-    /// tidy some each.
+    /// Rewrites each list that is not empty with `tidy`, which may sort, merge or remove values. Runs in
+    /// parallel if there are many groups.
     pub fn tidied(self, tidy: impl Fn(usize, &mut Vec<T>) + Sync) -> Self
     where
         T: Send + Sync,

@@ -1,16 +1,16 @@
-//! [`Ranks`]: some of many numbers, one bit each, and how many of them come before each.
+//! [`Ranks`]: a bit set that returns the rank of a number, the count of smaller members, in constant time.
 
-/// A set of numbers below a bound, which knows the place of each in the order of all that it holds.
+/// Set of numbers below a bound, with constant-time rank queries.
 #[derive(Debug, Clone, Default)]
 pub struct Ranks {
-    /// A bit for each number: whether it is held.
+    /// One bit per number: whether it is a member.
     words: Vec<u64>,
-    /// How many are held before each word of these, and in all.
+    /// Number of members before each word of `words`, and in total.
     before: Vec<u32>,
 }
 
 impl Ranks {
-    /// Of the numbers below `bound`, those that are listed, in any order and any number of times.
+    /// Builds the set of the `listed` numbers, all below `bound`. They may be in any order and repeat.
     #[must_use]
     pub fn new(bound: usize, listed: impl IntoIterator<Item = usize>) -> Self {
         let mut words = vec![0_u64; bound.div_ceil(64)];
@@ -25,21 +25,21 @@ impl Ranks {
         Self { words, before }
     }
 
-    /// How many there are.
+    /// Number of members.
     #[inline]
     #[must_use]
     pub fn count(&self) -> usize {
         self.before.last().copied().unwrap_or_default() as usize
     }
 
-    /// Whether it holds a number below the bound.
+    /// Whether a number below the bound is a member.
     #[inline]
     #[must_use]
     pub fn contains(&self, number: usize) -> bool {
         self.words[number / 64] >> (number % 64) & 1 == 1
     }
 
-    /// How many come before a number below the bound.
+    /// Rank of a number below the bound: how many members are smaller.
     #[inline]
     #[must_use]
     pub fn of(&self, number: usize) -> u32 {
@@ -47,7 +47,7 @@ impl Ranks {
         self.before[word] + (self.words[word] & ((1 << (number % 64)) - 1)).count_ones()
     }
 
-    /// Whether it holds any from one number to another, both below the bound and the latter no less.
+    /// Whether any number in `first..=last` is a member. Both are below the bound, and `first <= last`.
     #[inline]
     #[must_use]
     pub fn any_within(&self, first: usize, last: usize) -> bool {
@@ -61,7 +61,7 @@ impl Ranks {
             || self.words[from + 1..to].iter().any(|word| *word != 0)
     }
 
-    /// All of them, ascending.
+    /// All members, ascending.
     pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
         self.words.iter().enumerate().filter(|(_, word)| **word != 0).flat_map(|(k, word)| {
             let mut rest = *word;
@@ -84,7 +84,7 @@ mod tests {
         for (bound, of) in [(1, 1), (64, 3), (65, 2), (1000, 17), (1000, 400), (300, 1)] {
             let is_held = |number: &usize| hash(1, &[*number as u64]).is_multiple_of(of);
             let plain: Vec<usize> = (0..bound).filter(is_held).collect();
-            // Backwards and twice: the order in which they are listed does not matter.
+            // Reversed and doubled: order and repetition must not matter.
             let ranks = Ranks::new(bound, plain.iter().rev().chain(&plain).copied());
             assert_eq!(ranks.iter().collect::<Vec<_>>(), plain);
             assert_eq!(ranks.count(), plain.len());

@@ -1,30 +1,30 @@
-//! [`Glob`]: a pattern for names, where `*` is any text and `?` any one character.
+//! [`Glob`]: a pattern for names, where `*` matches any text and `?` any one character.
 
 use serde::Deserialize;
 
-/// A pattern for the names of parts and materials, such as `bolt*`. Case matters.
+/// Pattern for the names of parts and materials, such as `bolt*`. Letter case matters.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(transparent)]
 pub struct Glob(String);
 
 impl Glob {
-    /// The pattern as written.
+    /// Makes a pattern from its text.
     #[must_use]
     pub fn new(pattern: impl Into<String>) -> Self {
         Self(pattern.into())
     }
 
-    /// The pattern.
+    /// Text of the pattern.
     #[must_use]
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// Whether the whole name fits the pattern.
+    /// Whether the pattern matches the whole name.
     #[must_use]
     pub fn matches(&self, name: &str) -> bool {
         let (mut pattern, mut name) = (self.0.as_str(), name);
-        // Where to go on if the text taken by the last star proves too short.
+        // Position to continue from if the text matched by the last star proves too short.
         let mut retry: Option<(&str, &str)> = None;
         loop {
             let mut pattern_rest = pattern.chars();

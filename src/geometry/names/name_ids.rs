@@ -1,11 +1,11 @@
-//! Numbers that tell things with names apart, and stay theirs while others come and go.
+//! Stable numbers for named things, which do not change when other things are added or removed.
 
 use rustc_hash::FxHashMap;
 
 use crate::geometry::numbers::noise::hash;
 
-/// A number for each name, in their order: from the name alone, and of several things with one name from
-/// which of them it is.
+/// Returns a number for each name, in their order: a hash of the name and its occurrence count among equal
+/// names.
 #[must_use]
 pub fn identities<'a>(names: impl IntoIterator<Item = &'a str>) -> Vec<u64> {
     let mut counts: FxHashMap<&str, u64> = FxHashMap::default();

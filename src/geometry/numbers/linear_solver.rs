@@ -1,10 +1,10 @@
-//! Small symmetric systems of linear equations.
+//! Solver for small symmetric systems of linear equations.
 
-/// Solves `matrix · x = right` for a symmetric, positive definite matrix, of which the upper right
-/// half is read; `None` if it is not definite.
+/// Solves `matrix · x = right` for a symmetric, positive definite matrix. Reads the upper triangle only;
+/// returns `None` if the matrix is not positive definite.
 ///
-/// Source: the square-root-free form of Cholesky's method, Golub and Van Loan, Matrix Computations,
-/// section 4.1.
+/// Source: the square-root-free form of Cholesky's method, Golub and Van Loan, Matrix Computations, section
+/// 4.1.
 #[must_use]
 pub fn solve<const N: usize>(matrix: [[f64; N]; N], right: [f64; N]) -> Option<[f64; N]> {
     let mut l = matrix;

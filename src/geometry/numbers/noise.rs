@@ -1,10 +1,11 @@
-//! Chance without a clock: numbers that look random, made from whole numbers by hashing, and
-//! smooth noise along a line (value noise on the integers, after Perlin 1985, Lewis 1989).
+//! Hashes in place of a random generator, and smooth value noise (after Perlin 1985, Lewis 1989).
+//!
+//! The results depend on a seed and on integers only, never on a clock.
 
-/// An odd number near 2^64 divided by the golden ratio: successive multiples lie far apart.
+/// Odd number near 2^64 divided by the golden ratio. Its successive multiples are far apart.
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// A well-mixed number from a seed and any number of words; the order and number of words count.
+/// Mixes a seed and a list of words into one number. Order and number of the words matter.
 #[must_use]
 pub fn hash(seed: u64, words: &[u64]) -> u64 {
     let mut state = mix(seed ^ GOLDEN);
@@ -14,22 +15,22 @@ pub fn hash(seed: u64, words: &[u64]) -> u64 {
     state
 }
 
-/// The finisher of SplitMix64 (Steele, Lea and Flood 2014): every bit in depends on every bit out.
+/// Finaliser of SplitMix64 (Steele, Lea and Flood 2014): every output bit depends on every input bit.
 const fn mix(mut z: u64) -> u64 {
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     z ^ (z >> 31)
 }
 
-/// A number in [0, 1) from a hash; 53 bits of it are used.
+/// Converts a hash to a number in [0, 1), using 53 bits.
 #[must_use]
 pub const fn unit(hash: u64) -> f64 {
     (hash >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// Smooth noise in [-1, 1] at a place on the line: a number by chance at every integer, joined by
-/// cubics that are level there, so the first derivative is continuous. It never repeats.
-/// Places that are no number give 0.
+/// Value noise in [-1, 1] on the line: random values at integers, joined by cubics that are level there.
+///
+/// The first derivative is continuous and the noise never repeats. Returns 0 for NaN and infinity.
 #[must_use]
 pub fn smooth(seed: u64, x: f64) -> f64 {
     if !x.is_finite() {
@@ -42,8 +43,9 @@ pub fn smooth(seed: u64, x: f64) -> f64 {
     here + (next - here) * (t * t * (3.0 - 2.0 * t))
 }
 
-/// Smooth noise in [-1, 1] at a place in space: a number by chance at every corner of a lattice of unit cubes, joined likewise.
-/// Places that are no numbers give 0.
+/// Value noise in [-1, 1] in space: random values at the corners of unit cubes, joined by cubics.
+///
+/// Returns 0 for NaN and infinity.
 #[must_use]
 pub fn solid(seed: u64, place: [f64; 3]) -> f64 {
     if !place.iter().all(|x| x.is_finite()) {

@@ -1,8 +1,8 @@
-//! Transcendental functions whose last bit is the same on every machine.
+//! Transcendental functions with the same last bit on every machine.
 //!
-//! The standard library's `sin` and friends call the platform's C library, whose results differ
-//! between machines; these go through the portable `libm` instead, and `clippy.toml` forbids the
-//! others. Square roots are exact everywhere and need no twin.
+//! The standard library's `sin` and similar functions call the C library of the platform, whose results
+//! differ between machines. These call the portable `libm` instead, and `clippy.toml` forbids the others.
+//! Square roots are exact everywhere and need no replacement.
 
 /// Sine of an angle in radians.
 #[must_use]
@@ -40,7 +40,7 @@ pub fn cbrt(x: f64) -> f64 {
     libm::cbrt(x)
 }
 
-/// The natural logarithm.
+/// Natural logarithm.
 #[must_use]
 pub fn ln(x: f64) -> f64 {
     libm::log(x)

@@ -1,13 +1,14 @@
-//! Powers of two: lengths that stay the same while what they are taken from changes a little, and by which
-//! numbers are divided without rounding.
+//! Powers of two around a number.
+//!
+//! As cell sizes they stay the same when the measured length changes slightly, and division by them is exact.
 
-/// The greatest power of two that is no greater than `x`; 1 for what has none.
+/// Greatest power of two that is at most `x`; 1 if there is none.
 #[must_use]
 pub fn power_of_two_below(x: f64) -> f64 {
     if x.is_normal() && x > 0.0 { f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000) } else { 1.0 }
 }
 
-/// The least power of two that is greater than `x`; 1 for what has none.
+/// Least power of two that is greater than `x`; 1 if there is none.
 #[must_use]
 pub fn power_of_two_above(x: f64) -> f64 {
     let above = 2.0 * power_of_two_below(x);

@@ -1,271 +1,287 @@
-//! Every epsilon of the crate, each tied to the length (or angle) it is a fraction of.
+//! Every epsilon of the crate, each as a fraction of a named length or angle.
 //!
-//! `part` means the diagonal of the bounding box of the part that is judged, of the larger one where two
-//! meet (see [`Extent::scale`](crate::mesh::Extent::scale)), so that a gear of 3 mm and a cathedral are judged
-//! alike, and whatever else a model has changes nothing. Lengths in px of what lies in space are meant at its
-//! depth.
+//! `part` is the diagonal of the bounding box of the part in question, or of the larger part where two meet
+//! (see [`Extent::scale`](crate::mesh::Extent::scale)). A 3 mm gear and a cathedral are therefore treated
+//! alike, and other parts of the model have no influence. Lengths in px of things in space are measured at
+//! their depth.
 
-/// Vertices nearer than this fraction of the part are one vertex, where they lie on open edges.
+/// Vertices on open edges within this fraction of the part are welded.
 pub const WELD_OF_PART: f64 = 1e-8;
 
-/// Single-precision files additionally weld within this fraction of a part's largest coordinate:
-/// one and a half units in the last place of an `f32`.
+/// Additional weld distance for single-precision files, as a fraction of the part's largest coordinate: 1.5
+/// units in the last place of an `f32`.
 pub const WELD_OF_F32_COORDINATE: f64 = 1.5 / 8_388_608.0;
 
-/// The distance between neighbouring numbers in single precision, as a fraction of the number, at most.
+/// Maximum distance between neighbouring `f32` numbers, as a fraction of the number.
 pub const F32_STEP: f64 = 1.0 / 8_388_608.0;
 
-/// A coordinate that is placed in the world in double precision is off by no more than this fraction of itself.
+/// Maximum rounding error of a coordinate that is transformed to world space in double precision, as a
+/// fraction of the coordinate.
 pub const ROUNDED_OF_COORDINATE: f64 = 8.0 * f64::EPSILON;
 
-/// The place and the radius of a circle that is fitted to exact corners are off by no more than this fraction of the largest coordinate.
+/// Maximum error of the centre and radius of a circle fitted to exact corners, as a fraction of the largest
+/// coordinate.
 pub const FITTED_OF_COORDINATE: f64 = 1e-12;
 
-/// How far the corners of a tessellated circle are off it, in steps of the file: half the diagonal of a cell, and as much again, for the program
-/// has computed the corners with numbers that were rounded as well.
+/// Maximum distance of a corner from its tessellated circle, in steps of the file's coordinates.
+///
+/// Half the diagonal of a cell for rounding, and the same again because the exporting program computed with
+/// rounded numbers.
 pub const CORNER_OFF_CIRCLE: f64 = 1.5;
 
-/// A file whose coordinates have a coarser step than this, as a fraction of its size, did not round them but wrote short numbers: such a
-/// step would show, a tenth of a pixel where the model is a thousand wide.
+/// Maximum step of rounded coordinates, as a fraction of the model's size.
+///
+/// Coordinates with a coarser step are exact short numbers: rounding to such a step would be visible (a tenth
+/// of a pixel at a width of 1000 px).
 pub const VISIBLE_STEP: f64 = 1e-4;
 
-/// How far rounding to a lattice moves a vertex, in steps of the lattice: half the diagonal of a cell, and a little for what the
-/// program that wrote it computed.
+/// Maximum displacement of a vertex when it is rounded to a lattice, in lattice steps: half the diagonal of a
+/// cell, plus a margin for errors of the exporting program.
 pub const ROUNDING_OF_LATTICE: f64 = 0.9;
 
-/// How far single precision moves a vertex, in steps of its largest coordinate: twice half the diagonal of a cell. A program that writes
-/// single precision has also computed with it, and the matrix of a node is rounded as well.
+/// Maximum displacement of a vertex by single precision, in steps at its largest coordinate.
+///
+/// Twice half the diagonal of a cell: exporters that write single precision also compute with it, and node
+/// matrices are rounded as well.
 pub const ROUNDING_OF_SINGLE: f64 = 1.75;
 
-/// What moving a model leaves of its coordinates in double precision, as a share of the largest: a few units in the last place.
+/// Rounding error of moving a model in double precision, as a fraction of the largest coordinate: a few units
+/// in the last place.
 pub const ROUNDING: f64 = 1e-15;
 
-/// Open edges of a part that run along each other within this fraction of it are the two sides of a seam: a tenth of a
-/// pixel where the part is a thousand wide.
+/// Maximum gap between the two sides of a seam (open edges), as a fraction of the part: a tenth of a pixel if
+/// the part is 1000 px wide.
 pub const SEAM_OF_PART: f64 = 1e-4;
 
-/// Coordinates in steps above this fraction of the model are too coarse for it: as much as [`SEAM_OF_PART`].
+/// Maximum step of coordinates, as a fraction of the model, before a warning. Equal to [`SEAM_OF_PART`].
 pub const COARSE_OF_MODEL: f64 = 1e-4;
 
-/// A triangle lower than this fraction of the part is degenerate: it hides nothing and has no
-/// normal worth asking.
+/// A triangle lower than this fraction of the part is degenerate: it hides nothing and has no usable normal.
 pub const DEGENERATE_HEIGHT_OF_PART: f64 = 1e-12;
 
-/// A face whose normal rounding may have turned by more than an angle with this sine takes over that of a wider face in its plane: a
-/// degree, below which neither creases nor tones change.
+/// Sine of the maximum uncertainty of a face normal. A less certain face takes the normal of a wider face in
+/// its plane. One degree: smaller errors change neither creases nor tones.
 pub const UNSURE_SINE: f64 = 0.0175;
 
-/// Degrees by which angles between faces are off because their normals are kept in single precision: at 15 degrees four times as much
-/// as the rounding of two normals.
+/// Error of angles between faces because normals are stored in single precision, in degrees. At 15 degrees
+/// this is four times the rounding of two normals.
 pub const ANGLE_DEG: f64 = 1e-4;
 
-/// A vertex this near to the plane of a triangle (fraction of the part) lies in it, where surfaces
-/// are tested for passing through each other.
+/// A vertex within this distance of a triangle's plane (fraction of the part) is in the plane, in
+/// intersection tests of surfaces.
 pub const PLANE_OF_PART: f64 = 1e-12;
 
-/// Two triangles whose common part is no longer than this fraction of the part merely touch.
+/// Two triangles whose intersection is no longer than this fraction of the part only touch.
 pub const OVERLAP_OF_PART: f64 = 1e-9;
 
-/// Two triangles whose common part is no longer than this many times what rounding moves a vertex by merely touch.
+/// Two triangles whose intersection is no longer than this multiple of a vertex's rounding error only touch.
 pub const OVERLAP_OF_ROUNDING: f64 = 4.0;
 
-/// Surfaces that turn from one facet to the next by this many degrees or more are not round there: the default limit of creases.
+/// Surfaces that turn by this many degrees or more between facets are not round there. Equal to the default
+/// crease limit.
 pub const MAX_FACET_DEG: f64 = 40.0;
 
-/// A curve of intersection is a contact of round surfaces if at least this share of its length is.
+/// Minimum share of the length of an intersection curve that must be contact of round surfaces for the whole
+/// curve to count as contact.
 pub const CONTACT_OF_CURVE: f64 = 0.9;
 
-/// Planes at an angle of this sine or less are parallel, and have no line in common.
+/// Planes at an angle with this sine or less are parallel and have no common line.
 pub const PARALLEL_SINE: f64 = 1e-9;
 
-/// A face at less than an angle with this sine to the line of sight is seen edge-on, and counts as averted: a face as wide as the
-/// picture is then no wider than 0.003 px of a thousand. Cameras of single precision are off by less.
+/// A face within this sine of the view direction is edge-on and counts as averted.
+///
+/// A face as wide as a picture of 1000 px is then narrower than 0.003 px. Errors of single-precision cameras
+/// are smaller.
 pub const EDGE_ON_SINE: f64 = 3e-6;
 
-/// Normals at less than this cosine to the line of sight count as having this one, where is divided by it.
+/// Minimum cosine between a normal and the view direction in divisions.
 pub const LEAST_FACING: f64 = 1e-10;
 
-/// A plane whose distance from the eye, as a fraction of how far they may be apart, is no more than
-/// this may be seen edge-on: twice what [`EDGE_ON_SINE`] says, for rounding.
+/// A plane may be edge-on if its distance from the eye is at most this fraction of their maximum distance:
+/// twice [`EDGE_ON_SINE`], to allow for rounding.
 pub const DUAL_OF_REACH: f64 = 2.0 * EDGE_ON_SINE;
 
-/// A polygon of a file that turns by more than this (degrees) at a diagonal is folded there, and may have a crease; less is a surface that
-/// bends. The default of `lines.crease_deg`: what is sharp enough for a crease anywhere.
+/// A file's polygon that turns by more than this (degrees) at a diagonal is folded there and may have a
+/// crease; otherwise it is a curved surface. Equal to the default of `lines.crease_deg`.
 pub const FOLDED_POLYGON_DEG: f64 = 40.0;
 
-/// A surface this near in depth (fraction of its part) touches a line rather than hiding it.
+/// A surface within this depth of a line (fraction of its part) touches the line and does not hide it.
 pub const CONTACT_OF_PART: f64 = 5e-7;
 
-/// A surface this near in depth (px) touches a line: nearer than this nothing is drawn apart.
+/// A surface within this depth of a line (px) touches the line. Smaller distances are not visible.
 pub const CONTACT_PX: f64 = 5e-4;
 
-/// A point this near to the projected border of a triangle (px) counts as inside, so that a line
-/// exactly behind an edge is hidden by the faces of that edge.
+/// A point within this distance of a projected triangle's border (px) is inside, so a line exactly behind an
+/// edge is hidden by the faces of that edge.
 pub const COVER_PX: f64 = 1e-7;
 
-/// Hidden or visible pieces shorter than this (px) are rounding, not geometry.
+/// Minimum length (px) of a hidden or visible span; shorter ones are rounding errors.
 pub const PIECE_PX: f64 = 1e-4;
 
-/// The near plane of a perspective view lies at this fraction of the way from eye to target.
+/// Distance of the near plane of a perspective view, as a fraction of the distance from eye to target.
 pub const NEAR_OF_TARGET: f64 = 1e-5;
 
-/// How far beside a contour (px) the view asks whether there is only background.
+/// Distance (px) of the test for background from a contour.
 pub const BESIDE_PX: f64 = 1e-3;
 
-/// How far beside a contour of a rounded surface (px): farther than its faces stand out from it.
+/// Distance (px) of the test for background from the contour of a rounded surface; larger than the deviation
+/// of its faces.
 pub const BESIDE_ROUNDED_PX: f64 = 1.0;
 
-/// A surface that shares a vertex with a line hides it only where it is at least this much nearer
-/// (fraction of its part): below that lies rounding.
+/// Minimum depth difference (fraction of the part) for a surface to hide a line that shares a vertex with it.
+/// Smaller differences are rounding errors.
 pub const NEIGHBOUR_OF_PART: f64 = 1e-10;
 
-/// How much nearer (px) a surface must be that shares a vertex with a line, to hide it.
+/// Minimum depth difference (px) for a surface to hide a line that shares a vertex with it.
 pub const NEIGHBOUR_PX: f64 = 1e-7;
 
-/// A triangle lower than this in the image (px) is seen edge-on and covers nothing.
+/// A triangle lower than this in the image (px) is edge-on and covers nothing.
 pub const IMAGE_HEIGHT_PX: f64 = 1e-8;
 
-/// Two lines that run within this distance (px) of each other are drawn once.
+/// Two lines within this distance of each other (px) are drawn once.
 pub const DOUBLE_PX: f64 = 5e-3;
 
-/// A hidden line that runs within this distance (px) of another one coincides with it, however wide its ink is. Where the
-/// width of the ink is not known, curves that only touch would run along each other for long if it were more.
+/// Minimum distance (px) within which a hidden line coincides with another one; lines with wider ink coincide
+/// within the width of the ink.
+///
+/// Where the ink width is unknown, a larger value would merge long stretches of curves that only touch.
 pub const BEHIND_INK_PX: f64 = 0.02;
 
-/// Lines that cross at an angle of this sine or more do not run along each other, however near they come.
+/// Lines that cross at an angle with this sine or more do not coincide, however close they are.
 pub const BEHIND_INK_SINE: f64 = 0.02;
 
-/// Zero sets cross an edge of the mesh at least this fraction of it away from its ends, so that no
-/// piece of theirs is without length.
+/// Minimum distance of a zero-set crossing from the ends of a mesh edge, as a fraction of the edge. Prevents
+/// pieces of zero length.
 pub const ZERO_SET_OF_EDGE: f64 = 1e-6;
 
-/// An edge of a rounded surface is cut where its arc lies farther than this (px) from it.
+/// An edge of a rounded surface is split if its arc deviates from it by more than this (px).
 pub const ARC_PX: f64 = 0.08;
 
-/// Edges no longer than this (px, seen square on) are never cut: lines over them are smooth already.
+/// Edges up to this length (px, seen face-on) are never split; lines across them are already smooth.
 pub const SHORT_EDGE_PX: f64 = 2.5;
 
-/// A contour that turns back in the image for no longer than this (px) has no cusp there.
+/// Maximum length (px) of a contour that turns back in the image without a cusp.
 pub const CUSP_PX: f64 = 1.0;
 
-/// The two contours of a fold that lie within this distance (px) of each other in the image, and whose feet are no farther
-/// apart in space than the base (px), are in one stroke of a pen.
+/// Two contours of a fold within this distance in the image (px) are drawn as one pen stroke. Their feet must
+/// be within the base distance (px) in space.
 pub const NEEDLE_PX: f64 = 0.4;
 pub const NEEDLE_BASE_PX: f64 = 3.0;
 
-/// A threshold of lines inside below this counts as this; thresholds are pure numbers, measured by
-/// the size of features.
+/// Minimum of the thresholds for lines inside the outline. Thresholds are dimensionless, scaled by the
+/// feature size.
 pub const LEAST_THRESHOLD: f64 = 1e-9;
 
-/// Faces are cut until a tone border lies no farther than this (px) from where it ought to be.
+/// Faces are split until a tone border deviates by at most this (px) from its exact position.
 pub const ISOPHOTE_PX: f64 = 0.03;
 
-/// Where a tone is this near to a level (of tones from 0 to 1), its border is found.
+/// Maximum difference between a tone (0 to 1) and a level for the border to count as found.
 pub const ISOPHOTE_VALUE: f64 = 1e-7;
 
-/// How far the border of a bin of hatching may lie from where the light says, px.
+/// Maximum error of the border of a hatching tone bin, px.
 pub const BIN_PX: f64 = 0.3;
 
-/// Between two tones of a hatching the light may be off by this much.
+/// Maximum error of the light at the border of a hatching tone bin, tones from 0 to 1.
 pub const BIN_VALUE: f64 = 1e-3;
 
-/// With more levels than this tones are a gradient, whose steps nobody sees one by one.
+/// With more levels than this, tones form a gradient whose single steps are not visible.
 pub const FEW_LEVELS: usize = 64;
 
-/// Where a tone of a gradient is this near to a level, its border is found.
+/// Maximum difference between a gradient's tone and a level for the border to count as found.
 pub const GRADIENT_VALUE: f64 = 1e-4;
 
-/// Steps of a gradient that are narrower than this in the image (px) are drawn two or more as one.
+/// Gradient steps narrower than this in the image (px) are merged.
 pub const STEP_PX: f64 = 1.0;
 
-/// Borders of steps of light that are joined to a gradient lie no farther than this (px) from straight lines across it.
+/// Maximum deviation (px) of step borders from straight lines across the gradient into which the steps are
+/// merged.
 pub const RAMP_PX: f64 = 0.35;
 
-/// How far points are left out of borders that only hatching has, px.
+/// Simplification tolerance of borders that only hatching uses, px.
 pub const THIN_BIN_PX: f64 = 0.1;
 
-/// How far points are left out of the borders of steps of a gradient, px.
+/// Simplification tolerance of borders between gradient steps, px.
 pub const THIN_STEP_PX: f64 = 0.2;
 
-/// Regions are cut on a grid of this many steps along the longer side of the frame.
+/// Steps of the snapping grid of regions along the longer side of the frame.
 pub const REGION_STEPS: f64 = 1_048_576.0;
 
-/// Points of borders nearer than this (steps of that grid) to the line between their neighbours are
-/// there by rounding.
+/// Border points within this distance (grid steps) of the line between their neighbours are rounding
+/// artefacts.
 pub const REGION_SNAP: f64 = 1.5;
 
-/// What looks different from the rest of its cell over more than this (px) is not there by rounding.
+/// Minimum extent (px) of a label difference within a cell; smaller ones are rounding errors.
 pub const LEAK_PX: f64 = 1.2;
 
-/// A border that ends this near (px) to another one goes on to it.
+/// A border that ends within this distance (px) of another one is extended to it.
 pub const BRIDGE_PX: f64 = 1.0;
 
-/// Light of a model's lamp grows no more nearer to it than this fraction of the frame's longer side, as it is
-/// at the target.
+/// Minimum distance from a model's lamp, as a fraction of the frame's longer side at the target: closer to
+/// the lamp its light grows no more.
 pub const LAMP_OF_FRAME: f64 = 1e-3;
 
-/// Highlights fade where light falls at less than this cosine, so that they end without a jump
-/// where the surface turns away from the light.
+/// Highlights fade out where the cosine of the incident light is below this, so that they end without a jump
+/// at the terminator.
 pub const HIGHLIGHT_FADE_COSINE: f64 = 0.1;
 
-/// The border of a spot light's cone is at least this soft (difference of cosines), as
-/// KHR_lights_punctual advises.
+/// Minimum softness of a spot light's cone, as a difference of cosines. Recommended by KHR_lights_punctual.
 pub const LEAST_CONE: f64 = 1e-3;
 
-/// Boxes that rays are tested against are this fraction of the mesh wider than what is in them:
-/// several roundings of single precision. What the rays meet is decided exactly.
+/// Margin of bounding boxes in ray tests, as a fraction of the mesh: several roundings of single precision.
+/// Hits themselves are decided exactly.
 pub const RAY_BOX_OF_MESH: f64 = 1e-6;
 
-/// How much of the sky a vertex sees is asked from this far above it, as a fraction of the edges around
-/// it.
+/// Height of the sky-visibility sample above a vertex, as a fraction of the surrounding edges.
 pub const LOOKOUT_OF_EDGE: f64 = 1e-2;
 
-/// Tone borders move from faces to the curved surface where that is less than this (px) away.
+/// Maximum displacement (px) of tone borders from the faces to the curved surface.
 pub const LIFT_PX: f64 = 0.6;
 
-/// Points of borders nearer than this (px) to the line through those around them are passed over.
+/// Simplification tolerance of borders, px.
 pub const THIN_PX: f64 = 0.01;
 
-/// Borders that cross the row of a grid this near to each other (steps of the grid) cross it in one place.
+/// Borders that cross a grid row within this distance (grid steps) cross it at one point.
 pub const SCAN_OF_STEP: f64 = 1e-6;
 
-/// The outline of a dot lies no farther than this (px) from its circle and the borders that cut it.
+/// Maximum deviation (px) of a dot's outline from its circle and from the borders that clip it.
 pub const DOT_PX: f64 = 0.01;
 
-/// What borders leave of a dot is left out if its area is less than that of a square of this side (px).
+/// A clipped dot is dropped if its area is less than that of a square with this side (px).
 pub const DOT_CRUMB_PX: f64 = 0.1;
 
-/// Where a border just touches a dot, the dot is made smaller by this part of itself.
+/// Shrinkage of a dot that a border is tangent to, as a fraction.
 pub const DOT_NUDGE: f64 = 1e-5;
 
-/// Widths of lines in two drawings that differ by no more than this (px) are one width, written twice, once with two decimals.
+/// Line widths in two drawings within this difference (px) are equal; one may have been written with two
+/// decimals.
 pub const WIDTH_PX: f64 = 5.1e-3;
 
-/// Lengths of dashes that differ by less than this (px) are alike.
+/// Dash lengths within this difference (px) are equal.
 pub const DASH_PX: f64 = 5.1e-3;
 
-/// Readers of SVG keep coordinates in single precision: two drawings cannot be compared more finely than this
-/// part of the page's longer side.
+/// Precision of two drawings in a comparison, as a fraction of the page's longer side: SVG readers keep
+/// coordinates in single precision.
 pub const READ_OF_PAGE: f64 = 1e-6;
 
-/// Drawings are compared at least this finely by default, however few decimals they are written with (px).
+/// Maximum default tolerance (px) of a comparison, for drawings written with few decimals.
 pub const COARSEST_STEP_PX: f64 = 0.1;
 
-/// Curves are flattened within this part of the tolerance that they are compared with.
+/// Flattening tolerance of curves, as a fraction of the comparison tolerance.
 pub const FLAT_OF_TOLERANCE: f64 = 0.1;
 
-/// Curves that are compared are not flattened more finely than this part of their size: readers keep no more digits.
+/// Minimum flattening tolerance, as a fraction of a curve's size. Readers keep no more digits.
 pub const FLAT_OF_CURVE: f64 = 1e-7;
 
-/// Ends this near to each other, as a part of the tolerance, were one point before a line was split.
+/// Line ends within this fraction of the tolerance are joined: they were one point before a line was split.
 pub const JOIN_OF_TOLERANCE: f64 = 1.0;
 
-/// Marks that were written in two ways may lie this far apart (px) in one picture, if the tolerance is not narrower.
+/// Maximum offset (px) between the pictures of two marks that were written in different ways, unless the
+/// tolerance is smaller.
 pub const COARSEST_VETO_PX: f64 = 0.25;
 
-/// Differences that geometry has not found are sought in pictures where they are wider than this (px): twice the second decimal, as
-/// most drawings are written. Renderers are not more precise.
+/// Minimum width (px) of differences that are searched in rendered pictures after geometry found none: twice
+/// the second decimal, as most drawings are written. Renderers are not more precise.
 pub const FINEST_SEEN_PX: f64 = 0.02;
 
-/// Distances of two lines are found within this part of themselves.
+/// Maximum relative error of the distance between two lines.
 pub const DISTANCE_SHARE: f64 = 2e-3;

@@ -2,7 +2,7 @@
 
 use kurbo::Point;
 
-/// The convex hull of points, clockwise where y points down (Andrew's monotone chain).
+/// Convex hull of points, clockwise where y points down (Andrew's monotone chain).
 pub(crate) fn hull(mut points: Vec<Point>) -> Vec<Point> {
     points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
     points.dedup();

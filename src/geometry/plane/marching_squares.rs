@@ -1,17 +1,19 @@
-//! [`level_lines`]: where numbers on a square grid, bilinear in between, pass through 0.
+//! [`level_lines`]: zero lines of a bilinear function on a square grid (marching squares).
 //!
-//! Source: Lorensen and Cline, "Marching cubes", SIGGRAPH 1987, in two dimensions; cells with two diagonals as Nielson
-//! and Hamann, "The asymptotic decider", 1991.
+//! Source: Lorensen and Cline, "Marching cubes", SIGGRAPH 1987, in two dimensions. Cells with four crossings
+//! are resolved as in Nielson and Hamann, "The asymptotic decider", 1991.
 
 use glam::DVec2;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-/// A side between neighbouring points of the grid: the column and row of the first, and whether the second lies below it.
+/// Edge between neighbouring grid points: column and row of the first, and whether the second is below it.
 type Side = (u32, u32, bool);
 
-/// The lines in the cells between so many points a row and rows of them and their neighbours, end to end, with what is above 0 on
-/// their left (x to the right, y upwards). `straight` is how far, as part of its length, a piece of a line may be from the
-/// curve. None if the grid passes through 0 more often than `most` times.
+/// Traces the zero lines of `value` in a grid of `columns` by `rows` cells, linked end to end.
+///
+/// Positive values are on the left of a line (x to the right, y upwards). Where a line is curved it gets
+/// extra points, until the deviation from the exact hyperbola is at most `straight` times the length of a
+/// segment. Returns `None` if the grid has more than `most` crossings.
 pub fn level_lines(
     value: &impl Fn(i64, i64) -> f64,
     [columns, rows]: [usize; 2],
@@ -31,14 +33,14 @@ pub fn level_lines(
                 continue;
             }
             let sides = [(i, j, false), (i + 1, j, true), (i, j + 1, false), (i, j, true)];
-            // Round the cell: where it is left, and where it is entered again.
+            // Pair each exit of the cell's contour with the entry that continues it.
             let leaves = (0..4).filter(|s| is_in[*s] && !is_in[(*s + 1) % 4]);
             let [a, b, c, d] = corners;
-            // The value where the bilinear number has its saddle.
+            // The sign of the bilinear function at its saddle decides which corners are connected.
             let joined = (a * c - b * d) / (a + c - b - d) >= 0.0;
             for leave in leaves {
                 let enters = |s: &usize| !is_in[*s % 4] && is_in[(*s + 1) % 4];
-                // Where the saddle is above 0 the next entry ahead belongs to the other corner.
+                // If the saddle is positive, the next entry in order belongs to the other corner.
                 let enter = match joined {
                     true => (leave + 1..leave + 4).find(enters),
                     false => (leave + 1..leave + 4).rev().find(enters),
@@ -60,7 +62,7 @@ pub fn level_lines(
         let part = a / (a - b);
         DVec2::new(f64::from(i), f64::from(j)) + if down { DVec2::Y } else { DVec2::X } * part
     };
-    // Open lines begin where nothing leads to.
+    // Open lines begin at an edge that no other edge leads to.
     let led_to: FxHashSet<Side> = next.values().copied().collect();
     let (open, closed): (Vec<Side>, Vec<Side>) = starts.into_iter().partition(|side| !led_to.contains(side));
     let mut lines = Vec::new();
@@ -80,13 +82,13 @@ pub fn level_lines(
     Some(lines)
 }
 
-/// Adds points of a line on its way through a cell, where it is a piece of a hyperbola.
+/// Adds points of the hyperbola arc between two crossings of a cell.
 fn curve(value: &impl Fn(i64, i64) -> f64, from: DVec2, to: DVec2, straight: f64, line: &mut Vec<DVec2>) {
     let low = ((from + to) / 2.0).floor();
     let (i, j) = (low.x as i64, low.y as i64);
     let [a, b, c, d] = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(x, y)| value(i + x, j + y));
     let twist = a - b - c + d;
-    // The line is where the product of the distances from the axes is `product`.
+    // On the line, the product of the distances from the two asymptotes is `product`.
     let axes = low - DVec2::new(c - a, b - a) / twist;
     let product = ((b - a) * (c - a) / twist - a) / twist;
     if axes.is_finite() && product.is_finite() && (from.x - axes.x) * (to.x - axes.x) > 0.0 {
@@ -94,7 +96,7 @@ fn curve(value: &impl Fn(i64, i64) -> f64, from: DVec2, to: DVec2, straight: f64
     }
 }
 
-/// Adds points of a hyperbola between two of its points until what is left between them is all but straight.
+/// Subdivides a hyperbola arc until each segment is straight enough.
 fn bend(axes: DVec2, product: f64, [from, to]: [DVec2; 2], straight: f64, line: &mut Vec<DVec2>) {
     let x = ((from.x - axes.x) * (to.x - axes.x)).sqrt().copysign(from.x - axes.x);
     let middle = axes + DVec2::new(x, product / x);

@@ -2,13 +2,13 @@
 
 use kurbo::{Point, Vec2};
 
-/// Length of a vector; `hypot` of the platform differs between machines.
+/// Length of a vector. The platform's `hypot` differs between machines.
 #[must_use]
 pub fn length(v: Vec2) -> f64 {
     v.hypot2().sqrt()
 }
 
-/// Distance from a point to a segment, squared.
+/// Squared distance from a point to a segment.
 #[must_use]
 pub fn distance2(p: Point, a: Point, b: Point) -> f64 {
     let way = b - a;
@@ -17,7 +17,7 @@ pub fn distance2(p: Point, a: Point, b: Point) -> f64 {
     (p - (a + way * t)).hypot2()
 }
 
-/// The centre of the circle that points are nearest to, by least squares of the squares of distances.
+/// Centre of the best circle through points, by least squares of the squared distances.
 ///
 /// Source: Kåsa, A circle fitting procedure and its error analysis, 1976.
 #[must_use]

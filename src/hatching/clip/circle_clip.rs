@@ -1,10 +1,11 @@
-//! [`Cut`]: what borders leave of a dot.
+//! [`Cut`]: a disc clipped to a domain.
 //!
-//! Its own border runs in turn along pieces of border within the circle and along arcs of the circle within
-//! the domain (Weiler and Atherton, Hidden surface removal using polygon area sorting, 1977, for one
-//! circle). Which ends of pieces lie within the circle is decided once for each point, so loops always
-//! close; where rounding confuses the order around the circle, a circle smaller by a hair is cut
-//! instead.
+//! Source: Weiler and Atherton, Hidden surface removal using polygon area sorting, 1977, for one circle. The
+//! outline of the result follows border pieces inside the circle and arcs of the circle inside the domain in
+//! turn.
+//!
+//! Whether the end of a piece lies inside the circle is decided once for each point, so the loops always
+//! close. If rounding confuses the order around the circle, a slightly smaller circle is tried.
 
 use std::f64::consts::TAU;
 
@@ -14,21 +15,23 @@ use super::disc::Disc;
 use crate::geometry::numbers::portable_math::atan2;
 use crate::geometry::numbers::tolerance;
 
-/// What borders leave of a dot.
+/// Result of clipping a disc to a domain.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Cut {
-    /// All of it.
+    /// The whole disc is inside.
     Whole,
-    /// Nothing.
+    /// Nothing is left.
     Nothing,
-    /// A path and its area.
+    /// The remaining part as a path, and its area.
     Part(BezPath, f64),
 }
 
 impl Disc {
-    /// What is left of the dot within a domain, which lies to the right as seen (y down) of its directed
-    /// `border`. Pieces farther away do not matter; where none is near, `inside` tells whether the centre
-    /// lies in the domain.
+    /// Clips the disc to a domain, which lies to the right of its directed `border` as seen on the page (y
+    /// down).
+    ///
+    /// Pieces that do not touch the disc have no effect. If no piece touches it, `inside` says whether the
+    /// centre is in the domain. `px` is the length of a px in user units.
     pub fn cut(self, border: &[[Point; 2]], inside: bool, px: f64) -> Cut {
         for attempt in 0..ATTEMPTS {
             let radius = self.radius * (1.0 - f64::from(attempt) * tolerance::DOT_NUDGE);
@@ -41,42 +44,42 @@ impl Disc {
     }
 }
 
-/// How many circles are tried before a dot is given up.
+/// Number of circles that are tried before the dot is dropped.
 const ATTEMPTS: u32 = 8;
 
-/// A part of a piece of border within the circle; points as seen from the centre.
+/// Part of a border piece inside the circle. Points are relative to the centre.
 #[derive(Debug, Clone, Copy)]
 struct Step {
     ends: [Vec2; 2],
-    /// Whether the ends lie on the circle.
+    /// Whether each end lies on the circle.
     rim: [bool; 2],
     used: bool,
 }
 
-/// A place where the border crosses the circle.
+/// Crossing of the border with the circle.
 #[derive(Debug, Clone, Copy)]
 struct Gate {
     angle: f64,
-    /// Whether the border enters the circle there.
+    /// Whether the border enters the circle here.
     enters: bool,
     step: usize,
 }
 
 struct Tracer {
     disc: Disc,
-    /// Parts of the border, by where they start.
+    /// Parts of the border, sorted by their start points.
     steps: Vec<Step>,
-    /// Crossings by angle; leaving and entering take turns.
+    /// Crossings sorted by angle. Entering and leaving ones alternate.
     gates: Vec<Gate>,
 }
 
 impl Tracer {
-    /// None if rounding leaves the order around the circle open.
+    /// `None` if rounding leaves the order around the circle ambiguous.
     fn new(disc: Disc, border: &[[Point; 2]]) -> Option<Self> {
         let r2 = disc.radius * disc.radius;
         let mut steps = Vec::new();
         for ends in border {
-            // Adding zero makes the zero without a sign of both.
+            // Adding zero turns a negative zero into a positive one, so that equal points compare equal.
             let [a, b] = ends.map(|p| p - disc.centre + Vec2::ZERO);
             let way = b - a;
             let is_in = [a, b].map(|p| p.hypot2() < r2);
@@ -121,7 +124,8 @@ impl Tracer {
                 area2 += self.follow(first, &mut path, px)?;
             }
         }
-        // What remains are loops within the circle; the largest tells what is around them.
+        // The remaining steps form loops inside the circle. The orientation of the largest one says whether
+        // its surroundings are in the domain.
         let mut largest = 0.0_f64;
         for first in 0..self.steps.len() {
             if !self.steps[first].used {
@@ -149,7 +153,7 @@ impl Tracer {
         Some(if area < crumb * crumb { Cut::Nothing } else { Cut::Part(path, area) })
     }
 
-    /// Draws the loop that enters the circle at a gate; twice its area.
+    /// Traces the loop that enters the circle at a crossing, adds it to the path, and returns twice its area.
     fn follow(&mut self, first: usize, path: &mut BezPath, px: f64) -> Option<f64> {
         let (mut gate, mut area2) = (first, 0.0);
         loop {
@@ -159,7 +163,7 @@ impl Tracer {
             for (k, point) in thin.iter().enumerate() {
                 match (gate == first, k) {
                     (true, 0) => path.move_to(self.disc.centre + *point),
-                    // The arc before ends here.
+                    // The preceding arc ends at this point.
                     (false, 0) => {}
                     _ => path.line_to(self.disc.centre + *point),
                 }
@@ -182,7 +186,7 @@ impl Tracer {
     }
 
     /// The points of the border from the start of a step to where it leaves the circle or closes, and the
-    /// last step.
+    /// index of the last step.
     fn chain(&mut self, first: usize) -> Option<(Vec<Vec2>, usize)> {
         let start = self.steps[first].ends[0];
         let closes = !self.steps[first].rim[0];
@@ -196,8 +200,8 @@ impl Tracer {
             }
             let begin = self.steps.partition_point(|step| order(step.ends[0], ends[1]).is_lt());
             let from_here = self.steps[begin..].iter().take_while(|step| step.ends[0] == ends[1]);
-            // Where several go on, the first one met when turning from where the border came from, through
-            // the domain.
+            // Where several steps continue, take the first one met when turning through the domain from the
+            // direction of arrival.
             let back = ends[0] - ends[1];
             let open = from_here.enumerate().filter(|(_, step)| !step.used && !step.rim[0]);
             let turned = open.map(|(k, step)| (turn(back, step.ends[1] - step.ends[0]), begin + k));
@@ -205,7 +209,7 @@ impl Tracer {
         }
     }
 
-    /// Adds a closed chain of points, which ends where it begins.
+    /// Adds a closed chain of points to the path. Its last point equals its first.
     fn draw_loop(&self, points: &[Vec2], path: &mut BezPath, px: f64) {
         let far = |p: &Vec2| (*p - points[0]).hypot2();
         let Some(middle) = (0..points.len()).max_by(|a, b| far(&points[*a]).total_cmp(&far(&points[*b])))
@@ -228,14 +232,13 @@ fn order(a: Vec2, b: Vec2) -> std::cmp::Ordering {
     a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
 }
 
-/// The angle from one direction to another, turning from y to x, above 0 up to a whole turn.
+/// The angle from one direction to another, turning from y to x, in (0, 2π].
 fn turn(from: Vec2, to: Vec2) -> f64 {
     let angle = atan2(to.cross(from), to.dot(from));
     if angle > 0.0 { angle } else { angle + TAU }
 }
 
-/// A chain without the points that lie nearer than `off` to the line between those kept (Douglas and
-/// Peucker 1973).
+/// Simplifies a chain: points closer than `off` to the chord are removed (Douglas and Peucker 1973).
 fn thinned(points: &[Vec2], off: f64) -> Vec<Vec2> {
     let mut keep = vec![false; points.len()];
     let mut open = vec![(0, points.len() - 1)];
@@ -268,7 +271,7 @@ mod tests {
 
     const DISC: Disc = Disc { centre: Point::new(30.0, 20.0), radius: 4.0 };
 
-    /// Cuts, and holds the path against the area.
+    /// The area of the clipped disc, checked against the path.
     fn cut(border: &[[Point; 2]], inside: bool) -> f64 {
         match DISC.cut(border, inside, 1.0) {
             Cut::Whole => PI * 16.0,
@@ -300,7 +303,7 @@ mod tests {
     fn halves_quarters_and_segments() {
         let half = [[at(-9.0, 0.0), at(9.0, 0.0)]];
         assert!((cut(&half, true) - 8.0 * PI).abs() < 1e-9);
-        // In two pieces that meet in the middle, and turned back there.
+        // The same in two pieces that meet at the centre and bend there.
         let bent = [[at(-9.0, 0.0), at(0.0, 0.0)], [at(0.0, 0.0), at(0.0, -9.0)]];
         assert!((cut(&bent, true) - 12.0 * PI).abs() < 1e-9);
         let back = bent.map(|[a, b]| [b, a]);
@@ -309,7 +312,7 @@ mod tests {
         let strip = [[at(-9.0, -1.0), at(9.0, -1.0)], [at(9.0, 1.0), at(-9.0, 1.0)]];
         let segment = 16.0 * crate::geometry::numbers::portable_math::acos(0.25) - 15.0_f64.sqrt();
         assert!((cut(&strip, true) - (16.0 * PI - 2.0 * segment)).abs() < 1e-9);
-        // All but the strip.
+        // The complement of the strip.
         let outside = strip.map(|[a, b]| [b, a]);
         assert!((cut(&outside, false) - 2.0 * segment).abs() < 1e-9);
     }
@@ -318,7 +321,7 @@ mod tests {
     fn what_only_touches_cuts_nothing_off() {
         for x in [4.0, 4.0 + 1e-12, 4.0 - 1e-12] {
             assert!((cut(&[[at(x, -9.0), at(x, 9.0)]], true) - 16.0 * PI).abs() < 2e-3, "{x}");
-            // The corner of a square on the circle, and a side along its tangent.
+            // A square that touches the circle with a corner, and one with a side along the tangent.
             let square = [at(x, 0.0), at(x + 2.0, -2.0), at(x + 4.0, 0.0), at(x + 2.0, 2.0)];
             let mut hole = ring(&square);
             hole.iter_mut().for_each(|ends| ends.reverse());
@@ -333,7 +336,7 @@ mod tests {
         assert!((cut(&island, false) - PI).abs() < 1e-3);
         let hole: Vec<[Point; 2]> = island.iter().map(|[a, b]| [*b, *a]).collect();
         assert!((cut(&hole, true) - 15.0 * PI).abs() < 1e-3);
-        // Two triangles that touch in a point.
+        // Two triangles that share one point.
         let left = ring(&[at(0.0, 0.0), at(-2.0, 1.0), at(-2.0, -1.0)]);
         let right = ring(&[at(0.0, 0.0), at(2.0, -1.0), at(2.0, 1.0)]);
         assert!((cut(&[left, right].concat(), true) - 4.0).abs() < 1e-9);

@@ -1,4 +1,4 @@
-//! [`Disc`]: a dot as cubic curves.
+//! [`Disc`]: a dot drawn with cubic curves.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,7 @@ use kurbo::{BezPath, Point, Vec2};
 use crate::geometry::numbers::portable_math::{cos, sin, tan};
 use crate::geometry::numbers::tolerance;
 
-/// A dot, in user units.
+/// Dot in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Disc {
     pub centre: Point,
@@ -15,7 +15,7 @@ pub(crate) struct Disc {
 }
 
 impl Disc {
-    /// Adds the whole dot to a path, turning from x to y; `px` is the length of a px.
+    /// Adds the whole circle to a path, turning from x to y. `px` is the length of a px in user units.
     pub fn draw(self, path: &mut BezPath, px: f64) {
         let start = Vec2::new(self.radius, 0.0);
         path.move_to(self.centre + start);
@@ -23,8 +23,8 @@ impl Disc {
         path.close_path();
     }
 
-    /// Adds an arc from an angle on to a path that ends where the arc begins; it ends at `end`, as seen
-    /// from the centre.
+    /// Adds an arc to a path whose current point is the start of the arc. It starts at angle `from` and ends
+    /// at `end`, relative to the centre.
     pub fn arc(self, path: &mut BezPath, from: f64, sweep: f64, end: Vec2, px: f64) {
         let near = |n: &f64| self.radius * off_circle(*n) < tolerance::DOT_PX * px;
         let a_turn = [3.0, 4.0, 6.0].into_iter().find(near).unwrap_or(8.0);
@@ -47,7 +47,8 @@ impl Disc {
     }
 }
 
-/// How far `n` cubics a turn are off a circle of radius 1: two by 0.0184, and it goes with the sixth power.
+/// Greatest distance of `n` cubics per turn from the unit circle. It is 0.0184 for two cubics and falls with
+/// the sixth power of `n`.
 fn off_circle(n: f64) -> f64 {
     let angle = 2.0 / n;
     0.0184 * (angle * angle * angle) * (angle * angle * angle)

@@ -1,4 +1,4 @@
-//! [`Domains`]: the parts of the page that marks fill and do not leave.
+//! [`Domains`]: groups of cells that marks fill without crossing their borders.
 
 use std::collections::BTreeMap;
 
@@ -7,28 +7,28 @@ use kurbo::Point;
 use crate::regions::Ground;
 use crate::regions::hatch_regions::hatch_map::BorderPiece;
 
-/// No domain: paper, and cells that stay blank.
+/// Stands for no domain: paper, and cells that stay blank.
 pub(crate) const BLANK: u32 = u32::MAX;
 
-/// To which domain each cell belongs.
+/// The domain of each cell.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Domains {
     of: Vec<u32>,
 }
 
 impl Domains {
-    /// The inked cells of each facet are one domain.
+    /// Joins the inked cells of each facet.
     pub fn of_facets(ground: &Ground, inked: &[bool]) -> Self {
         let of = |(cell, inked): (_, &bool)| if *inked { ground.cells[cell as usize].facet } else { BLANK };
         Self { of: (0u32..).zip(inked).map(of).collect() }
     }
 
-    /// Each inked cell is a domain of its own.
+    /// Makes each inked cell its own domain.
     pub fn of_cells(inked: &[bool]) -> Self {
         Self { of: (0u32..).zip(inked).map(|(cell, inked)| if *inked { cell } else { BLANK }).collect() }
     }
 
-    /// The inked cells of one part, material and tone are one domain.
+    /// Joins the inked cells of one part, material and tone.
     pub fn of_looks(ground: &Ground, inked: &[bool]) -> Self {
         let mut numbers = BTreeMap::new();
         let of = |(cell, inked): (u32, &bool)| {
@@ -38,20 +38,20 @@ impl Domains {
         Self { of: (0u32..).zip(inked).map(of).collect() }
     }
 
-    /// The domain of a cell.
+    /// The domain of a cell, or [`BLANK`].
     pub fn of(&self, cell: u32) -> u32 {
         self.of.get(cell as usize).copied().unwrap_or(BLANK)
     }
 
-    /// The domains on the two sides of a piece, if they differ.
+    /// The domains on the two sides of a border piece, if they differ.
     pub fn parted(&self, piece: &BorderPiece) -> Option<[u32; 2]> {
         let sides = piece.sides.map(|cell| self.of(cell));
         (sides[0] != sides[1]).then_some(sides)
     }
 }
 
-/// A piece of border of what is `within`, directed so that this lies to the right as the page is seen
-/// (y down), with the cell there; none if it lies on both sides or neither.
+/// A border piece of the cells that are `within`, and the cell on that side. The piece is directed so that
+/// the cell lies to its right on the page (y down). `None` if both sides or neither are within.
 pub(crate) fn border(piece: &BorderPiece, within: impl Fn(u32) -> bool) -> Option<([Point; 2], u32)> {
     let [right, left] = piece.sides.map(within);
     let [a, b] = piece.ends;
@@ -62,7 +62,7 @@ pub(crate) fn border(piece: &BorderPiece, within: impl Fn(u32) -> bool) -> Optio
     }
 }
 
-/// The point of a segment nearest to a point.
+/// The point of a segment closest to a point.
 pub(crate) fn nearest([a, b]: [Point; 2], p: Point) -> Point {
     let way = b - a;
     let length2 = way.hypot2();

@@ -1,28 +1,28 @@
-//! Where lines lie on the ground: cut exactly where they cross its borders.
+//! Clips polylines to the cells of the ground, exactly where they cross its borders.
 //!
-//! A line is compared with the pieces of border in the tiles that it passes; no polygon is built.
+//! A line is compared with the border pieces in the tiles that it passes. No polygon is built.
 
 use kurbo::{Point, Vec2};
 
 use crate::regions::Ground;
 
-/// A place on a polyline: the number of a segment and the part of it that is behind, as one number.
+/// Position on a polyline: the number of a segment plus the fraction of that segment already passed.
 pub type Place = f64;
 
-/// A stretch of a line that may be drawn.
+/// Span of a polyline that may be drawn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stretch {
-    /// Where it begins and ends.
+    /// Start of the span.
     pub from: Place,
-    /// See `from`.
+    /// End of the span.
     pub to: Place,
-    /// The cell in which it begins.
+    /// The cell where the span starts.
     pub cell: u32,
-    /// Whether its start and its end are at a border, and not those of the line.
+    /// Whether the start and the end lie on a border, rather than at the ends of the line.
     pub cut: [bool; 2],
 }
 
-/// The stretches of a polyline that lie in wanted cells, none of them across the border of a surface.
+/// The spans of a polyline in wanted cells. No span crosses the border of a surface.
 #[must_use]
 pub fn stretches(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) -> Vec<Stretch> {
     let mut crossings: Vec<(f64, u32, bool)> = Vec::new();
@@ -38,7 +38,8 @@ pub fn stretches(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) 
         let [right, left] = piece.sides;
         if along { (right, left) } else { (left, right) }
     };
-    // Through a corner of borders several pieces are crossed at one place, in no order to rely on.
+    // Where borders meet in a corner, several pieces are crossed at one position and their order is
+    // unreliable. There the cell is looked up at a point of the span.
     let is_corner = |k: usize| {
         let near = |other: Option<&(Place, u32, bool)>| {
             other.is_some_and(|(place, ..)| (place - places[k].0).abs() < SAME_PLACE)
@@ -78,10 +79,10 @@ pub fn stretches(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) 
     out
 }
 
-/// Places that differ by less are one.
+/// Positions that differ by less than this are the same.
 const SAME_PLACE: f64 = 1e-9;
 
-/// The point at a place of a polyline.
+/// The point at a position of a polyline. The position is clamped to the line.
 #[must_use]
 pub fn point_at(line: &[Point], place: Place) -> Point {
     let k = (place.max(0.0) as usize).min(line.len().saturating_sub(2));
@@ -92,7 +93,7 @@ pub fn point_at(line: &[Point], place: Place) -> Point {
     }
 }
 
-/// The part of a polyline between two places.
+/// The part of a polyline between two positions.
 #[must_use]
 pub fn between(line: &[Point], from: Place, to: Place) -> Vec<Point> {
     let mut points = vec![point_at(line, from)];
@@ -109,7 +110,7 @@ pub fn length(line: &[Point]) -> f64 {
     line.windows(2).map(|pair| norm(pair[1] - pair[0])).sum()
 }
 
-/// Length of a vector, the same on every machine.
+/// Euclidean length of a vector. Uses only square roots, so every machine gives the same result.
 pub(crate) fn norm(v: Vec2) -> f64 {
     v.hypot2().sqrt()
 }
@@ -121,7 +122,7 @@ pub(crate) mod tests {
     use crate::regions::Look;
     use crate::regions::hatch_regions::hatch_map::{BorderPiece, Cell};
 
-    /// Two squares side by side, 10 wide, from (0, 0): bins 0 and 1, of one facet or of two.
+    /// Two squares of side 10 side by side from (0, 0), in bins 0 and 1, on one facet or on two.
     pub fn two_squares(parts_surfaces: bool) -> Ground {
         let look = |bin: u16| Look {
             part: PartId(0),

@@ -1,19 +1,21 @@
-//! [`Edges`]: the borders of two areas on a grid, and that of what both have in common.
+//! [`Edges`]: the borders of two areas on an integer grid, and the border of their intersection.
 //!
-//! Edges are cut where they cross, and the new points go to the grid; all tests are exact in integers. Source: the boundary of an
-//! intersection is made of those pieces of both boundaries that have it on one side only (Margalit and Knott, An algorithm for
-//! computing the union, intersection or difference of two polygons, Computers & Graphics 1989).
+//! Edges are split where they cross. New points are rounded to the grid, and all tests are exact in integers.
+//!
+//! Source: Margalit and Knott, An algorithm for computing the union, intersection or difference of two
+//! polygons, Computers & Graphics 1989. The border of an intersection consists of those pieces of both
+//! borders that have it on one side only.
 
 use std::collections::BTreeMap;
 
-/// A point of the grid.
+/// Point of the integer grid.
 pub(crate) type At = [i64; 2];
 
-/// Rounds of cutting at most: rounding may bring new crossings, though seldom.
+/// Greatest number of splitting rounds. Rounding can create new crossings, but rarely does.
 const MOST_ROUNDS: usize = 12;
 
-/// An edge between two points of the grid, the lesser first: how often the shape's own border runs along it, against the
-/// other way, and whether the domain's does.
+/// Edge between two grid points, the smaller point first. `winding` counts how often the shape's border runs
+/// along it. Opposite runs count negative. `parts` says whether the domain's border runs along it.
 #[derive(Debug, Clone, Copy)]
 struct Edge {
     ends: [At; 2],
@@ -21,12 +23,13 @@ struct Edge {
     parts: bool,
 }
 
-/// The borders of a shape, which winds around what is within, and of a domain, whose border parts it from the rest.
+/// The borders of two areas: a shape, filled by winding number, and a domain, which lies on one side of its
+/// border.
 #[derive(Debug, Default)]
 pub(crate) struct Edges(Vec<Edge>);
 
 impl Edges {
-    /// An edge of the shape, that often, or of the domain.
+    /// Adds an edge of the shape with a winding, or an edge of the domain.
     pub fn add(&mut self, [a, b]: [At; 2], winding: i64, parts: bool) {
         if a != b {
             let (ends, winding) = if a < b { ([a, b], winding) } else { ([b, a], -winding) };
@@ -34,12 +37,13 @@ impl Edges {
         }
     }
 
-    /// Cut until edges meet at ends only, and no two are alike; none if that takes too long.
+    /// Splits the edges until they meet at their ends only and are all distinct. `None` if that takes too
+    /// many rounds.
     pub fn cut(mut self) -> Option<Self> {
         for _ in 0..MOST_ROUNDS {
             self.merge();
             let mut cuts: Vec<Vec<At>> = vec![Vec::new(); self.0.len()];
-            // Along x, so that only those that may meet are compared.
+            // Edges are sorted by x, so only those with overlapping x ranges are compared.
             for i in 0..self.0.len() {
                 for j in i + 1..self.0.len() {
                     if self.0[j].ends[0][0] > self.0[i].ends[1][0] + 1 {
@@ -67,7 +71,7 @@ impl Edges {
         None
     }
 
-    /// Edges that coincide become one; those that part nothing go.
+    /// Merges coincident edges and drops those that separate nothing.
     fn merge(&mut self) {
         let mut all: BTreeMap<[At; 2], (i64, bool)> = BTreeMap::new();
         for edge in &self.0 {
@@ -79,7 +83,7 @@ impl Edges {
         self.0 = all.into_iter().map(of).filter(|edge| edge.winding != 0 || edge.parts).collect();
     }
 
-    /// The border of what lies in both, end to end.
+    /// The closed rings around the intersection of shape and domain.
     pub fn common(&self) -> Vec<Vec<At>> {
         let mut leads: BTreeMap<At, Vec<At>> = BTreeMap::new();
         for edge in &self.0 {
@@ -115,10 +119,11 @@ impl Edges {
         rings
     }
 
-    /// How often the shape winds around what lies to the right of an edge, with y upwards, and whether that is in the domain.
+    /// The winding number of the shape to the right of an edge (y upwards), and whether that side is in the
+    /// domain.
     fn beside(&self, edge: &Edge) -> (i64, bool) {
         let [a, b] = edge.ends;
-        // Along y where the edge lies along x.
+        // The ray runs along x, or along y for a horizontal edge.
         let [u, v] = if a[1] == b[1] { [1, 0] } else { [0, 1] };
         let middle = [a[0] + b[0], a[1] + b[1]];
         let (mut winding, mut within) = (0, false);
@@ -130,7 +135,7 @@ impl Edges {
             {
                 continue;
             }
-            // Whether it is met on the way from the middle to where u grows.
+            // Whether the ray from the edge's middle towards greater `u` meets the other edge.
             let side = cross(minus(d, c), minus(middle, c));
             let rises = d[v] > c[v];
             let turned = if u == 0 { side } else { -side };
@@ -139,7 +144,7 @@ impl Edges {
                 within ^= other.parts;
             }
         }
-        // That was on the side where u grows.
+        // The counts so far describe the side with greater `u`.
         let is_right = u == 0 && b[1] > a[1];
         if is_right { (winding, within) } else { (winding - edge.winding, within != edge.parts) }
     }
@@ -157,7 +162,8 @@ fn cross(a: At, b: At) -> i64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
-/// Tells where two segments are to be cut: the first or the second, and at which point.
+/// Calls `cut` for each point where a segment has to be split: whether it is the first segment, and the
+/// point.
 fn meet(first: [At; 2], second: [At; 2], mut cut: impl FnMut(bool, At)) {
     let low = |s: [At; 2], k: usize| s[0][k].min(s[1][k]);
     let high = |s: [At; 2], k: usize| s[0][k].max(s[1][k]);
@@ -192,7 +198,7 @@ fn meet(first: [At; 2], second: [At; 2], mut cut: impl FnMut(bool, At)) {
     }
 }
 
-/// Whether a point lies within half a step of a segment, between its ends.
+/// Whether a point lies within half a grid step of a segment, strictly between its ends.
 fn is_on(p: At, [a, b]: [At; 2]) -> bool {
     let (way, from) = (minus(b, a), minus(p, a));
     let (along, whole) = (dot(way, from), dot(way, way));

@@ -1,24 +1,29 @@
-//! [`snip`]: what a part of the page leaves of a filled shape.
+//! [`snip`]: a filled shape clipped to a part of the page.
 //!
-//! The borders near the shape are closed along a box around it. Both then lie on a fine grid, are cut where they cross, and
-//! all tests are exact in integers ([`super::polygon_boolean`]), so that what is left is closed whatever they do.
+//! The borders near the shape are closed along a box around it. Shape and borders are rounded to a fine grid
+//! and split where they cross. All tests are exact in integers ([`super::polygon_boolean`]), so the result is always
+//! closed.
 
 use kurbo::{BezPath, Point, Rect};
 
 use super::polygon_boolean::{At, Edges};
 
-/// Steps of the grid along the longer side of the box.
+/// Grid steps along the longer side of the box.
 const STEPS: f64 = 4_194_304.0;
 
-/// The box leaves at least this part of the shape's size around it; a wider one is tried where a border runs into its corner.
+/// Margins of the box as shares of the shape's size. If a border runs into a corner of the box, the next one
+/// is tried.
 const MARGINS: [f64; 4] = [0.017, 0.031, 0.053, 0.097];
 
-/// What of it there is on the left, above, on the right and below: borders may run along diagonals.
+/// Share of the margin on the left, top, right and bottom. They differ because borders may run along
+/// diagonals.
 const UNEVEN: [f64; 4] = [0.83, 0.62, 0.71, 1.0];
 
-/// What is left of a shape, filled by the nonzero rule, in the part of the page that `border` parts from the rest: at least all of
-/// its pieces that come into the shape's box or near it. `is_in` tells whether a point away from the border lies in that part. None
-/// if nothing is left.
+/// The part of a shape, filled by the nonzero rule, inside the domain bounded by `border`. `None` if nothing
+/// is left.
+///
+/// `border` has at least all pieces that enter the shape's box or come near it. `is_in` returns whether a
+/// point away from the border lies in the domain.
 pub(crate) fn snip(
     rings: &[Vec<Point>],
     border: &[[Point; 2]],
@@ -48,16 +53,16 @@ pub(crate) fn snip(
     (!tried.elements().is_empty()).then_some(tried)
 }
 
-/// How the inside of a shape is told.
+/// Fill rule of a shape.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Filling {
-    /// Where its border winds around more often one way than the other.
+    /// Nonzero: inside where the winding number is not 0.
     NonZero,
-    /// Where its border winds around an odd number of times.
+    /// Even-odd: inside where the winding number is odd.
     EvenOdd,
 }
 
-/// The border of all that lies in any of some shapes, with what is within on one side of it all along. None if there is nothing.
+/// The border of the union of several shapes, with a consistent orientation. `None` if it is empty.
 pub(crate) fn united(shapes: &[(Vec<Vec<Point>>, Filling)]) -> Option<Vec<Vec<Point>>> {
     let whole: Vec<Vec<Point>> = shapes.iter().flat_map(|(rings, _)| rings).cloned().collect();
     let grid = Grid::around(box_of(&whole)?, MARGINS[0])?;
@@ -91,24 +96,24 @@ pub(crate) fn united(shapes: &[(Vec<Vec<Point>>, Filling)]) -> Option<Vec<Vec<Po
     Some(rings.iter().map(|ring| ring.iter().map(|p| grid.point(*p)).collect()).collect())
 }
 
-/// How far a border may matter to a shape of a box.
+/// The area around a shape's bounding box where borders have to be known.
 pub(crate) fn reach(bounds: Rect) -> Rect {
     let most = bounds.width().max(bounds.height()) * (MARGINS[MARGINS.len() - 1] + 0.01);
     bounds.inflate(most, most)
 }
 
-/// The box around rings.
+/// The bounding box of rings.
 pub(crate) fn box_of(rings: &[Vec<Point>]) -> Option<Rect> {
     let mut points = rings.iter().flatten();
     let first = points.next()?;
     Some(points.fold(Rect::from_points(*first, *first), |found, p| found.union_pt(*p)))
 }
 
-/// The grid of a box around a shape.
+/// Integer grid over a box around a shape.
 struct Grid {
     origin: Point,
     step: f64,
-    /// The far corner of the box; the near one is 0.
+    /// Far corner of the box. The near corner is 0.
     far: At,
 }
 
@@ -134,7 +139,7 @@ impl Grid {
         self.origin + kurbo::Vec2::new(x as f64, y as f64) * self.step
     }
 
-    /// Adds the border of the domain within the box, closed along the box; none if it runs into a corner.
+    /// Adds the border of the domain inside the box, closed along the box. `None` if it runs into a corner.
     fn add_domain(
         &self,
         border: &[[Point; 2]],
@@ -142,7 +147,7 @@ impl Grid {
         edges: &mut Edges,
     ) -> Option<()> {
         let [right, bottom] = self.far;
-        // Where borders pass through the box's own border: how far around it, clockwise.
+        // Crossings with the box, as distances around its border, clockwise.
         let mut gates: Vec<i64> = Vec::new();
         for [a, b] in border {
             let Some([from, to]) = self.within([*a, *b]) else { continue };
@@ -163,7 +168,8 @@ impl Grid {
         if gates.len() % 2 == 1 || gates.iter().any(|gate| corners.contains(gate)) {
             return None;
         }
-        // The middle of the widest stretch of the box's border between gates tells on which side it is.
+        // The middle of the widest stretch of the box between crossings is tested. Stretches alternate from
+        // there.
         let round = corners[4];
         let around = |way: i64| -> At {
             let way = way.rem_euclid(round);
@@ -201,7 +207,7 @@ impl Grid {
         Some(())
     }
 
-    /// What lies of a segment in the box, and whether its ends were cut off.
+    /// The part of a segment inside the box, and whether each end was cut off.
     fn within(&self, [a, b]: [Point; 2]) -> Option<[(At, bool); 2]> {
         let [a, b] = [a, b].map(|p| (p - self.origin) / self.step);
         let way = b - a;
@@ -223,7 +229,7 @@ impl Grid {
             let [mut x, mut y] = [p.x.round() as i64, p.y.round() as i64].map(|v| v.max(0));
             (x, y) = (x.min(self.far[0]), y.min(self.far[1]));
             if is_cut {
-                // It is on the border, whatever rounding says.
+                // Snap a cut end to the nearest side of the box, against rounding.
                 let off = [(0, x), (1, self.far[0] - x), (2, y), (3, self.far[1] - y)];
                 match off.into_iter().min_by_key(|(_, off)| *off) {
                     Some((0, _)) => x = 0,
@@ -246,7 +252,7 @@ mod tests {
     use crate::geometry::numbers::noise::{hash, unit};
     use crate::geometry::numbers::portable_math::{cos, sin};
 
-    /// A star with so many corners, some of them on whole numbers.
+    /// Star with the given number of corners, some of them on whole numbers.
     fn star(case: u64, corners: u64, middle: Point, size: f64) -> Vec<Point> {
         let corner = |k: u64| {
             let angle = std::f64::consts::TAU * k as f64 / corners as f64;
@@ -270,7 +276,7 @@ mod tests {
         for case in 0..60 {
             let middle =
                 |k: u64| Point::new(20.0 * unit(hash(case, &[1, k])), 20.0 * unit(hash(case, &[2, k])));
-            // A star with a smaller one taken out of it, or with one that overlaps it turning the same way.
+            // A star with a smaller one cut out of it, or with an overlapping one of the same orientation.
             let mut rings = vec![star(case, 9, middle(0), 12.0), star(case, 5, middle(0), 4.0)];
             if case % 2 == 0 {
                 rings[1].reverse();

@@ -1,9 +1,9 @@
-//! [`dots`]: half-tone screens, dots on a lattice that is fixed on the page, as large as the tone asks.
+//! [`dots`]: half-tone screens, dots on a lattice fixed to the page and sized by tone.
 //!
-//! A dot takes the size that its lattice point asks for and is cut where its surface ends: the screen is a
-//! texture that each surface shows through. The covered part of the lattice is that of round dots, which
-//! overlap from π/4 on: what stays white then shrinks towards the middles between them, so a darker screen
-//! keeps all ink of a lighter one.
+//! Each dot has the size that the tone at its lattice point needs, and is clipped where its surface ends.
+//!
+//! From a coverage of π/4 on, dots overlap. The white area then shrinks towards the middles between lattice
+//! points. A darker screen therefore contains all ink of a lighter one.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
 
@@ -19,43 +19,45 @@ use crate::hatching::clip::domain::{BLANK, Domains, border, nearest};
 use crate::regions::Ground;
 use crate::regions::hatch_regions::hatch_map::PAPER;
 
-/// A screen of dots; lengths in user units.
+/// Half-tone screen of dots. Lengths are in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DotScreen {
-    /// From one dot to the next.
+    /// Distance between neighbouring dots.
     pub pitch: f64,
-    /// Of the rows against the x axis, radians, turning from x to y.
+    /// Angle of the rows from the x axis, radians, turning from x to y.
     pub angle: f64,
     /// A point of the lattice.
     pub origin: Point,
-    /// What becomes of dots on the border between two tones of one surface.
+    /// Treatment of dots on the border between two tones of one surface.
     pub tone_borders: ToneBorders,
-    /// The length of a px.
+    /// The length of a px in user units.
     pub px: f64,
 }
 
-/// What becomes of dots on the border between two tones of one surface.
+/// Treatment of dots on the border between two tones of one surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ToneBorders {
-    /// They stay whole, as large as the tone at their middle asks. Only a border to blank paper cuts them.
+    /// Dots stay whole, sized by the tone at their centre. Only a border to blank paper clips them.
     #[default]
     Whole,
-    /// Each tone cuts its own dots, as shading film is cut.
+    /// Each tone clips its own dots, as cut shading film does.
     Cut,
 }
 
-/// The marks of a cell.
+/// The dots of one cell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CellDots {
-    /// The cell in which the middles of the marks lie, or from which they were cut.
+    /// The cell that contains the dot centres, or whose dots were clipped.
     pub cell: u32,
-    /// All of them, turning from x to y; to be filled by the nonzero rule.
+    /// All dots as one path that turns from x to y. Fill it by the nonzero rule.
     pub path: BezPath,
 }
 
-/// The dots of a screen, by cells. `coverage` is the part of the area (0 to 1) to be inked in a cell at a
-/// point; it is asked at middles of dots within the cell, and for dots that reach in from elsewhere, at the
-/// nearest point of the cell's border. Cells where it is 0 wherever asked stay blank.
+/// The dots of a screen, grouped by cell.
+///
+/// `coverage` returns the share of the area (0 to 1) to be inked in a cell at a point. It is sampled at dot
+/// centres inside the cell, and for dots that reach in from outside, at the nearest point of the cell's
+/// border. A cell whose samples are all 0 stays blank.
 #[must_use]
 pub fn dots(
     ground: &Ground,
@@ -69,7 +71,7 @@ pub fn dots(
     let least = tolerance::DOT_PX * screen.px / pitch;
     let size = Size { coverage, least };
 
-    // The size that each lattice point asks for in its own cell, row by row.
+    // The size at each lattice point in its own cell, row by row.
     let rows: Vec<Vec<Spot>> =
         (0..scan.rows()).into_par_iter().map(|row| spots(&scan, row, &grid, &size)).collect();
     let mut inked = vec![false; ground.cells.len()];
@@ -101,15 +103,15 @@ pub fn dots(
     gathered(ground.cells.len(), &marks, screen.px)
 }
 
-/// Screens of more dots than this are too fine to be seen, and are made coarser.
+/// Greatest number of dots on a page. Finer screens could not be seen; they are made coarser.
 pub(crate) const MOST_DOTS: f64 = 4e6;
 
-/// A lattice point in a cell.
+/// Lattice point inside a cell.
 #[derive(Debug, Clone, Copy)]
 struct Spot {
     column: i64,
     cell: u32,
-    /// In steps of the lattice; 0 for none.
+    /// Radius in lattice steps; 0 for no dot.
     radius: f64,
 }
 
@@ -125,21 +127,21 @@ fn spots(scan: &Scan, row: usize, grid: &Lattice, size: &Size) -> Vec<Spot> {
     spots
 }
 
-/// How large dots are.
+/// Dot sizes by coverage.
 struct Size<'a> {
     coverage: &'a (dyn Fn(u32, Point) -> f64 + Sync),
     least: f64,
 }
 
 impl Size<'_> {
-    /// In steps of the lattice; 0 for none.
+    /// Radius in lattice steps; 0 for no dot.
     fn radius(&self, cell: u32, p: Point) -> f64 {
         let radius = radius((self.coverage)(cell, p));
         if radius < self.least { 0.0 } else { radius }
     }
 }
 
-/// The radius at which discs around the points of a square lattice of step 1 cover a part of the page.
+/// The radius where discs on a unit square lattice cover the given share of the page.
 fn radius(coverage: f64) -> f64 {
     if coverage.is_nan() || coverage <= 0.0 {
         return 0.0;
@@ -150,7 +152,7 @@ fn radius(coverage: f64) -> f64 {
     if coverage >= 1.0 {
         return LARGEST;
     }
-    // Covered is the disc without the four segments that its neighbours cover as well.
+    // The covered area is the disc minus the four segments that its neighbours cover too.
     let covered = |r: f64| PI * r * r - 4.0 * (r * r * acos(0.5 / r) - 0.5 * (r * r - 0.25).sqrt());
     let (mut low, mut high) = (0.5, FRAC_1_SQRT_2);
     for _ in 0..RADIUS_STEPS {
@@ -160,13 +162,13 @@ fn radius(coverage: f64) -> f64 {
     high
 }
 
-/// Halves the interval of radii to a millionth.
+/// Bisections that narrow the radius interval to a millionth.
 const RADIUS_STEPS: u32 = 20;
 
-/// Covers all, a little more than half the diagonal of a square.
+/// Radius that covers everything, slightly more than half the diagonal of a unit square.
 const LARGEST: f64 = FRAC_1_SQRT_2 + 1e-4;
 
-/// A lattice point from which a dot may reach over a piece of border of a domain.
+/// Lattice point whose dot may reach across a border piece of a domain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Meeting {
     row: i64,
@@ -182,7 +184,7 @@ fn meetings(ground: &Ground, grid: &Lattice, domains: &Domains) -> Vec<Meeting> 
         let way = high - low;
         let mut found = Vec::new();
         for row in (low.y - LARGEST).ceil() as i64..=(high.y + LARGEST).floor() as i64 {
-            // The stretch of the piece that this row may reach.
+            // The stretch of the piece within reach of this row.
             let at = |y: f64| low.x + way.x * ((y - low.y) / way.y).clamp(0.0, 1.0);
             let (from, to) = if way.y > 0.0 {
                 (at(row as f64 - LARGEST), at(row as f64 + LARGEST))
@@ -207,7 +209,7 @@ fn meetings(ground: &Ground, grid: &Lattice, domains: &Domains) -> Vec<Meeting> 
     all
 }
 
-/// A dot or what is left of it.
+/// Dot, whole or clipped.
 enum Dot {
     Whole(u32, Disc),
     Part(u32, BezPath),
@@ -222,7 +224,7 @@ struct Cutter<'a> {
 }
 
 impl Cutter<'_> {
-    /// The dots around the lattice points of a row: those in cells, and those that reach in.
+    /// The dots around the lattice points of a row: those inside cells and those that reach in from outside.
     fn row(&self, row: i64, spots: &[Spot], meetings: &[Meeting]) -> Vec<Dot> {
         let mut dots = Vec::new();
         let mut spots = spots.iter().peekable();
@@ -253,7 +255,8 @@ impl Cutter<'_> {
         }
     }
 
-    /// The dot of a lattice point in a domain whose border it meets; `own` if the point lies within.
+    /// The dot of a lattice point in a domain whose border it touches. `own` is set if the point lies in that
+    /// domain.
     fn cut(&self, met: &[Meeting], own: Option<&Spot>) -> Option<Dot> {
         let Meeting { row, column, domain, .. } = met[0];
         let centre = self.grid.point(column as f64, row as f64);
@@ -283,7 +286,7 @@ impl Cutter<'_> {
     }
 }
 
-/// Dots joined to one path a cell.
+/// Joins dots to one path per cell.
 fn gathered(cells: usize, rows: &[Vec<Dot>], px: f64) -> Vec<CellDots> {
     let mut of_cell: Vec<Vec<&Dot>> = vec![Vec::new(); cells];
     for dot in rows.iter().flatten() {
@@ -318,7 +321,8 @@ mod tests {
             let r = radius(asked);
             assert!(r > before);
             before = r;
-            // The square around a lattice point by samples; its neighbours reach in no farther than it does.
+            // Samples the square around a lattice point. By symmetry its neighbours reach in no farther than
+            // its own disc.
             let n = 400;
             let within = (0..n * n).filter(|k| {
                 let [x, y] = [k % n, k / n].map(|k| (f64::from(k) + 0.5) / f64::from(n) - 0.5);

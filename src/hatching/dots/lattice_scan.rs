@@ -1,7 +1,7 @@
-//! [`Scan`]: the cells that the rows of a turned grid run through.
+//! [`Scan`]: the cells that the rows of a rotated lattice pass through.
 //!
-//! Each row is met with the pieces of border that cross it, so what it costs to know the cells of all
-//! points of a grid depends on the borders, not on the points.
+//! Each row is intersected with the border pieces that cross it. The cost of finding the cells of all lattice
+//! points therefore depends on the borders, not on the number of points.
 
 use crate::parallel::prelude::*;
 use kurbo::{Point, Vec2};
@@ -12,55 +12,55 @@ use crate::geometry::numbers::tolerance;
 use crate::regions::Ground;
 use crate::regions::hatch_regions::hatch_map::PAPER;
 
-/// A square grid, turned and laid on the page.
+/// Square lattice, rotated and placed on the page.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Lattice {
     pub origin: Point,
-    /// Unit vector along its rows; columns run a quarter turn from it, from x to y.
+    /// Unit vector along the rows. Columns run a quarter turn from it, from x to y.
     along: Vec2,
-    /// User units from one point to the next.
+    /// Distance between neighbouring points, user units.
     pub step: f64,
 }
 
 impl Lattice {
-    /// A grid whose rows run at `angle` radians from the x axis, turning from x to y.
+    /// A lattice whose rows run at `angle` radians from the x axis, turning from x to y.
     pub fn new(origin: Point, angle: f64, step: f64) -> Self {
         Self { origin, along: Vec2::new(cos(angle), sin(angle)), step }
     }
 
-    /// The place of a point, in steps along rows and columns.
+    /// Lattice coordinates of a page point, in steps along rows and columns.
     pub fn place(&self, p: Point) -> Point {
         let from = p - self.origin;
         Point::new(self.along.dot(from) / self.step, self.along.cross(from) / self.step)
     }
 
-    /// The point of the page at a place of the grid.
+    /// The page point at lattice coordinates.
     pub fn point(&self, x: f64, y: f64) -> Point {
         let across = Vec2::new(-self.along.y, self.along.x);
         self.origin + (self.along * x + across * y) * self.step
     }
 }
 
-/// Where a row goes over from one cell to the next.
+/// Crossing of a row from one cell into the next.
 #[derive(Debug, Clone, Copy)]
 struct Crossing {
     x: f64,
-    /// How x changes with y: what crosses at the same place is ordered as it goes on.
+    /// Change of x with y. It orders crossings at the same position.
     slope: f64,
     before: u32,
     after: u32,
 }
 
-/// The rows of a grid, and in which cells they run.
+/// The rows of a lattice, and the cells that they pass through.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Scan {
-    /// The number of the first row.
+    /// Number of the first row.
     pub first: i64,
     crossings: Grouped<Crossing>,
 }
 
 impl Scan {
-    /// Scans a ground along the rows of a grid.
+    /// Scans a ground along the rows of a lattice.
     pub fn new(ground: &Ground, grid: &Lattice) -> Self {
         let placed: Vec<[Point; 2]> = ground
             .pieces
@@ -75,14 +75,14 @@ impl Scan {
             return Self::default();
         }
         let first = low as i64;
-        // A row belongs to a piece from its lower end on, up to its upper end but without it.
+        // A row meets a piece from its lower end up to, but not including, its upper end.
         let rows = |[a, b]: [Point; 2]| {
             let (low, high) = (a.y.min(b.y).ceil() as i64, a.y.max(b.y).ceil() as i64);
             (low - first) as usize..(high - first) as usize
         };
         let mut crossings = grouped((high as i64 - first) as usize + 1, |put| {
             for (piece, ends) in ground.pieces.iter().zip(&placed) {
-                // What runs towards greater y has its first side where x is less.
+                // A piece that runs towards greater y has its first side at smaller x.
                 let [a, b] = *ends;
                 let (low, high, [before, after]) =
                     if a.y < b.y { (a, b, piece.sides) } else { (b, a, [piece.sides[1], piece.sides[0]]) };
@@ -99,13 +99,12 @@ impl Scan {
         Self { first, crossings }
     }
 
-    /// How many rows there are.
+    /// Number of rows.
     pub fn rows(&self) -> usize {
         self.crossings.count()
     }
 
-    /// The stretches of a row that lie in cells other than paper: from where to where along it, and the
-    /// cell.
+    /// The stretches of a row in cells other than paper: start, end and cell.
     pub fn stretches(&self, row: usize) -> impl Iterator<Item = (f64, f64, u32)> + '_ {
         let own = self.crossings.of(row);
         let pairs = own.windows(2).map(|pair| (pair[0].x, pair[1].x, pair[0].after));
@@ -113,7 +112,7 @@ impl Scan {
     }
 }
 
-/// Orders the crossings of a row; where rounding leaves their order open, cells decide.
+/// Sorts the crossings of a row. Where rounding leaves the order ambiguous, matching cells decide it.
 fn order(row: &mut [Crossing]) {
     row.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.slope.total_cmp(&b.slope)).then(a.after.cmp(&b.after)));
     let mut cell = PAPER;
@@ -129,7 +128,7 @@ fn order(row: &mut [Crossing]) {
     }
 }
 
-/// A grid with more rows than this is too fine to be drawn.
+/// Greatest number of rows. A finer lattice gives an empty scan.
 const MOST_ROWS: f64 = 65_536.0;
 
 #[cfg(test)]
@@ -153,7 +152,7 @@ mod tests {
         area: 1.0,
     };
 
-    /// Sectors around a point: cell k from corner k - 1 to corner k, paper around.
+    /// Sectors around a point: cell k lies between corners k - 1 and k, with paper outside.
     fn sectors(corners: u64) -> Ground {
         let middle = Point::new(50.0, 40.0);
         let corner = |k: u64| {
@@ -183,7 +182,7 @@ mod tests {
         for corners in [3, 5, 12, 80] {
             let ground = sectors(corners);
             for (angle, step) in [(0.0, 1.0), (0.7, 0.31), (-2.0, 2.5)] {
-                // Rows of the first grid pass exactly through the middle.
+                // Rows of the first lattice pass exactly through the centre.
                 let grid = Lattice::new(Point::new(0.0, 0.0), angle, step);
                 let scan = Scan::new(&ground, &grid);
                 let mut inside = 0;

@@ -1,10 +1,13 @@
-//! [`stipple`]: dots of one size strewn evenly, as dense as the tone asks.
+//! [`stipple`]: dots of nearly one size, spread evenly, with a density that follows the tone.
 //!
-//! Source: Secord, Weighted Voronoi stippling, NPAR 2002. Unlike there, shares are weighed by the square of
-//! the ink wanted: dots at rest then lie as dense as it asks, not as its root. Every surface is stippled
-//! for itself, from a seed that only its own shape decides. At last each dot is made as large as the ink
-//! wanted in its share of the surface, which differs little from dot to dot; where it is so dark that
-//! dots run into each other, what they have in common is made up for.
+//! Source: Secord, Weighted Voronoi stippling, NPAR 2002.
+//!
+//! Deviations:
+//! 1. Voronoi cells are weighted by the square of the wanted ink. The relaxed dots then have the wanted
+//!    density instead of its square root.
+//! 2. Each surface is stippled separately, with a seed that depends on its shape only.
+//! 3. After relaxation each dot is resized to the ink wanted in its Voronoi cell, which varies little. Where
+//!    dots overlap, they grow to make up for the overlap.
 
 use std::f64::consts::PI;
 
@@ -22,23 +25,25 @@ use crate::hatching::clip::disc::Disc;
 use crate::hatching::clip::domain::{border, nearest};
 use crate::regions::Ground;
 
-/// How surfaces are stippled; lengths in user units.
+/// Options of stippling. Lengths are in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stipple {
     /// Mean radius of a dot.
     pub radius: f64,
-    /// How much the areas of dots differ by chance, as a part of them.
+    /// Random variation of dot areas, as a share of the area.
     pub uneven: f64,
-    /// How often all dots are moved to the middles of their shares; many rounds make lattices.
+    /// Number of Lloyd iterations. Many iterations produce a lattice.
     pub rounds: u32,
-    /// The hand.
+    /// Random seed.
     pub seed: u64,
-    /// The length of a px.
+    /// The length of a px in user units.
     pub px: f64,
 }
 
-/// The dots of a stippled page, by cells. `coverage` is the part of the area (0 to 1) to be inked in a cell
-/// at a point within it; where it is 0 nothing is.
+/// The dots of a stippled page, grouped by cell.
+///
+/// `coverage` returns the share of the area (0 to 1) to be inked in a cell at a point inside it. Nothing is
+/// inked where it is 0.
 #[must_use]
 pub fn stipple(
     ground: &Ground,
@@ -75,19 +80,19 @@ pub fn stipple(
     cells.map(|(cell, path)| CellDots { cell, path }).collect()
 }
 
-/// The side of the squares in which ink is weighed, as a part of the radius of a dot.
+/// Side of the squares that hold the wanted ink, as a share of the mean dot radius.
 const SQUARE_OF_RADIUS: f64 = 0.45;
 
-/// Larger pages are weighed in larger squares.
+/// Greatest number of squares on a page. Larger pages use larger squares.
 const MOST_SQUARES: f64 = 1.6e7;
 
-/// Squares side by side in a row, of one cell.
+/// Consecutive squares of one cell in a row.
 #[derive(Debug, Clone, Copy)]
 struct RowSpan {
     facet: u32,
     row: i64,
     from: i64,
-    /// Without this one.
+    /// End of the span, exclusive.
     to: i64,
     cell: u32,
 }
@@ -103,10 +108,10 @@ fn runs<'a>(ground: &'a Ground, scan: &'a Scan, row: usize) -> impl Iterator<Ite
     scan.stretches(row).map(of).filter(|run| run.from < run.to)
 }
 
-/// A stretch of surface to be stippled.
+/// One facet, a stretch of surface to be stippled.
 struct Facet<'a> {
     runs: &'a [RowSpan],
-    /// The first square of the patch.
+    /// Column and row of the first square of the patch.
     corner: [i64; 2],
     patch: Patch,
     /// Cells where ink is wanted.
@@ -122,7 +127,7 @@ impl<'a> Facet<'a> {
         let [width, height] = [right - left, bottom - top].map(|size| size as usize);
         let mut ink = vec![0u16; width * height];
         let mut inked: Vec<u32> = Vec::new();
-        // The tone is asked for once in a block of squares for each cell there, where it is met first.
+        // The tone is sampled once per block of squares and cell, at the first square met.
         let band = |run: &RowSpan| run.row.div_euclid(ASKED_APART);
         let bands: Vec<&[RowSpan]> = runs.chunk_by(|a, b| band(a) == band(b)).collect();
         let asked: Vec<Vec<(usize, u16)>> = bands
@@ -156,7 +161,7 @@ impl<'a> Facet<'a> {
         Self { runs, corner: [left, top], patch: Patch { width, height, ink }, inked }
     }
 
-    /// Its dots: the cell of each, the disc, and what is left of it.
+    /// The dots: cell, disc and clipped shape of each.
     fn stippled(&self, ground: &Ground, grid: &Lattice, options: &Stipple) -> Vec<(u32, Disc, Cut)> {
         let dot = PI * options.radius * options.radius / (grid.step * grid.step);
         let [left, top] = self.corner.map(i64::cast_unsigned);
@@ -193,10 +198,10 @@ impl<'a> Facet<'a> {
     }
 }
 
-/// The tone is asked for in blocks of this many squares a side.
+/// Side of the blocks where the tone is sampled once, squares.
 const ASKED_APART: i64 = 4;
 
-/// What belongs to each site.
+/// Voronoi cells of the sites, with the ink and area of each.
 struct Shares<'a> {
     patch: &'a Patch,
     owners: Vec<u32>,
@@ -226,7 +231,8 @@ impl<'a> Shares<'a> {
             sites.par_iter().enumerate().with_min_len(64).map(one).collect()
         };
         let first = of(&self.inks);
-        // Larger dots ink some of their neighbours' shares; that is taken off what these have to ink.
+        // Larger dots ink parts of neighbouring cells. That ink is subtracted from what the neighbours have
+        // to supply.
         let mut inked = vec![0.0_f64; self.owners.len()];
         for ((radius, _), site) in first.iter().zip(sites).filter(|((_, is_dense), _)| *is_dense) {
             self.each_square(*site, *radius, |square, distance| {
@@ -240,7 +246,7 @@ impl<'a> Shares<'a> {
         of(&wanted)
     }
 
-    /// Calls for the squares around a place, with how far they are.
+    /// Calls `call` for the squares around a position, with their distances.
     fn each_square(&self, at: [f64; 2], radius: f64, mut call: impl FnMut(usize, f64)) {
         let range = |axis: usize, size: usize| {
             let (low, high) = ((at[axis] - radius - 1.0).floor(), (at[axis] + radius + 1.0).ceil());
@@ -254,7 +260,8 @@ impl<'a> Shares<'a> {
         }
     }
 
-    /// The radius at which a dot inks as much of its own share as is `wanted`, where others are near.
+    /// The radius where a dot supplies the `wanted` ink inside its Voronoi cell, not counting ink in other
+    /// cells.
     fn grown(&self, site: usize, at: [f64; 2], alone: f64, wanted: f64) -> f64 {
         let (least, most) = (alone / MOST_GROWTH, alone * MOST_GROWTH);
         let mut foreign = Vec::new();
@@ -263,7 +270,7 @@ impl<'a> Shares<'a> {
                 foreign.push(distance);
             }
         });
-        // A square is inked by the part of it that lies within, were the circle straight.
+        // A square counts by the part of it inside the circle, taking the circle as straight there.
         let inked = |r: f64| {
             let lost: f64 = foreign.iter().map(|distance| (r - distance + 0.5).clamp(0.0, 1.0)).sum();
             PI * r * r - lost
@@ -277,19 +284,19 @@ impl<'a> Shares<'a> {
     }
 }
 
-/// Where more of the paper than this is to be inked, dots run into each other.
+/// Coverage above which dots overlap.
 const DENSE: f64 = 0.5;
 
-/// A dot that runs into others is at most this much wider than one that stands alone.
+/// Greatest radius of an overlapping dot relative to an isolated one.
 const MOST_GROWTH: f64 = 1.6;
 
-/// Halves the growth to a thousandth.
+/// Bisections that narrow the radius to a thousandth.
 const GROWTH_STEPS: u32 = 10;
 
-/// What dots of a facet do not leave.
+/// Border of the inked cells of a facet, which dots do not cross.
 struct Fence<'a> {
     ground: &'a Ground,
-    /// The cells within, ascending.
+    /// The inked cells, ascending.
     inked: &'a [u32],
 }
 
@@ -298,7 +305,8 @@ impl Fence<'_> {
         self.inked.binary_search(&cell).is_ok()
     }
 
-    /// A dot within the fence: moved inward if there is room, else cut. Dense dots are cut as they are.
+    /// Fits a dot inside the border: moved inward if there is room, and clipped otherwise. Dense dots are
+    /// only clipped.
     fn fitted(&self, disc: Disc, is_dense: bool, px: f64) -> (Disc, Cut) {
         let near = |disc: Disc| -> Vec<[Point; 2]> {
             let pieces = self.ground.pieces_near(disc.centre, disc.radius);
@@ -332,11 +340,11 @@ impl Fence<'_> {
     }
 }
 
-/// How often a dot is moved off borders before it is cut by them.
+/// Greatest number of moves before a dot is clipped.
 const MOVES: u32 = 4;
 
-/// How far beside a border a dot comes to rest, as a part of its radius.
+/// Distance of a moved dot from the border, as a share of its radius.
 const HAIR: f64 = 1e-3;
 
-/// Less of a dot than this is not drawn.
+/// Least remaining share of a dot's area. Smaller remainders are not drawn.
 const SCRAP: f64 = 0.4;

@@ -1,32 +1,34 @@
-//! [`Patch`]: a piece of page in small squares of ink wanted, shared out among sites and these moved to
-//! the middle of their shares.
+//! [`Patch`]: a grid of wanted ink, its Voronoi partition among sites, and Lloyd relaxation of the sites.
 //!
-//! Source: Secord, Weighted Voronoi stippling, NPAR 2002: Lloyd's method with the weighted centroids of
-//! Voronoi cells. There the density itself is the weight; sites at rest then lie as dense as the square root
-//! of it (Gersho, Asymptotically optimal block quantization, 1979). Here the square of the density is
-//! the weight, so sites lie as dense as it asks. All sums are of whole numbers: threads do not
-//! matter.
+//! Source: Secord, Weighted Voronoi stippling, NPAR 2002: Lloyd's method with weighted centroids of Voronoi
+//! cells.
+//!
+//! Deviation: the weight is the square of the density. With the density itself, relaxed sites have the square
+//! root of the wanted density (Gersho, Asymptotically optimal block quantization, 1979); with its square,
+//! they have the wanted one.
+//!
+//! All sums are of integers, so the result does not depend on the number of threads.
 
 use crate::parallel::prelude::*;
 
 use crate::geometry::lists::csr_lists::{Grouped, grouped};
 
-/// Ink wanted is counted in parts of this for a square that is all black.
+/// Ink value of a fully black square.
 pub(crate) const BLACK: u16 = 16_384;
 
-/// A box of squares; places are in squares, from the corner of the box.
+/// Box of squares. Positions are in squares, from the corner of the box.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Patch {
     pub width: usize,
     pub height: usize,
-    /// Ink wanted in each square, row by row, up to [`BLACK`]; 0 also for what is not part of the patch.
+    /// Ink wanted in each square, row by row, 0 to [`BLACK`]. It is 0 outside the patch.
     pub ink: Vec<u16>,
 }
 
-/// In [`Patch::owners`]: nobody's.
+/// Marks squares without an owner in [`Patch::owners`].
 pub(crate) const NOBODY: u32 = u32::MAX;
 
-/// What the share of a site adds up to.
+/// Weighted sums over the Voronoi cell of a site.
 #[derive(Debug, Clone, Copy, Default)]
 struct Sum {
     weight: u64,
@@ -35,14 +37,15 @@ struct Sum {
 }
 
 impl Patch {
-    /// All ink wanted, in squares that are black.
+    /// All wanted ink, in fully black squares.
     pub fn total(&self) -> f64 {
         self.ink.iter().map(|ink| u64::from(*ink)).sum::<u64>() as f64 / f64::from(BLACK)
     }
 
-    /// `count` places, each in the middle of about as much ink as the others: the ink is lined up along
-    /// Hilbert's curve, which keeps near what is near, and every place is taken by `chance` (0 to 1)
-    /// within its stretch.
+    /// `count` initial positions, each in the middle of about the same amount of ink.
+    ///
+    /// The squares are ordered along a Hilbert curve, which keeps neighbours together. `chance` (0 to 1)
+    /// places each position inside its stretch of ink and inside its square.
     pub fn strewn(&self, count: usize, chance: impl Fn(usize) -> [f64; 3]) -> Vec<[f64; 2]> {
         let levels = self.width.max(self.height).next_power_of_two().trailing_zeros();
         let mut squares: Vec<(u64, u32)> = (0..self.ink.len())
@@ -73,7 +76,8 @@ impl Patch {
         places
     }
 
-    /// Moves sites to the middles of their shares, `rounds` times. Sites without a share stay.
+    /// Moves sites towards the weighted centroids of their Voronoi cells, `rounds` times. Sites without ink
+    /// stay.
     pub fn relax(&self, sites: &mut [[f64; 2]], rounds: u32) {
         for _ in 0..rounds {
             let owners = self.owners(sites);
@@ -81,14 +85,14 @@ impl Patch {
             for (site, sum) in sites.iter_mut().zip(sums) {
                 if sum.weight > 0 {
                     let middle = [sum.x, sum.y].map(|of| of as f64 / sum.weight as f64 + 0.5);
-                    // Going on beyond the middle, sites come to rest in fewer rounds.
+                    // Over-relaxation reaches equilibrium in fewer rounds.
                     *site = [0, 1].map(|axis| site[axis] + (middle[axis] - site[axis]) * OVERSHOOT);
                 }
             }
         }
     }
 
-    /// The ink in the share of each site, in squares that are black.
+    /// The ink in the Voronoi cell of each site, in fully black squares.
     pub fn inks(&self, owners: &[u32], sites: usize) -> Vec<f64> {
         let mut inks = vec![0u64; sites];
         for (owner, ink) in owners.iter().zip(&self.ink) {
@@ -131,7 +135,7 @@ impl Patch {
         all
     }
 
-    /// The site nearest to the middle of each square, where ink is wanted.
+    /// The site closest to the centre of each square where ink is wanted.
     pub fn owners(&self, sites: &[[f64; 2]]) -> Vec<u32> {
         let mut owners = vec![NOBODY; self.ink.len()];
         if sites.is_empty() || self.width == 0 {
@@ -163,9 +167,9 @@ impl Patch {
     }
 }
 
-/// The nearest of these sites for each square of a block, row by row.
+/// The closest of these sites for each square of a block, row by row.
 fn nearest(sites: &[([f64; 2], u32)], centre: [f64; 2]) -> [[u32; BLOCK]; BLOCK] {
-    // Seen from the middle of the block, single precision is enough.
+    // Coordinates are relative to the middle of the block, so single precision is enough.
     let at: [f32; BLOCK] = std::array::from_fn(|k| k as f32 + 0.5 - BLOCK as f32 / 2.0);
     let (mut best, mut owners) = ([[f32::INFINITY; BLOCK]; BLOCK], [[NOBODY; BLOCK]; BLOCK]);
     for (site, number) in sites {
@@ -184,20 +188,20 @@ fn nearest(sites: &[([f64; 2], u32)], centre: [f64; 2]) -> [[u32; BLOCK]; BLOCK]
     owners
 }
 
-/// Squares whose nearest sites are sought together, along a side.
+/// Side of a block of squares whose closest sites are searched together.
 const BLOCK: usize = 4;
 
-/// How far sites move, as a part of the way to the middle.
+/// Over-relaxation factor: step length as a multiple of the distance to the centroid.
 const OVERSHOOT: f64 = 1.6;
 
-/// Into how many bands of rows a patch is summed.
+/// Number of bands of rows that are summed in parallel.
 const SUMMED_APART: usize = 4;
 
 fn distance2(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
 }
 
-/// Sites by the bucket of the box that they lie in.
+/// Sites in buckets over the box.
 struct Buckets {
     side: f64,
     across: [usize; 2],
@@ -207,7 +211,7 @@ struct Buckets {
 impl Buckets {
     fn new(patch: &Patch, sites: &[[f64; 2]]) -> Self {
         let size = [patch.width as f64, patch.height as f64];
-        // Two sites a bucket, were the box full.
+        // About two sites per bucket if the box is full.
         let side =
             (2.0 * size[0] * size[1] / sites.len() as f64).sqrt().clamp(2.0, size[0].max(size[1]).max(2.0));
         let across = size.map(|size| (size / side) as usize + 1);
@@ -236,16 +240,16 @@ impl Buckets {
         self.sites.of(row * self.across[0] + column)
     }
 
-    /// All sites that may be the nearest one to the middle of a square of the block around a centre.
+    /// All sites that may be closest to the centre of a square of the block around a centre.
     fn near(&self, centre: [f64; 2], near: &mut Vec<([f64; 2], u32)>) {
         let reach = (BLOCK as f64 - 1.0) / 2.0 * std::f64::consts::SQRT_2;
-        // The nearest one to such a point is no farther from it than the one nearest to the centre.
+        // The site closest to such a point is at most this far from the centre, by the triangle inequality.
         let limit = self.nearest(centre) + 2.0 * reach + 1e-3;
         let [left, top] = self.column_and_row(centre.map(|c| c - limit));
         let [right, bottom] = self.column_and_row(centre.map(|c| c + limit));
         near.clear();
         for row in top..=bottom {
-            // The buckets of a row lie one after the other.
+            // The buckets of a row are consecutive in memory.
             let row = row * self.across[0];
             for site in self.sites.of_all(row + left..row + right + 1) {
                 if distance2(site.0, centre) <= limit * limit {
@@ -255,13 +259,13 @@ impl Buckets {
         }
     }
 
-    /// How far the nearest site is: ring after ring of buckets.
+    /// Distance of the closest site. Rings of buckets are searched outwards.
     fn nearest(&self, centre: [f64; 2]) -> f64 {
         let [column, row] = self.column_and_row(centre).map(|k| k as i64);
         let [columns, rows] = self.across.map(|k| k as i64);
         let mut best = f64::INFINITY;
         for ring in 0..=columns.max(rows) {
-            // Whatever lies beyond this ring is farther away than all rings within it are wide.
+            // Sites outside this ring are farther away than the width of the rings inside it.
             let beyond = (ring - 1).max(0) as f64 * self.side;
             if best <= beyond * beyond {
                 break;
@@ -284,13 +288,13 @@ impl Buckets {
     }
 }
 
-/// The place of a square along Hilbert's curve through a box of 2^levels squares a side.
+/// Position of a square along the Hilbert curve through a box of 2^levels squares a side.
 fn along_hilbert(levels: u32, x: u32, y: u32) -> u64 {
     let (mut x, mut y, mut along) = (x, y, 0u64);
     for level in (0..levels).rev() {
         let (right, down) = ((x >> level) & 1, (y >> level) & 1);
         along = along << 2 | u64::from((3 * right) ^ down);
-        // The quarters at the ends are turned over.
+        // The quadrants at the ends of the curve are transposed.
         if down == 0 {
             if right == 1 {
                 let most = (1 << level) - 1;
@@ -306,7 +310,7 @@ fn along_hilbert(levels: u32, x: u32, y: u32) -> u64 {
 mod tests {
     use super::*;
 
-    /// Wanted ink that rises to the right, with a hole.
+    /// Wanted ink that increases to the right, with a hole.
     fn patch(width: usize, height: usize) -> Patch {
         let ink = |k: usize| {
             let (x, y) = (k % width, k / width);

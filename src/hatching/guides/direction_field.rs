@@ -1,30 +1,32 @@
-//! [`Flow`]: the directions of strokes over a page, made smooth where the surface says little of them.
+//! [`Flow`]: the direction field of strokes over a page, smoothed where the surface gives no clear direction.
 //!
-//! Directions are lines without sense, kept as twice their angle, so that opposite ones agree. Where a
-//! surface bends, its directions are kept; over evenly round places and narrow flat ones they are spread from
-//! around, never across the border of a facet. Wide flat faces keep theirs, which are level. Source: Hertzmann and Zorin, "Illustrating smooth surfaces",
-//! SIGGRAPH 2000, section 5, there with four directions on the mesh.
+//! A direction has no sense, so its angle is stored doubled and opposite directions agree. Curved surfaces
+//! keep their directions, and so do wide flat faces, whose directions are level. Over spherical areas and
+//! narrow flat faces, directions spread in from around, never across the border of a facet.
+//!
+//! Source: Hertzmann and Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, section 5, which smooths
+//! four-fold directions on the mesh.
 
 use kurbo::{Point, Vec2};
 
 use crate::regions::Samples;
 use crate::regions::lattice::direction_field::{Axes, Axis};
 
-/// The directions of strokes over a page.
+/// Direction field of strokes over a page.
 #[derive(Debug, Clone)]
 pub struct Flow<'a> {
     samples: &'a Samples,
     axes: Vec<Axis>,
 }
 
-/// Rounds of spreading.
+/// Number of smoothing rounds.
 const ROUNDS: usize = 60;
 
-/// How much a neighbour counts against a point that is sure.
+/// Weight of a neighbour relative to a point with a certain direction.
 const NEIGHBOUR: f32 = 3.0;
 
 impl<'a> Flow<'a> {
-    /// The flow along axes that are given at the points of a lattice.
+    /// The field that smooths the axes given at the points of a lattice.
     #[must_use]
     pub fn new(samples: &'a Samples, axes: &Axes) -> Self {
         let given = &axes.of;
@@ -43,14 +45,14 @@ impl<'a> Flow<'a> {
         Self { samples, axes }
     }
 
-    /// The lattice.
+    /// The lattice of the field.
     #[must_use]
     pub const fn samples(&self) -> &Samples {
         self.samples
     }
 
-    /// The direction on a facet at a point of the page, of unit length and either sense; `None` where the
-    /// facet is not seen nearby or nothing tells of a direction.
+    /// The direction on a facet at a point of the page, of unit length and either sense. Returns `None` if
+    /// the facet is not visible nearby or has no direction there.
     #[must_use]
     pub fn at(&self, facet: u32, p: Point) -> Option<Vec2> {
         let mut sum = [0.0_f64; 2];
@@ -68,7 +70,7 @@ impl<'a> Flow<'a> {
         if length <= 0.0 {
             return None;
         }
-        // Half of the angle whose cosine and sine these are.
+        // Half of the angle with this cosine and sine.
         let cosine = sum[0] / length;
         let x = f64::midpoint(1.0, cosine).max(0.0).sqrt();
         let y = f64::midpoint(1.0, -cosine).max(0.0).sqrt();
@@ -76,5 +78,5 @@ impl<'a> Flow<'a> {
     }
 }
 
-/// Points of the lattice whose weight would vanish still count a little.
+/// Least weight of a lattice point, so that weights of zero still count a little.
 const FAINT: f64 = 1e-9;

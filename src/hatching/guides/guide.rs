@@ -1,8 +1,10 @@
 //! [`Guide`]: a line along which strokes are laid, and its rank.
 //!
-//! Ranks make hatching nested: a guide is inked where the tone asks for more than its rank, so a
-//! darker tone keeps the strokes of a lighter one and adds more. Source: Praun, Hoppe, Webb and
-//! Finkelstein, "Real-time hatching", SIGGRAPH 2001, section 3, there between textures.
+//! Ranks make hatching nested: a guide is inked where the tone wants more than its rank. A darker tone
+//! therefore keeps the strokes of a lighter one and adds more.
+//!
+//! Source: Praun, Hoppe, Webb and Finkelstein, "Real-time hatching", SIGGRAPH 2001, section 3, which nests
+//! textures.
 
 use kurbo::{Point, Vec2};
 
@@ -11,47 +13,49 @@ use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::mesh::PartId;
 use crate::regions::Ground;
 
-/// What a guide may be inked on.
+/// The cells that a guide may ink.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scope {
-    /// Everything of one part.
+    /// All cells of one part.
     Part(PartId),
-    /// One stretch of visible surface.
+    /// One connected stretch of visible surface.
     Facet(u32),
 }
 
-/// A line along which strokes are laid.
+/// Line along which strokes are laid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Guide {
-    /// A polyline, page units.
+    /// Polyline in page units.
     pub line: Vec<Point>,
-    /// It is inked where more than this part of all guides is wanted, 0 to 1.
+    /// Share of all guides, 0 to 1. The guide is inked where more than this share is wanted.
     pub rank: f64,
-    /// What it is known by: the same in all drawings of the same thing by the same hand.
+    /// Identity of the guide: the same in all drawings of the same model with the same seed.
     pub id: u64,
-    /// What it may be inked on.
+    /// The cells that it may ink.
     pub scope: Scope,
-    /// How many guides there are too many, at each point of the line: 1 where they lie at their spacing, 2
-    /// where twice as close. Empty: 1 everywhere.
+    /// Crowding at each point of the line: 1 where guides lie at their spacing, 2 where they lie twice as
+    /// close. Empty: 1 everywhere.
     pub crowding: Vec<f64>,
 }
 
-/// The rank of the line of a number: of any consecutive lines, those below a rank are spread as evenly as
-/// can be. Radical inverse in base 2 (van der Corput 1935).
+/// Rank of a line by its number: the radical inverse in base 2 (van der Corput 1935). Among consecutive
+/// lines, those below any rank are spread evenly.
 #[must_use]
 pub fn rank(number: i64) -> f64 {
     f64::from((number as u32).reverse_bits()) / 4_294_967_296.0
 }
 
-/// Unit vectors along and across lines at an angle (radians, counter-clockwise as the page is seen).
+/// Unit vectors along and across lines at an angle, radians, counter-clockwise as the page is seen.
 #[must_use]
 pub fn axes(angle: f64) -> [Vec2; 2] {
     let (s, c) = (sin(angle), cos(angle));
     [Vec2::new(c, -s), Vec2::new(s, c)]
 }
 
-/// Straight guides at one angle over the wanted cells of each part, `spacing` apart. Each part has lines of
-/// its own, turned by `turn_parts` radians at most; `identities` tells parts apart.
+/// Straight guides over the wanted cells of each part, `spacing` apart.
+///
+/// Each part has its own lines, turned at random by up to `turn_parts` radians. `identities` holds a stable
+/// number for each part.
 #[must_use]
 pub fn straight(
     ground: &Ground,
@@ -102,7 +106,7 @@ pub fn straight(
     guides
 }
 
-/// Sets the seeds of turns apart from those of lines.
+/// Separates the random seeds of turns from those of lines.
 const TURN: u64 = 0x7475_726e;
 
 #[cfg(test)]
@@ -111,7 +115,7 @@ mod tests {
 
     #[test]
     fn ranks_part_lines_evenly() {
-        // Of any 64 neighbours, half have a rank below a half, and these lie two apart.
+        // Of any 64 consecutive lines a quarter has a rank below 0.25, and those lie four apart.
         for first in [-1000, -3, 0, 77] {
             let below: Vec<i64> = (first..first + 64).filter(|n| rank(*n) < 0.25).collect();
             assert_eq!(below.len(), 16);

@@ -1,10 +1,12 @@
-//! Guides along curves that are fixed to the model: they move with it, and hatching does not swim when the
-//! model or the eye turns.
+//! Guides along curves fixed to the model. Hatching then moves with the model and does not swim when the
+//! camera turns.
 //!
-//! Such curves crowd where the surface turns away from the eye. There guides of a high rank make room, so
-//! that the distance of those that are left is right for the tone everywhere; as the view changes, strokes
-//! come and go, and none jumps. Source: Praun, Hoppe, Webb and Finkelstein, "Real-time hatching", SIGGRAPH
-//! 2001, section 4, where levels of detail of textures do the same.
+//! Such curves crowd where the surface turns away from the eye. Guides of high rank are dropped there, so the
+//! spacing of the remaining ones matches the tone. As the view changes, strokes appear and disappear but
+//! never jump.
+//!
+//! Source: Praun, Hoppe, Webb and Finkelstein, "Real-time hatching", SIGGRAPH 2001, section 4, where texture
+//! levels of detail have this role.
 
 use glam::DVec3;
 use kurbo::Point;
@@ -17,9 +19,10 @@ use crate::mesh::PartId;
 use crate::regions::Ground;
 use crate::regions::surface_curves::level_curves::LevelCurve;
 
-/// Guides along the visible parts of level curves, `pitch` (page units) apart where they are densest.
-/// `are_seen` tells of points of the page, with a nearness each, whether nothing is in front there; `place_of`
-/// gives a number to a part and where about in it a point of it lies.
+/// Guides along the visible parts of level curves, `pitch` page units apart where they are densest.
+///
+/// `are_seen` takes page points, each with a nearness. For each it returns whether nothing is in front.
+/// `place_of` returns a number for a part and a rough position in it.
 #[must_use]
 pub fn guides(
     ground: &Ground,
@@ -56,13 +59,13 @@ pub fn guides(
         if line.len() < 2 {
             continue;
         }
-        // One crowding for each point that is left.
+        // One crowding value for each remaining point.
         let mut crowding = vec![value_at(&curve.density, from) * pitch];
         let inner = (from.floor() as usize + 1..curve.line.len()).take_while(|k| (*k as f64) < to);
         crowding.extend(inner.map(|k| curve.density[k] * pitch));
         crowding.push(value_at(&curve.density, to) * pitch);
         crowding.resize(line.len(), value_at(&curve.density, to) * pitch);
-        // A piece is known by its part, its level, and where in the model it lies, roughly.
+        // The identity of a piece comes from its part, its level and its rough position in the model.
         let middle = point_at(&curve.points, f64::midpoint(from, to));
         let name = hash(seed, &[place_of(curve.part, middle), curve.level.cast_unsigned()]);
         let count = counts.entry(name).or_default();

@@ -1,11 +1,14 @@
-//! Guides along a flow, evenly spaced on the page.
+//! Evenly spaced guides along a direction field.
 //!
 //! Source: Jobard and Lefer, "Creating evenly-spaced streamlines of arbitrary density", Visualization in
-//! Scientific Computing '97: lines are grown both ways until they come near others, and new ones are
-//! seeded beside those that there are. Here that is done at several distances, the widest first: lines
-//! of the wider sets stay in the narrower ones, which makes them nested. Ranks are the part of the
-//! surface that is hatched when a line is reached, so that they count ink rightly however long lines
-//! are.
+//! Scientific Computing '97. Lines grow both ways until they come near others, and new seeds are placed next
+//! to existing lines.
+//!
+//! Deviations:
+//! 1. This is done at several spacings, widest first. Lines of wider sets stay in the narrower ones, which
+//!    makes them nested.
+//! 2. The rank of a line is the share of the surface hatched when it is reached. Ranks therefore measure ink
+//!    correctly for lines of any length.
 
 use std::collections::VecDeque;
 
@@ -19,35 +22,35 @@ use crate::geometry::numbers::noise::hash;
 use crate::hatching::clip::line_clip::norm;
 use crate::regions::Ground;
 
-/// How streamlines are laid; lengths in page units.
+/// Spacing of streamlines. Lengths are in page units.
 #[derive(Debug, Clone, Copy)]
 pub struct Spacing {
-    /// Distance of lines where they are densest.
+    /// Distance between lines where they are densest.
     pub pitch: f64,
-    /// How many times that distance is doubled before: 0 = all lines are alike.
+    /// Number of wider sets, each at twice the spacing of the next. 0: all lines have one rank.
     pub doublings: u32,
-    /// A CSS px.
+    /// A CSS px in page units.
     pub px: f64,
-    /// The hand.
+    /// Random seed.
     pub seed: u64,
 }
 
-/// A line ends where another one is nearer than this part of their distance.
+/// A line ends where another one is closer than this share of the spacing.
 const NEAREST: f64 = 0.62;
 
-/// Lines are grown in steps of this length, px.
+/// Length of a growth step, px.
 const STEP_PX: f64 = 1.5;
 
-/// A line goes on while it turns by less than 60 degrees a step.
+/// Least cosine of the turn per step (60 degrees). A sharper turn ends the line.
 const TURN: f64 = 0.5;
 
-/// Shorter lines than this many distances are left out.
+/// Least length of a line in pitches. Shorter lines are dropped.
 const SHORTEST: f64 = 1.5;
 
-/// No line has more points than this.
+/// Greatest number of points in half of a line.
 const LONGEST: usize = 20_000;
 
-/// Guides along a flow on all facets with wanted cells.
+/// Guides along a direction field on all facets with wanted cells.
 #[must_use]
 pub fn streamlines(
     ground: &Ground,
@@ -92,11 +95,11 @@ struct Grower<'a, F> {
     facet: u32,
     is_inked: &'a F,
     spacing: &'a Spacing,
-    /// Lines, and the doubling at which each was grown.
+    /// Lines, and the doubling of the spacing when each was grown.
     lines: Vec<(Vec<Point>, u32)>,
     low: Point,
     across: [usize; 2],
-    /// For each tile of the side of a pitch, the points of lines in it.
+    /// For each square tile with sides of one pitch, the line points in it.
     tiles: Vec<Vec<Point>>,
 }
 
@@ -150,7 +153,7 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
         self.flow.at(self.facet, p).is_some() && (self.is_inked)(self.facet, p)
     }
 
-    /// Grows lines at a distance until there is no room.
+    /// Grows lines at a spacing until there is no room.
     fn grow(&mut self, points: &[u32], distance: f64, doubling: u32) {
         let mut queue: VecDeque<usize> = (0..self.lines.len()).collect();
         let mut scanned = 0;
@@ -170,7 +173,7 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
                     }
                 }
             }
-            // What no line leads to: the next point of the lattice that is free.
+            // No line leads further: continue at the next free lattice point.
             let next = points[scanned..].iter().position(|k| {
                 let p = self.flow.samples().point(*k as usize);
                 self.is_ground(p) && self.is_free(p, distance)
@@ -208,7 +211,7 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
         let nearest = distance * NEAREST;
         let (mut p, mut way) = (seed, way);
         let mut line: Vec<Point> = Vec::new();
-        // A line must not run into itself: far along it, but near on the page.
+        // A line must not run into itself. Points nearby along the line are exempt from the test.
         let far = (distance * 2.0 / step).ceil() as usize;
         while line.len() < LONGEST {
             let Some(middle) = self.flow.at(self.facet, p + way * (step / 2.0)) else { break };
@@ -236,13 +239,13 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
         line
     }
 
-    /// The lines with their ranks; `area` is that which is hatched.
+    /// The lines with their ranks. `area` is the hatched area.
     fn guides(self, area: f64) -> Vec<Guide> {
         let Self { facet, spacing, lines, .. } = self;
         let mut guides: Vec<(u32, u64, Guide, f64)> = lines
             .into_iter()
             .map(|(line, doubling)| {
-                // What is known of a line is where it began, within a px.
+                // A line is identified by the position of its middle point, rounded to a px.
                 let place = line[line.len() / 2];
                 let steps = [place.x, place.y].map(|x| ((x / spacing.px).round() as i64).cast_unsigned());
                 let id = hash(spacing.seed, &[u64::from(facet), steps[0], steps[1]]);
@@ -265,5 +268,5 @@ impl<'a, F: Fn(u32, Point) -> bool> Grower<'a, F> {
     }
 }
 
-/// Seeds may be this much nearer to lines than lines are to each other, against rounding.
+/// Least distance of a seed from lines as a share of the spacing. Slightly below 1, against rounding.
 const SEEDS: f64 = 0.98;

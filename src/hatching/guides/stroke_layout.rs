@@ -1,4 +1,4 @@
-//! Strokes laid along guides by a hand: broken, bowed, trembling, and cut at the borders of the tone.
+//! Strokes laid along guides: broken, bowed, trembling, and clipped at the borders of the tone.
 
 use kurbo::{Point, Vec2};
 
@@ -8,63 +8,63 @@ use crate::geometry::numbers::portable_math::tan;
 use crate::hatching::clip::line_clip::{between, norm, stretches};
 use crate::regions::Ground;
 
-/// A stroke of a hatching.
+/// Stroke of a hatching.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HatchStroke {
-    /// Its middle line, page units.
+    /// Centre line in page units.
     pub points: Vec<Point>,
-    /// The cell in which it begins.
+    /// The cell where it starts.
     pub cell: u32,
-    /// How hard the pen was pressed, 0 to 1.
+    /// Pen pressure, 0 to 1.
     pub pressure: f64,
-    /// What it is known by: guide, stroke, and piece of the stroke. The same in all drawings of the same
-    /// thing by the same hand.
+    /// Identity from guide, stroke and piece. It is the same in all drawings of the same model with the same
+    /// seed.
     pub id: u64,
     /// The rank of its guide.
     pub rank: f64,
 }
 
-/// How a hand lays strokes; lengths in page units.
+/// Parameters of laying strokes. Lengths are in page units.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Hand {
-    /// Length of a stroke; 0 = without break.
+    /// Length of a stroke; 0 means unbroken.
     pub length: f64,
-    /// Between strokes of one line.
+    /// Gap between consecutive strokes of one line.
     pub gap: f64,
-    /// How much length and place differ, 0 to 1.
+    /// Random variation of length and position, 0 to 1.
     pub uneven: f64,
-    /// How far strokes are from their line at most.
+    /// Greatest sideways offset of a stroke from its line.
     pub stray: f64,
-    /// By how much they are turned at most, radians.
+    /// Greatest random turn of a stroke, radians.
     pub turn: f64,
-    /// How far their middle bends away at most.
+    /// Greatest bow of the middle of a stroke.
     pub bow: f64,
-    /// How far lines tremble.
+    /// Amplitude of tremor.
     pub tremor: f64,
-    /// How much pressure differs, 0 to 1.
+    /// Variation of pressure, 0 to 1.
     pub pressure: f64,
     /// How far strokes run over borders.
     pub overrun: f64,
-    /// How far they fall short of them.
+    /// How far strokes stop short of borders.
     pub short: f64,
-    /// How much that differs.
+    /// Random variation of the ends at borders.
     pub ragged: f64,
-    /// Shorter pieces are left out.
+    /// Shorter pieces are dropped.
     pub least: f64,
-    /// A CSS px.
+    /// A CSS px in page units.
     pub px: f64,
-    /// The hand.
+    /// Random seed.
     pub seed: u64,
 }
 
-/// Length of a wave of tremor, px.
+/// Wavelength of tremor, px.
 const TREMOR_PX: f64 = 24.0;
 
-/// Distance of points on a stroke that is not straight, px.
+/// Distance between points of a stroke that is not straight, px.
 const STEP_PX: f64 = 4.0;
 
 impl Hand {
-    /// Whether strokes are other than the guide itself.
+    /// Whether each stroke is the unbroken guide itself.
     fn is_plain(&self) -> bool {
         self.length <= 0.0 && self.is_straight()
     }
@@ -73,13 +73,13 @@ impl Hand {
         self.bow <= 0.0 && self.tremor <= 0.0
     }
 
-    /// How far a point of a stroke may be from its guide.
+    /// Greatest distance of a stroke point from its guide.
     fn reach(&self) -> f64 {
         self.stray + self.bow + self.tremor + self.length * tan(self.turn.min(1.0))
     }
 
-    /// Lays strokes along a guide where `density` of its cells asks for them: the part of all guides that is
-    /// wanted in each cell.
+    /// Lays strokes along a guide where the `density` of a cell, the share of all guides wanted there,
+    /// exceeds the guide's rank.
     #[must_use]
     pub fn lay(&self, guide: &Guide, ground: &Ground, density: &[f64]) -> Vec<HatchStroke> {
         let in_scope = |cell: u32| match guide.scope {
@@ -135,7 +135,7 @@ impl Hand {
         out
     }
 
-    /// Numbers and reach of the strokes of a guide that touch any of some spans.
+    /// Numbers and arc-length ranges of the strokes of a guide that touch any of the spans.
     fn strokes(&self, guide: &Guide, total: f64, spans: &[(f64, f64)]) -> Vec<(i64, (f64, f64))> {
         if self.length <= 0.0 {
             return vec![(0, (0.0, total))];
@@ -146,7 +146,7 @@ impl Hand {
         let last = ((total - shift) / period).ceil() as i64 + 1;
         let mut strokes = Vec::new();
         for number in first..=last {
-            // Each end differs by itself, but for the gap both would share.
+            // The two ends of a stroke vary independently.
             let end = |side: u64, n: i64| {
                 self.uneven * period * 0.5 * (unit(hash(guide.id, &[ENDS, side, n.cast_unsigned()])) - 0.5)
             };
@@ -160,7 +160,7 @@ impl Hand {
         strokes
     }
 
-    /// The middle line of a stroke between two arc lengths of its guide.
+    /// The centre line of a stroke between two arc lengths of its guide.
     fn drawn(&self, guide: &Guide, arcs: &[f64], start: f64, end: f64, id: u64) -> Vec<Point> {
         let chance = |what: u64| 2.0 * unit(hash(self.seed, &[id, what])) - 1.0;
         let (aside, turn) = (self.stray * chance(1), tan(self.turn.min(1.0)) * chance(2));
@@ -190,8 +190,8 @@ impl Hand {
             .collect()
     }
 
-    /// A piece of a stroke with these points, longer or shorter where it was cut at a border; `None` if
-    /// nothing is left of it.
+    /// A stroke through these points, lengthened or shortened at ends that were cut at a border. `None` if
+    /// too little is left.
     fn ended(&self, mut points: Vec<Point>, cut: [bool; 2], stroke: HatchStroke) -> Option<HatchStroke> {
         let chance = |what: u64| unit(hash(self.seed, &[stroke.id, what]));
         for (end, is_cut) in cut.into_iter().enumerate() {
@@ -215,14 +215,14 @@ const fn blank(guide: &Guide, cell: u32) -> HatchStroke {
     HatchStroke { points: Vec::new(), cell, pressure: 1.0, id: guide.id, rank: guide.rank }
 }
 
-/// Strokes of less length are none.
+/// Shorter strokes are dropped, page units.
 const LEAST: f64 = 1e-6;
 
-/// What the seeds of a guide's strokes are for.
+/// Separate the random seeds of a guide's first stroke and of stroke ends.
 const START: u64 = 0x5354_4152;
 const ENDS: u64 = 0x454e_4453;
 
-/// Arc length at each point.
+/// Arc length at each point of a polyline.
 pub(crate) fn arcs(line: &[Point]) -> Vec<f64> {
     let mut sum = 0.0;
     let mut arcs = vec![0.0];
@@ -233,7 +233,7 @@ pub(crate) fn arcs(line: &[Point]) -> Vec<f64> {
     arcs
 }
 
-/// The parts of a stretch of a stroke where its guide is wanted for all the guides beside it.
+/// The parts of a span where its guide is wanted in spite of crowding.
 fn uncrowded(
     guide: &Guide,
     arcs: &[f64],
@@ -254,7 +254,7 @@ fn uncrowded(
         let t = if long > 0.0 { ((s - arcs[k]) / long).clamp(0.0, 1.0) } else { 0.0 };
         guide.crowding[k] + (guide.crowding[k + 1] - guide.crowding[k]) * t
     };
-    // Crowding changes slowly: it is asked at the points, and the crossing found between them.
+    // Crowding changes slowly, so it is sampled at the points and crossings are bisected between them.
     let mut places = vec![from];
     places.extend((from.floor() as usize + 1..points.len()).map(|k| k as f64).take_while(|p| *p < to));
     places.push(to);
@@ -281,10 +281,10 @@ fn uncrowded(
     out
 }
 
-/// Bisections that find where a stroke ends among others.
+/// Bisections that find the end of a stroke in a crowd.
 const HALVINGS: usize = 12;
 
-/// Moves an end of a polyline on along its last direction, or back along itself.
+/// Extends an end of a polyline along its last direction, or shortens it.
 fn lengthen(points: &mut Vec<Point>, at_end: bool, by: f64) {
     if by == 0.0 || points.len() < 2 {
         return;
@@ -364,7 +364,7 @@ mod tests {
         let hand = Hand { px: 1.0, ..Hand::default() };
         let crowded = Guide { crowding: vec![1.0, 8.0], ..guide(0.2) };
         let strokes = hand.lay(&crowded, &ground, &[0.0, 0.6, 0.6]);
-        // Wanted while 0.2 times the crowding is below 0.6: up to 3, two sevenths of the way.
+        // Wanted while 0.2 times the crowding is below 0.6. Crowding reaches 3 at two sevenths of the length.
         let end = strokes[0].points.last().expect("a point").x;
         assert!((end - (-5.0 + 35.0 * 2.0 / 7.0)).abs() < 0.05, "{end}");
     }

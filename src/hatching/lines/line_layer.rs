@@ -1,4 +1,4 @@
-//! Strokes of one layer as marks: one for each facet, degree of pressure and colour.
+//! Strokes of one layer as marks: one for each facet, pressure step and colour.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ use crate::hatching::options::{HatchLayer, HatchOptions};
 use crate::hatching::{HatchContext, Hatched, Tooth, colour, covered_at, provenance, speckle, tone};
 use crate::regions::{Ground, Look};
 
-/// The marks of a layer of lines: one for each facet, degree of pressure and colour.
+/// The marks of a layer of lines: one for each facet, pressure step and colour.
 pub(crate) fn lines(
     ground: &Ground,
     context: &HatchContext,
@@ -83,7 +83,7 @@ pub(crate) fn lines(
         .collect()
 }
 
-/// Whether a point is on the border of the frame, on the grid on which regions are cut.
+/// Whether a point lies on the border of the frame, within the rounding of the grid that clips regions.
 fn is_on_border(p: Point, frame: Option<Rect>) -> bool {
     frame.is_some_and(|frame| {
         let step = frame.width().max(frame.height()) / REGION_STEPS;
@@ -92,7 +92,7 @@ fn is_on_border(p: Point, frame: Option<Rect>) -> bool {
     })
 }
 
-/// What the tooth of the paper leaves white of some strokes.
+/// Specks of bare paper over some strokes, if the layer has grain.
 fn tooth(
     layer: &HatchLayer,
     context: &HatchContext,
@@ -119,5 +119,5 @@ fn tooth(
     (!path.elements().is_empty()).then(|| Mark { path, paint, provenance: provenance(look, context) })
 }
 
-/// Sets the seed of the paper's tooth apart from those of strokes.
+/// Separates the random seed of paper tooth from those of strokes.
 const TOOTH: u64 = 0x746f_6f74;

@@ -1,5 +1,7 @@
-//! Strokes of a hatching as marks: one compound path a facet and pressure, so that drawings stay small
-//! and a surface's hatching can be picked with one click.
+//! Strokes of a hatching as paths.
+//!
+//! All strokes of one facet and pressure share one compound path, so drawings stay small and one click
+//! selects the hatching of a surface.
 
 use kurbo::{BezPath, Point, Vec2};
 
@@ -9,29 +11,29 @@ use crate::hatching::clip::line_clip::norm;
 use crate::hatching::guides::stroke_layout::{HatchStroke, arcs};
 use crate::hatching::options::HatchLayer;
 
-/// How strokes are inked; lengths in page units.
+/// Pen of hatching strokes. Lengths are in page units.
 #[derive(Debug, Clone, Copy)]
 pub struct Nib {
-    /// Width of a stroke that is pressed hard.
+    /// Width of a stroke at full pressure.
     pub width: f64,
-    /// How much of it is lost at the ends, 0 to 1.
+    /// Share of the width lost at the ends, 0 to 1.
     pub taper: f64,
-    /// A CSS px.
+    /// A CSS px in page units.
     pub px: f64,
 }
 
-/// Degrees of pressure: more could not be told apart.
+/// Number of pressure steps. Finer steps would not be visible.
 pub const PRESSURES: usize = 4;
 
-/// Length of a taper in widths of the stroke; strokes that are shorter taper to their middle.
+/// Length of a taper in stroke widths. Shorter strokes taper to their middle.
 const TAPER_WIDTHS: f64 = 24.0;
 
-/// The mean width of a layer's strokes, as a part of that of one that is pressed hard.
+/// Mean width of a layer's strokes as a share of the width at full pressure.
 #[must_use]
 pub fn mean_width(layer: &HatchLayer, unit: Unit) -> f64 {
     let [length, width] = [layer.length, layer.width].map(|length| length.in_unit(unit));
     let tapered = if length > 0.0 { (2.0 * TAPER_WIDTHS * width / length).min(1.0) } else { 0.0 };
-    // The mean of 1 - taper (1 - x (2 - x)) over the way from the end, and of the degrees of pressure.
+    // Mean of 1 - taper (1 - x (2 - x)) over the taper, and mean over the pressure steps.
     let pressed = if layer.pressure > 0.0 {
         let share = |degree: usize| {
             let (low, high) = (degree as f64 / PRESSURES as f64, pressure(degree));
@@ -44,29 +46,29 @@ pub fn mean_width(layer: &HatchLayer, unit: Unit) -> f64 {
     pressed * (1.0 - layer.taper * tapered / 3.0)
 }
 
-/// How far drawn curves may be from the strokes, px.
+/// Greatest distance of fitted curves from the stroke points, px.
 const TOLERANCE_PX: f64 = 0.05;
 
-/// The degree of a stroke's pressure, 0 to [`PRESSURES`] - 1.
+/// The step of a pressure, 0 to [`PRESSURES`] - 1.
 #[must_use]
 pub fn degree(pressure: f64) -> usize {
     ((pressure * PRESSURES as f64) as usize).min(PRESSURES - 1)
 }
 
-/// The pressure that a degree stands for.
+/// The pressure that a step stands for.
 #[must_use]
 pub fn pressure(degree: usize) -> f64 {
     (degree as f64 + 1.0) / PRESSURES as f64
 }
 
-/// Adds the middle line of a stroke to a path.
+/// Adds the centre line of a stroke to a path.
 pub fn add_line(stroke: &HatchStroke, px: f64, path: &mut BezPath) {
     let points = &stroke.points;
     path.move_to(points[0]);
     add_curve(points, px, path);
 }
 
-/// Goes on from the first of some points through the others.
+/// Continues a path from the first point through the others.
 fn add_curve(points: &[Point], px: f64, path: &mut BezPath) {
     let n = points.len();
     if n < 3 {
@@ -78,8 +80,9 @@ fn add_curve(points: &[Point], px: f64, path: &mut BezPath) {
     fit(points, start, end, TOLERANCE_PX * px, path);
 }
 
-/// Adds the outline of a stroke whose width varies: that of its nib, or what `width` gives at its points. `tapers` says which
-/// of its ends taper.
+/// Adds the outline of a stroke of varying width.
+///
+/// The width is that of the nib, or the value of `width` at each point. `tapers` selects the ends that taper.
 pub fn add_outline(
     stroke: &HatchStroke,
     nib: &Nib,
@@ -124,7 +127,7 @@ pub fn add_outline(
     path.close_path();
 }
 
-/// Points near enough to each other that a width can follow them.
+/// The points of a stroke, subdivided so that the width can vary along it.
 fn dense(points: &[Point], nib: &Nib, swells: bool) -> Vec<Point> {
     let step =
         if swells { SWELL_PX * nib.px } else { crate::hatching::clip::line_clip::length(points) / 6.0 };
@@ -136,5 +139,5 @@ fn dense(points: &[Point], nib: &Nib, swells: bool) -> Vec<Point> {
     out
 }
 
-/// Distance of the points at which a swelling stroke asks for its width, px.
+/// Distance between width samples of a swelling stroke, px.
 const SWELL_PX: f64 = 3.0;

@@ -1,7 +1,7 @@
-//! [`grain`] and [`speckle`]: the paper's tooth, as specks on the paper and as gaps in pencil strokes.
+//! [`grain`] and [`speckle`]: paper tooth, as specks on the paper and as gaps in pencil strokes.
 //!
-//! The tooth belongs to the paper: one speck in each square of a grid that lies on the page, where chance
-//! wants it. Strokes that cross the same place are broken by the same specks.
+//! The tooth belongs to the paper. Each square of a grid on the page has one speck at a random position, so
+//! strokes that cross the same spot are broken by the same specks.
 
 use kurbo::{BezPath, PathEl, Point, Vec2};
 
@@ -13,11 +13,11 @@ use crate::geometry::numbers::portable_math::{cos, sin};
 /// Specks on the paper.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grain {
-    /// How many in a square of 100 px. Default: 24.
+    /// Number of specks in a square of 100 px. Default: 24.
     pub density: f64,
-    /// How much darker than the paper the darkest are, 0 to 1. Default: 0.5.
+    /// How much darker than the paper the darkest specks are, 0 to 1. Default: 0.5.
     pub contrast: f64,
-    /// The sheet of paper.
+    /// Random seed of the sheet.
     pub seed: u64,
 }
 
@@ -27,8 +27,8 @@ impl Default for Grain {
     }
 }
 
-/// The layer of specks on a page: a mark for each of three tints, one of them lighter than the paper unless
-/// that is white. None if there are none.
+/// The layer of specks on a page. It has one mark for each of three tints, one of them lighter than the paper
+/// unless the paper is white. `None` if there are no specks.
 #[must_use]
 pub fn grain(page: &Page, options: &Grain) -> Option<Layer> {
     let paths = specks(page, options)?;
@@ -44,7 +44,7 @@ pub fn grain(page: &Page, options: &Grain) -> Option<Layer> {
     Some(Layer { kind: LayerKind::Paper, pen: None, ordered: false, marks: marks.map(mark).collect() })
 }
 
-/// Specks strewn over a page, in three groups by chance. None if there are none.
+/// Specks scattered over a page, split at random into three groups. `None` if there are none.
 pub(crate) fn specks(page: &Page, options: &Grain) -> Option<[BezPath; 3]> {
     let px = Length::px(1.0).in_unit(page.unit);
     let area = page.width * page.height / (px * px);
@@ -57,7 +57,7 @@ pub(crate) fn specks(page: &Page, options: &Grain) -> Option<[BezPath; 3]> {
     let mut paths = [(); 3].map(|()| BezPath::new());
     for row in 0..rows {
         for k in 0..columns {
-            // To and fro, so that what follows each other is near.
+            // Rows alternate in direction, so that consecutive specks are close.
             let column = if row % 2 == 0 { k } else { columns - 1 - k };
             let chance = Chance::new(options.seed, column, row);
             let corner = Vec2::new(column as f64, row as f64);
@@ -72,26 +72,26 @@ pub(crate) fn specks(page: &Page, options: &Grain) -> Option<[BezPath; 3]> {
     Some(paths)
 }
 
-/// Pages with more specks than this are drawn with this many.
+/// Greatest number of specks on a page. Denser grain is thinned to it.
 const MOST_SPECKS: f64 = 8000.0;
 
-/// How wide specks are.
+/// Range of speck widths.
 const SMALLEST_PX: f64 = 0.4;
 const LARGEST_PX: f64 = 1.8;
 
 /// Gaps in pencil strokes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Tooth {
-    /// The part of the strokes' area that is left out, 0 to about 0.3.
+    /// Share of the stroke area that is left out, 0 to about 0.3.
     pub amount: f64,
-    /// The sheet of paper.
+    /// Random seed of the sheet.
     pub seed: u64,
     /// The length of a px in user units.
     pub px: f64,
 }
 
-/// Specks along strokes, given by their middle lines and widths, to be filled with the colour of the paper
-/// over them.
+/// Specks along strokes, given by their centre lines and widths. Fill them with the paper's colour over the
+/// strokes.
 #[must_use]
 pub fn speckle(strokes: &[(BezPath, f64)], tooth: &Tooth) -> BezPath {
     let side = TOOTH_PX * tooth.px;
@@ -99,7 +99,7 @@ pub fn speckle(strokes: &[(BezPath, f64)], tooth: &Tooth) -> BezPath {
     if side.is_nan() || side <= 0.0 || tooth.amount <= 0.0 {
         return path;
     }
-    // Where much is left out, specks are wider.
+    // Larger amounts use wider specks.
     let mean = NARROW_OF_SQUARE + WIDER * tooth.amount;
     let wanted = tooth.amount / (SPECK_OF_WIDTH * mean * mean);
     let mut places: Vec<[i64; 2]> = Vec::new();
@@ -128,18 +128,18 @@ pub fn speckle(strokes: &[(BezPath, f64)], tooth: &Tooth) -> BezPath {
     path
 }
 
-/// The side of the squares with one hole of the tooth each.
+/// The side of the squares that hold one speck each.
 const TOOTH_PX: f64 = 1.5;
 
-/// The mean width of specks, as a part of their squares, and how it grows with what is left out.
+/// Mean speck width as a share of its square, and its increase per unit of amount.
 const NARROW_OF_SQUARE: f64 = 0.8;
 const WIDER: f64 = 0.6;
 
-/// The mean area of a speck, as a part of the square of its width, with what lies beside the stroke taken
-/// off: measured.
+/// Mean visible area of a speck as a share of its width squared, without the area outside the stroke.
+/// Measured value.
 const SPECK_OF_WIDTH: f64 = 0.27;
 
-/// Calls for points along a path, no farther apart than `step`.
+/// Calls `call` for points along a path, at most `step` apart.
 fn along(path: &BezPath, step: f64, mut call: impl FnMut(Point)) {
     let (mut start, mut at) = (Point::ORIGIN, Point::ORIGIN);
     kurbo::flatten(path, step / 4.0, |element| {
@@ -160,7 +160,7 @@ fn along(path: &BezPath, step: f64, mut call: impl FnMut(Point)) {
     });
 }
 
-/// What chance says of a square of the grid.
+/// Random numbers of one square of the grid.
 struct Chance {
     column: i64,
     row: i64,
@@ -172,27 +172,27 @@ impl Chance {
         Self { column, row, seed: hash(seed, &[column, row].map(i64::cast_unsigned)) }
     }
 
-    /// A number from 0 to 1, another one for each word.
+    /// A random number from 0 to 1, different for each word.
     fn of(&self, word: u64) -> f64 {
         unit(hash(self.seed, &[word]))
     }
 
-    /// Where the speck of the square lies.
+    /// Position of the square's speck.
     fn place(&self, side: f64) -> Point {
         Point::new((self.column as f64 + self.of(3)) * side, (self.row as f64 + self.of(4)) * side)
     }
 
-    /// How rough the paper is around: 0 to 2, 1 on average.
+    /// Local roughness of the paper: 0 to 2, 1 on average.
     fn rough(&self, seed: u64) -> f64 {
         let patch = [self.column, self.row].map(|k| k.div_euclid(PATCH).cast_unsigned());
         2.0 * unit(hash(seed, &[patch[0], patch[1], 1]))
     }
 }
 
-/// Roughness changes from patch to patch of this many squares.
+/// Side of a patch of equal roughness, squares.
 const PATCH: i64 = 3;
 
-/// Adds a polygon, stretched and turned by chance.
+/// Adds a polygon, stretched and turned at random.
 fn speck(path: &mut BezPath, at: Point, radius: f64, corners: u64, chance: &Chance) {
     let turn = std::f64::consts::TAU * chance.of(6);
     let (along, flat) = (Vec2::new(cos(turn), sin(turn)), 0.5 + 0.5 * chance.of(7));
@@ -255,7 +255,7 @@ mod tests {
             let path = speckle(&[(stroke.clone(), 4.0)], &tooth);
             let lost = specks(&path).iter().map(|speck| speck.area().abs()).sum::<f64>() / ink;
             assert!((0.6..1.5).contains(&(lost / amount)), "{amount}: {lost}");
-            // Twice the same stroke has the same holes.
+            // Drawing the same stroke twice gives the same holes.
             assert_eq!(speckle(&[(stroke.clone(), 4.0), (stroke.clone(), 4.0)], &tooth), path);
         }
         assert!(speckle(&[(stroke, 4.0)], &Tooth { amount: 0.0, seed: 3, px: 1.0 }).elements().is_empty());

@@ -1,8 +1,10 @@
-//! [`paper`] and [`tooth`]: the sheet that is drawn on, behind the model and over it.
+//! [`paper`] and [`tooth`]: the sheet of paper, behind the model and over it.
 //!
-//! Source: Lake et al. 2000, section 3.3 and figure 6: the texture of the paper lies behind the model and shows through what is drawn
-//! on it. Where a sheet is a picture, its hollows, which are darker than the rest, take less ink: there the paper itself is laid over
-//! ink and paint, so that nothing changes where nothing is drawn.
+//! Source: Lake et al. 2000, section 3.3 and figure 6: the paper's texture lies behind the model and shows
+//! through the ink.
+//!
+//! If the sheet is a picture, its hollows are darker than the rest and take less ink. There the paper is laid
+//! over ink and paint. Where nothing is drawn, that changes nothing.
 
 use std::sync::Arc;
 
@@ -15,37 +17,37 @@ use crate::drawing::{
     ImagePaint, ImagePiece, Layer, LayerKind, Length, Mark, Page, Paint, Provenance, Shows,
 };
 
-/// A sheet of paper.
+/// Sheet of paper.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Paper {
-    /// A picture of it, which is laid side by side over the page. Default: none, a plain colour.
+    /// Picture of the paper, tiled over the page. Default: none, a plain colour.
     pub picture: Option<Arc<Picture>>,
-    /// How wide one of them is. Default: each of its pixels a px.
+    /// Width of one tile. Default: one px for each pixel.
     pub width: Option<Length>,
-    /// How much its grain shows, 0 to 1. Default: 0.
+    /// Visibility of the grain, 0 to 1. Default: 0.
     pub grain: f64,
-    /// How much of it shows through ink and paint, 0 to 1. Default: 0.
+    /// How strongly the paper shows through ink and paint, 0 to 1. Default: 0.
     pub tooth: f64,
 }
 
-/// What lies behind the model: the picture, and the grain over it. None if the sheet is plain.
+/// The layer behind the model: the picture, and the grain over it. `None` if the sheet is plain.
 #[must_use]
 pub fn paper(page: &Page, sheet: &Paper, seed: u64) -> Option<Layer> {
     let mut marks = Vec::new();
     if let Some(picture) = &sheet.picture {
-        // Below the tiles, so that nothing else shines through where two meet.
+        // A plain fill below the tiles hides the seams between them.
         marks.push(mark(whole(page), Paint::Fill(Tally::of(picture).colour)));
         marks.push(mark(whole(page), Paint::Image(tiled(Arc::clone(picture), page, sheet.width))));
     }
     if sheet.grain > 0.0 {
         marks.extend(grain(page, &grains(sheet.grain, seed)).into_iter().flat_map(|layer| layer.marks));
     }
-    // The picture lies below the grain, whatever else may be exchanged.
+    // The picture must stay below the grain.
     let ordered = sheet.picture.is_some();
     (!marks.is_empty()).then_some(Layer { kind: LayerKind::Paper, pen: None, ordered, marks })
 }
 
-/// What shows of the sheet through all that is drawn on it. None if nothing does.
+/// The layer of paper that shows through everything drawn on it. `None` if there is none.
 #[must_use]
 pub fn tooth(page: &Page, sheet: &Paper, seed: u64) -> Option<Layer> {
     if sheet.tooth.is_nan() || sheet.tooth <= 0.0 {
@@ -57,7 +59,7 @@ pub fn tooth(page: &Page, sheet: &Paper, seed: u64) -> Option<Layer> {
             mark(whole(page), Paint::Image(tiled(Arc::new(hollows), page, sheet.width)))
         }
         None => {
-            // Other specks than those behind.
+            // A different seed from the grain behind, so that the specks differ.
             let options = Grain { density: TOOTH_DENSITY, ..grains(sheet.grain, !seed) };
             let path: BezPath = specks(page, &options)?.into_iter().flatten().collect();
             let colour = page.background.unwrap_or(Colour::WHITE);
@@ -67,13 +69,13 @@ pub fn tooth(page: &Page, sheet: &Paper, seed: u64) -> Option<Layer> {
     Some(Layer { kind: LayerKind::Tooth, pen: None, ordered: false, marks: vec![over] })
 }
 
-/// How many specks of bare paper show through ink in a square of 100 px.
+/// Number of specks of bare paper over the ink in a square of 100 px.
 const TOOTH_DENSITY: f64 = 90.0;
 
-/// No more tiles lie on a page; smaller ones are made larger.
+/// Approximate greatest number of tiles on a page. Smaller tiles are enlarged.
 const MOST_TILES: f64 = 1024.0;
 
-/// The grain of a sheet on which so much of it shows.
+/// The grain of a sheet at a given visibility, 0 to 1.
 fn grains(shows: f64, seed: u64) -> Grain {
     let usual = Grain::default();
     let contrast = usual.contrast * (2.0 * shows).min(1.0);
@@ -88,7 +90,7 @@ fn whole(page: &Page) -> BezPath {
     Rect::new(0.0, 0.0, page.width, page.height).to_path(0.1)
 }
 
-/// A picture side by side from the upper left corner of the page.
+/// A picture tiled from the upper left corner of the page.
 fn tiled(picture: Arc<Picture>, page: &Page, width: Option<Length>) -> ImagePaint {
     let asked = width.unwrap_or(Length::px(picture.width as f64)).in_unit(page.unit);
     let shape = picture.height as f64 / picture.width as f64;
@@ -107,16 +109,16 @@ fn tiled(picture: Arc<Picture>, page: &Page, width: Option<Length>) -> ImagePain
     ImagePaint { pieces: (0..columns * rows).map(piece).collect(), picture }
 }
 
-/// How light a pixel is, 0 to 255, as the eye weighs its channels.
+/// Luminance of a pixel, 0 to 255 (Rec. 709 weights).
 fn lightness(colour: Colour) -> f64 {
     0.2126 * f64::from(colour.r) + 0.7152 * f64::from(colour.g) + 0.0722 * f64::from(colour.b)
 }
 
-/// What the pixels of a sheet are like.
+/// Statistics of the pixels of a sheet.
 struct Tally {
     /// The mean colour.
     colour: Colour,
-    /// The mean of how light they are, and the standard deviation from it.
+    /// Mean luminance and its standard deviation.
     mean: f64,
     deviation: f64,
 }
@@ -133,7 +135,7 @@ impl Tally {
     }
 }
 
-/// The picture of a sheet, clear but where it is darker than in the mean. None if it is of one colour.
+/// The picture of a sheet, transparent except where it is darker than the mean. `None` if it has one colour.
 fn hollows(picture: &Picture, tooth: f64) -> Option<Picture> {
     let Tally { mean, deviation, .. } = Tally::of(picture);
     let depth = |colour: &Colour| ((mean - lightness(*colour)) / (2.0 * deviation)).clamp(0.0, 1.0);
@@ -149,7 +151,7 @@ mod tests {
 
     const PAGE: Page = Page { width: 100.0, height: 60.0, unit: Unit::Px, background: None };
 
-    /// Light but for every third column.
+    /// White, except for every third column.
     fn laid() -> Arc<Picture> {
         let pixel =
             |k: usize| if (k % 9).is_multiple_of(3) { Colour::rgb(200, 190, 180) } else { Colour::WHITE };

@@ -1,7 +1,7 @@
-//! Patterns over tones: dots, lines, crosses and tiles, cut where their tone ends.
+//! Marks of patterns over tones: dots, lines, crosses and tiles, clipped where their tone ends.
 //!
-//! Dots on the page are cut as those of half-tone screens are, lines as strokes are, other shapes as polygons: exactly, where they
-//! cross the borders of the ground.
+//! Dots on the page are clipped like half-tone dots, lines like strokes, and other shapes as polygons. All
+//! are clipped exactly at the borders of the ground.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -22,23 +22,26 @@ use crate::mesh::{MaterialId, PartId};
 use crate::regions::surface_curves::decals::Decal;
 use crate::regions::{Ground, Look};
 
-/// Patterns of more lines, crosses or tiles than this are too fine to be seen, and are made coarser.
+/// Greatest number of lines, crosses or tiles of a pattern. Finer patterns could not be seen; they are made
+/// coarser.
 const MOST: f64 = 2e5;
 
-/// The arms of a cross, as part of its square.
+/// Length of an arm of a cross as a share of its square.
 const ARM: f64 = 0.3;
 
-/// What a pattern that is fixed to the surface is made of.
+/// Content of a pattern that is fixed to the surface.
 #[derive(Debug, Clone)]
 pub enum OnSurface {
     /// Lines and crosses.
     Guides(Vec<Guide>),
-    /// Dots and tiles: as seen, and whether those of each figure are filled.
+    /// Dots and tiles as they appear on the page, and whether each figure is filled.
     Decals(Vec<Decal>, Vec<bool>),
 }
 
-/// The marks of a pattern, one for each part, material and tone. `tones` says how many tones there are where something looks so;
-/// `fixed` is what is fixed to the surface.
+/// The marks of a pattern, one for each part, material and tone.
+///
+/// `tones` returns the number of tones of a surface with a given look. `fixed` is the content that is fixed
+/// to the surface.
 #[must_use]
 pub fn pattern(
     ground: &Ground,
@@ -93,13 +96,13 @@ pub fn pattern(
     marks
 }
 
-/// What cells leave of a line.
+/// The parts of a line that lie in wanted cells, each with its cell.
 fn cut_line(ground: &Ground, line: &[Point], wanted: impl Fn(u32) -> bool) -> Vec<(u32, BezPath)> {
     let seen = stretches(ground, line, wanted);
     seen.into_iter().map(|s| (s.cell, polyline(&between(line, s.from, s.to)))).collect()
 }
 
-/// The marks of figures on the surface: each on the facets on which it is seen.
+/// The marks of figures on the surface, each clipped to the facets that show it.
 fn on_surface(
     ground: &Ground,
     context: &HatchContext,
@@ -151,7 +154,7 @@ fn rounded(decal: &Decal) -> Option<BezPath> {
     let at = |k: usize| ring[k % n];
     let mut path = BezPath::new();
     path.move_to(*ring.first()?);
-    // Quarters of it: from end to end, as far out as the point between them is.
+    // Four quarters, each bulging out to the ring point halfway along it.
     for k in 0..4 {
         let (a, b, c) = (at(k * n / 4), at((2 * k + 1) * n / 8), at((k + 1) * n / 4));
         let bulge = (b - a.midpoint(c)) * (4.0 / 3.0);
@@ -162,10 +165,10 @@ fn rounded(decal: &Decal) -> Option<BezPath> {
     Some(path)
 }
 
-/// Where along the chord of a quarter of a circle the handles of its curve are.
+/// Position of the Bézier handles along the chord of a quarter circle.
 const QUARTER: f64 = 0.276_142_374_915_397;
 
-/// The box around the wanted cells.
+/// The bounding box of the wanted cells.
 fn extent(ground: &Ground, wanted: &[bool]) -> Option<[Point; 2]> {
     let pieces = ground.pieces.iter().filter(|piece| piece.sides.iter().any(|cell| wanted[*cell as usize]));
     let ends = pieces.flat_map(|piece| piece.ends);
@@ -175,7 +178,7 @@ fn extent(ground: &Ground, wanted: &[bool]) -> Option<[Point; 2]> {
     })
 }
 
-/// Where the squares of a pattern that is fixed to the page are, over a box of it.
+/// Squares of a pattern that is fixed to the page, over a box of it.
 struct Placing {
     size: f64,
     along: Vec2,
@@ -202,14 +205,14 @@ impl Placing {
         ((self.along * x + self.across * y) * self.size).to_point()
     }
 
-    /// The first corners of all squares: columns run along, rows across, which is down the page as in SVG.
+    /// The first corners of all squares. Columns run along, rows across, which is down the page as in SVG.
     fn cells(&self) -> impl Iterator<Item = [f64; 2]> {
         let of_row =
             move |row: i64| self.columns.clone().map(move |column| [column as f64, row as f64 * self.height]);
         self.rows.clone().flat_map(of_row)
     }
 
-    /// The shapes of all tiles.
+    /// The shapes of all tiles, in page coordinates.
     fn shapes(&self, tile: &Tile) -> Vec<Vec<Vec<Point>>> {
         let placed = |[x, y]: [f64; 2]| {
             let point = move |p: &Point| self.at(x + p.x, y + p.y);
@@ -258,7 +261,7 @@ fn polyline(points: &[Point]) -> BezPath {
     path
 }
 
-/// Paths in cells as marks; filled unless they have a width.
+/// Collects paths in cells into marks. They are filled unless they have a width.
 fn gathered(
     paths: impl Iterator<Item = (u32, BezPath)>,
     ground: &Ground,

@@ -1,4 +1,4 @@
-//! [`Pattern`]: what is laid over one tone of one material: a table `[[fills.pattern]]` of a style sheet.
+//! [`Pattern`]: a pattern over one tone of one material: a table `[[fills.pattern]]` of a style sheet.
 
 use std::path::PathBuf;
 
@@ -12,7 +12,7 @@ use crate::drawing::Length;
 use crate::geometry::names::glob::Glob;
 use crate::strokes::Ink;
 
-/// What a pattern is made of.
+/// Content of a pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PatternKind {
@@ -21,68 +21,68 @@ pub enum PatternKind {
     Dots,
     /// Parallel lines.
     Lines,
-    /// Small upright crosses in rows; fixed to the surface, lines that cross.
+    /// Small upright crosses in rows. Fixed to the surface, they become crossing lines.
     Crosses,
-    /// A tile of one's own: path data, an SVG file or a picture.
+    /// A custom tile: path data, an SVG file or a picture.
     Tile,
 }
 
-/// What a pattern keeps its place on.
+/// Frame of reference of a pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum PatternFixed {
-    /// The page: the same size everywhere, through which surfaces show.
+    /// The page: the same size everywhere, as if surfaces were windows onto the pattern.
     #[default]
     Page,
     /// The surface: it turns and shrinks with it.
     Surface,
 }
 
-/// A pattern over one tone of one material.
+/// Pattern over one tone of one material.
 ///
-/// Source: Claes et al., Fast 3D cartoon rendering with improved quality by exploiting graphics hardware, 2001, section 3.4 and figure 5d:
-/// a texture in place of the colour of a tone.
+/// Source: Claes et al., Fast 3D cartoon rendering with improved quality by exploiting graphics hardware,
+/// 2001, section 3.4 and figure 5d, where a texture replaces the colour of a tone.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Pattern {
-    /// Names of the materials it is for. Default: all.
+    /// Names of the materials that get it. Default: all.
     pub material: Glob,
-    /// The tones it is for: 0 is the darkest, −1 the lightest; empty = all. Default: all.
+    /// The tones that get it: 0 is the darkest, −1 the lightest; empty means all. Default: all.
     pub tones: Vec<i32>,
-    /// What it is made of. Default: dots.
+    /// Content. Default: dots.
     pub kind: PatternKind,
-    /// From one dot, line, cross or tile to the next. Default: 8 px.
+    /// Distance from one dot, line, cross or tile to the next. Default: 8 px.
     #[serde(deserialize_with = "size")]
     pub size: Length,
     /// Width of lines, diameter of dots. Default: 1.5 px.
     #[serde(deserialize_with = "size")]
     pub width: Length,
-    /// Degrees that it is turned by, counter-clockwise. Default: 0.
+    /// Rotation in degrees, counter-clockwise. Default: 0.
     pub angle: f64,
-    /// Its colour. Default: `#1a1a1a`.
+    /// Colour. Default: `#1a1a1a`.
     #[serde(alias = "color")]
     pub colour: Ink,
-    /// How opaque it is, 0 to 1. Default: 1.
+    /// Opacity, 0 to 1. Default: 1.
     #[serde(deserialize_with = "fraction")]
     pub opacity: f64,
-    /// What it keeps its place on. Default: the page.
+    /// Frame of reference. Default: the page.
     pub fixed: PatternFixed,
     /// A tile as SVG path data in a square of side 10.
     #[serde(deserialize_with = "tile")]
     pub path: Option<BezPath>,
-    /// Whether the path is filled; else it is drawn as lines. Default: no.
+    /// Whether the path is filled. If not, it is drawn as lines. Default: false.
     pub fill: bool,
-    /// A tile as an SVG file, whose filled and stroked paths are taken.
+    /// A tile as an SVG file; its filled and stroked paths are used.
     pub file: Option<PathBuf>,
-    /// A tile as a PNG, JPEG or WebP picture, whose dark parts are traced.
+    /// A tile as a PNG, JPEG or WebP picture; its dark areas are traced.
     pub image: Option<PathBuf>,
-    /// What is darker than this in the picture is drawn, 0 (white) to 1. Default: 0.5.
+    /// Darkness threshold of the picture, 0 (white) to 1: darker areas are drawn. Default: 0.5.
     #[serde(deserialize_with = "fraction")]
     pub level: f64,
-    /// Whether it is laid where no tones are painted, too.
+    /// Whether it also covers surfaces without painted tones.
     #[serde(skip)]
     pub unpainted: bool,
-    /// The tile itself, once it is read.
+    /// The tile, once it has been read.
     #[serde(skip)]
     pub tile: Tile,
 }
@@ -111,7 +111,7 @@ impl Default for Pattern {
 }
 
 impl Pattern {
-    /// Whether it is for a tone, 0 the darkest, of a material that has `count` of them.
+    /// Whether it covers a tone, 0 the darkest, of a material that has `count` tones.
     #[must_use]
     pub fn is_for(&self, material: &str, tone: u16, count: u16) -> bool {
         let (tone, count) = (i32::from(tone), i32::from(count));
@@ -120,7 +120,7 @@ impl Pattern {
     }
 }
 
-/// Path data of which a tile can be made.
+/// Reads SVG path data that can form a tile.
 fn tile<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<BezPath>, D::Error> {
     let text = String::deserialize(deserializer)?;
     let wrong = |what: String| {

@@ -1,4 +1,4 @@
-//! Filled shapes of patterns, cut where their part of the page ends.
+//! Filled shapes of patterns, clipped to their domains.
 
 use kurbo::{BezPath, Point, Shape as _};
 
@@ -6,12 +6,12 @@ use crate::hatching::clip::domain::{BLANK, Domains, border};
 use crate::hatching::clip::polygon_clip::{box_of, reach, snip};
 use crate::regions::Ground;
 
-/// A filled shape on the page.
+/// Filled shape on the page.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Shape {
-    /// Its outlines as polygons, filled by the nonzero rule.
+    /// Outlines as polygons, filled by the nonzero rule.
     pub rings: Vec<Vec<Point>>,
-    /// What is drawn where nothing cuts it, if that is not the polygons.
+    /// Path that is drawn if nothing clips the shape, in place of the polygons.
     pub whole: Option<BezPath>,
 }
 
@@ -30,7 +30,7 @@ impl Shape {
     }
 }
 
-/// What domains leave of a shape. Only `wanted` ones count.
+/// The parts of a shape in wanted domains, each with its domain.
 pub(crate) fn shown(
     ground: &Ground,
     domains: &Domains,
@@ -70,7 +70,7 @@ pub(crate) fn shown(
             .filter_map(|number| Some(border(&ground.pieces[*number as usize], is_own)?.0))
             .collect();
         let path = snip(&shape.rings, &edges, |p| is_own(ground.cell_at(p)))?;
-        // Where shapes overlap, those that turn unlike would take each other out.
+        // Overlapping shapes of opposite orientation would cancel under the nonzero rule.
         let is_turned = path.area() * turn < 0.0;
         Some((domain, if is_turned { path.reverse_subpaths() } else { path }))
     };

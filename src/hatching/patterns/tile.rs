@@ -1,4 +1,4 @@
-//! [`Tile`]: what a pattern repeats: lines, and filled shapes.
+//! [`Tile`]: the lines and filled shapes that a pattern repeats.
 
 use kurbo::{BezPath, Point, Shape};
 
@@ -6,41 +6,42 @@ use crate::colour::darkness_map::{Shades, Tracing};
 use crate::colour::pixel_picture::Picture;
 use crate::hatching::clip::polygon_clip::{Filling, united};
 
-/// A tile of a pattern, 1 wide; y runs down.
+/// Tile of a pattern. Its width is 1; y points down.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Tile {
-    /// Lines that are drawn with the pattern's width.
+    /// Lines drawn with the pattern's width.
     pub lines: Vec<Vec<Point>>,
-    /// Filled shapes: each an island and its holes, which turn the other way; all islands turn alike.
+    /// Filled shapes. Each is an island and its holes. All islands have one orientation, and holes the other.
     pub shapes: Vec<Vec<Vec<Point>>>,
-    /// How high it is.
+    /// Height of the tile.
     pub height: f64,
 }
 
-/// Side of the square that the path of a tile is drawn in.
+/// Side of the square for the path data of a tile.
 const SIDE: f64 = 10.0;
 
-/// How far the lines of a tile may be from its curves, as part of its side; and filled shapes, which are larger.
+/// Flattening tolerance of lines and of filled shapes as a share of the side. Shapes are larger and need a
+/// finer one.
 const FLAT: f64 = 0.002;
 const FLAT_SHAPE: f64 = 0.0005;
 
-/// Points of all lines and shapes of a tile.
+/// Greatest number of points in all lines and shapes of a tile.
 const MOST_POINTS: usize = 10_000;
 
-/// Pictures are traced with no more pixels than this.
+/// Greatest number of pixels of a traced picture.
 const MOST_PIXELS: usize = 1 << 18;
 
-/// How far the outlines of a picture may be off at first, pixels; twice as far until there are few enough points.
+/// Initial tolerance of traced outlines, pixels. It doubles until the outlines have few enough points.
 const TOLERANCE: f64 = 0.1;
 
-/// Islands and holes of pictures with less area than this are left out, pixels.
+/// Least area of traced islands and holes, pixels. Smaller ones are dropped.
 const SPECK: f64 = 1.5;
 
 impl Tile {
-    /// A tile of SVG path data in a square of side 10: of lines, or filled.
+    /// A tile of SVG path data in a square of side 10: lines, or filled shapes if `filling` is set.
     ///
     /// # Errors
-    /// Says what is wrong with the path.
+    /// Describes the fault of the path.
     pub fn of_path(path: &BezPath, filling: Option<Filling>) -> Result<Self, String> {
         if let Some(filling) = filling {
             return Self::of_shapes(&[(path.clone(), filling)], [SIDE; 2]);
@@ -50,10 +51,10 @@ impl Tile {
         Self { lines, shapes: Vec::new(), height: 1.0 }.checked()
     }
 
-    /// A tile of filled shapes in a box from (0, 0) to a size.
+    /// A tile of filled shapes in a box from (0, 0) to the given size.
     ///
     /// # Errors
-    /// Says what is wrong with them.
+    /// Describes the fault of the shapes.
     pub fn of_shapes(shapes: &[(BezPath, Filling)], [width, height]: [f64; 2]) -> Result<Self, String> {
         if !(width > 0.0 && height > 0.0 && (1e-3..=1e3).contains(&(height / width))) {
             return Err("has no size to repeat".to_owned());
@@ -84,10 +85,10 @@ impl Tile {
         Self { lines: Vec::new(), shapes: islands(rings), height: height / width }.checked()
     }
 
-    /// A tile of what is darker in a picture than a level, 0 to 1.
+    /// A tile of the areas of a picture that are darker than `level`, 0 to 1.
     ///
     /// # Errors
-    /// Says what is wrong with the picture.
+    /// Describes the fault of the picture.
     pub fn of_picture(picture: &Picture, level: f64) -> Result<Self, String> {
         let whole = Shades::of(picture);
         let times = (MOST_PIXELS as f64 / (whole.width * whole.height) as f64).sqrt().min(1.0);
@@ -123,7 +124,7 @@ impl Tile {
     }
 }
 
-/// Control points of curves may be this many sizes of the tile away.
+/// Greatest distance of control points from the origin, in tile sizes.
 const FARTHEST: f64 = 100.0;
 
 const FAR: &str = "extends far outside its square";
@@ -132,7 +133,7 @@ fn is_near(p: Point) -> bool {
     p.is_finite() && p.x.abs() <= SIDE && p.y.abs() <= SIDE
 }
 
-/// The lines of a path, each at least two points; an error if it is out of all proportion to the size of the tile.
+/// The polylines of a path, each of at least two points. Fails if the path is far larger than the tile.
 fn flattened(path: &BezPath, tolerance: f64, size: f64) -> Result<Vec<Vec<Point>>, String> {
     let extent = path.control_box();
     let far = [extent.x0, extent.y0, extent.x1, extent.y1].map(f64::abs).into_iter().fold(0.0, f64::max);
@@ -150,7 +151,7 @@ fn flattened(path: &BezPath, tolerance: f64, size: f64) -> Result<Vec<Vec<Point>
     Ok(lines)
 }
 
-/// Rings as islands, each with the holes that lie in it.
+/// Groups rings into islands, each with the holes inside it.
 fn islands(rings: Vec<Vec<Point>>) -> Vec<Vec<Vec<Point>>> {
     let path = |ring: &[Point]| {
         let mut path = BezPath::new();
@@ -159,13 +160,13 @@ fn islands(rings: Vec<Vec<Point>>) -> Vec<Vec<Vec<Point>>> {
         path
     };
     let areas: Vec<f64> = rings.iter().map(|ring| path(ring).area()).collect();
-    // All islands together are larger than what is taken out of them.
+    // The total area of islands exceeds that of their holes, so the sum has the islands' sign.
     let turn = areas.iter().sum::<f64>().signum();
     let (outer, holes): (Vec<usize>, Vec<usize>) = (0..rings.len()).partition(|k| areas[*k] * turn > 0.0);
     let outlines: Vec<BezPath> = outer.iter().map(|k| path(&rings[*k])).collect();
     let mut islands: Vec<Vec<Vec<Point>>> = outer.iter().map(|k| vec![rings[*k].clone()]).collect();
     for hole in holes {
-        // A place within the hole, beside its first side.
+        // A point inside the hole, next to one of its sides.
         let Some(p) = within(&rings[hole], &path(&rings[hole])) else { continue };
         let around = (0..outer.len()).filter(|k| outlines[*k].contains(p));
         let least = around.min_by(|a, b| areas[outer[*a]].abs().total_cmp(&areas[outer[*b]].abs()));
@@ -176,7 +177,7 @@ fn islands(rings: Vec<Vec<Point>>) -> Vec<Vec<Vec<Point>>> {
     islands
 }
 
-/// A point within a ring.
+/// A point inside a ring.
 fn within(ring: &[Point], path: &BezPath) -> Option<Point> {
     let sides = (0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()]]);
     let beside = sides.flat_map(|[a, b]| {
@@ -203,7 +204,7 @@ mod tests {
     #[test]
     fn shapes_that_overlap_are_one_and_holes_belong_to_their_islands() {
         let path = |text: &str| BezPath::from_svg(text).unwrap();
-        // Two squares that overlap, turning unlike ways, and a frame with a square in it.
+        // Two overlapping squares of opposite orientation, and a frame with a square in it.
         let shapes = [
             (path("M0 0H4V4H0Z"), Filling::NonZero),
             (path("M2 2V6H6V2Z"), Filling::NonZero),

@@ -1,8 +1,13 @@
-//! Borders of surfaces that overlap others in one plane: what is on top on both sides of them says what line they are.
+//! Coplanar overlaps: kinds of edges in planes where surfaces overlap, from the surfaces on top on both
+//! sides.
 //!
-//! The rim of a label on a wall is an edge with one face, but no border of what is seen: it parts two materials, as if the wall had a
-//! hole for the label. So does the rim of a body that is let into the wall. Where a rim runs under another surface of its plane there is
-//! no line. So each edge is cut where what is on top changes just next to it, on one side or the other.
+//! The rim of a label on a wall has one face, but is no border in the image. It separates two materials, as
+//! if the label filled a hole in the wall. So does the rim of a body that is let into a wall. A rim below
+//! another surface of its plane is no line.
+//!
+//! 1. The faces next to the edge in its plane are found, at a small distance on both sides.
+//! 2. The edge is cut where the face on top changes on either side.
+//! 3. Each piece gets its kind from the two faces on top.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -12,27 +17,27 @@ use crate::mesh::bvh::box_tree::BoxTree;
 use crate::mesh::{FaceId, Mesh, VertexId};
 use crate::view::View;
 
-/// What is on top is asked so many times the reach of contact next to an edge.
+/// Distance of the test lines next to an edge, in contact distances.
 const BESIDE: f64 = 4.0;
 
-/// Pieces shorter than so many times that are cut off by where it is asked, not by what is there.
+/// Minimum length of a piece, in test distances. Shorter pieces are artefacts of the test.
 const SHORTEST: f64 = 8.0;
 
-/// The lines that edges in overlapping planes are, in place of what they are by themselves.
+/// Pieces of edges in overlapping planes, with their new kinds.
 #[derive(Default)]
 pub(crate) struct Overlaid {
-    /// Pieces of edges; ends beyond the mesh's vertices are numbers of `points`.
+    /// Pieces. Ends above the number of mesh vertices are indices into `points`.
     pieces: Vec<FeatureSegment>,
     points: Vec<DVec3>,
 }
 
-/// Whether there are such edges: borders are then sought whatever kinds are.
+/// Whether the mesh has overlapping surfaces. Borders are then needed even if they are not drawn.
 pub(crate) fn is_asked(mesh: &Mesh) -> bool {
     !mesh.overlays.is_empty()
 }
 
-/// Takes out the edges that lie in planes where surfaces overlap, and says what they are instead. Of other kinds than `options` has none
-/// are left.
+/// Removes the edges in planes where surfaces overlap, and returns their pieces with new kinds. Only segments
+/// of the kinds in `options` remain.
 pub(crate) fn settle(
     mesh: &Mesh,
     view: &View,
@@ -53,7 +58,7 @@ pub(crate) fn settle(
             if let Some(more) = other.and_then(pieces_in) {
                 pieces = of_both_planes(&pieces, &more);
             }
-            // An edge that stays what it is stays where it is.
+            // An edge that keeps its kind throughout stays unchanged.
             let is_one =
                 matches!(pieces.as_slice(), [piece] if piece.is_whole() && piece.kind == segment.kind);
             (!is_one).then_some(pieces)
@@ -69,8 +74,11 @@ pub(crate) fn settle(
     overlaid
 }
 
-/// The faces of an edge in whose planes surfaces overlap, if the edge has nothing on the eye's side of that plane: borders, edges
-/// between materials in it, and edges at which a body goes on behind it. Such a body may have a face in one plane and another in a second.
+/// Faces of an edge in whose planes surfaces overlap, if nothing at the edge lies on the camera's side of
+/// that plane.
+///
+/// These are borders, material boundaries in the plane, and edges where a body continues behind it. Such a
+/// body may have faces in two planes.
 fn hosts_in_planes(mesh: &Mesh, view: &View, segment: &FeatureSegment) -> [Option<u32>; 2] {
     let [first, second] = segment.hosts;
     match segment.kind {
@@ -99,7 +107,7 @@ fn hosts_in_planes(mesh: &Mesh, view: &View, segment: &FeatureSegment) -> [Optio
     }
 }
 
-/// The pieces of an edge of a body that lies in two planes, given those that it has in each: it parts materials where it does so in one.
+/// Merges the pieces of an edge in two planes: it is a material boundary where it is one in either plane.
 fn of_both_planes(one: &[Piece], two: &[Piece]) -> Vec<Piece> {
     let mut cuts: Vec<f64> = one.iter().chain(two).flat_map(|piece| [piece.start, piece.end]).collect();
     cuts.sort_by(f64::total_cmp);
@@ -150,7 +158,7 @@ impl Overlaid {
         }
     }
 
-    /// Adds them to all lines.
+    /// Appends the pieces to all lines.
     pub(crate) fn append_to(self, mesh: &Mesh, lines: &mut FeatureLines) {
         let vertices = mesh.positions.len() as u32;
         let shift = lines.points.len() as u32;
@@ -161,12 +169,12 @@ impl Overlaid {
     }
 }
 
-/// A piece of an edge that is a line.
+/// Piece of an edge that is a line.
 struct Piece {
     start: f64,
     end: f64,
     kind: LineKind,
-    /// The face on top beyond the edge.
+    /// Face on top on the outer side of the edge.
     beyond: u32,
 }
 
@@ -176,16 +184,16 @@ impl Piece {
     }
 }
 
-/// An edge in a plane, and how to look at what lies next to it.
+/// Edge in a plane, with the test lines next to it.
 struct Rim<'a> {
     mesh: &'a Mesh,
-    /// The face from which it looks outward.
+    /// Face on its inner side.
     host: u32,
     kind: LineKind,
-    /// Whether it is a line of the plane alone, and not one of a body.
+    /// Whether it is a line within the plane, and not the edge of a body.
     is_flat: bool,
     from: DVec3,
-    /// Along the edge, and from it into that face: unit vectors.
+    /// Unit vectors along the edge, and from it into the host face.
     along: DVec3,
     inward: DVec3,
     length: f64,
@@ -196,7 +204,7 @@ impl<'a> Rim<'a> {
     fn new(mesh: &'a Mesh, segment: &FeatureSegment, host: u32) -> Option<Self> {
         let [a, b] = segment.ends.map(|v| mesh.positions[VertexId(v).index()]);
         let along = (b - a).try_normalize()?;
-        // Next to a face without area, corners of the host that are no ends of the edge may lie on its line as well.
+        // Next to a degenerate face, other corners of the host may lie on the line of the edge too.
         let over = mesh.corners(FaceId(host)).map(|corner| (corner - a) - along * (corner - a).dot(along));
         let inward = over.into_iter().max_by(|p, q| p.length_squared().total_cmp(&q.length_squared()))?;
         let inward = inward.try_normalize()?;
@@ -207,9 +215,9 @@ impl<'a> Rim<'a> {
         Some(Self { mesh, host, kind, is_flat, from: a, along, inward, length, beside })
     }
 
-    /// The pieces that are lines, from end to end, given a tree of the faces that overlap others.
+    /// Pieces that are lines, from end to end. `faces` is a tree of the overlapping faces.
     fn pieces(&self, faces: &BoxTree) -> Vec<Piece> {
-        // What each face covers of the lines to both sides.
+        // Ranges of the two test lines that each face covers.
         let mut covers = [Vec::new(), Vec::new()];
         let to = self.from + self.along * self.length;
         let room = DVec3::splat(2.0 * self.beside);
@@ -249,7 +257,7 @@ impl<'a> Rim<'a> {
         pieces.into_iter().map(|(piece, _)| piece).collect()
     }
 
-    /// The face on top of those that cover a place.
+    /// Topmost face of those that cover a position.
     fn top(&self, covers: &[((f64, f64), u32)], at: f64) -> Option<u32> {
         let there = covers.iter().filter(|((start, end), _)| (*start..=*end).contains(&at));
         there
@@ -257,13 +265,13 @@ impl<'a> Rim<'a> {
             .max_by_key(|face| (self.mesh.overlay(*face).rank, std::cmp::Reverse(*face)))
     }
 
-    /// What line there is between what is on top on both sides, and the face beyond it.
+    /// Kind of line between the topmost faces on both sides, and the outer face.
     fn line(&self, within: Option<u32>, beyond: Option<u32>) -> Option<(LineKind, u32)> {
         let mesh = self.mesh;
         let own = within.unwrap_or(self.host);
         let Some(beyond) = beyond else { return Some((self.kind, NO_FACE)) };
         let material = |face: u32| mesh.face_material[face as usize];
-        // Edges of bodies are drawn where they run across a surface of their plane, as where colours are alike.
+        // Edges of bodies are drawn across a surface of their plane, even where the colours are equal.
         if mesh.overlay(own).rank == mesh.overlay(beyond).rank {
             return (!self.is_flat).then_some((self.kind, beyond));
         }
@@ -274,12 +282,12 @@ impl<'a> Rim<'a> {
         }
     }
 
-    /// Between which parts of the edge's length a face covers the lines that run next to it, inward and outward.
+    /// Ranges, in fractions of the edge's length, where a face covers the inner and the outer test line.
     fn covered(&self, corners: &[DVec3; 3]) -> [Option<(f64, f64)>; 2] {
         let heights = corners.map(|p| (p - self.from).dot(self.inward));
         let [low, high] =
             [heights[0].min(heights[1]).min(heights[2]), heights[0].max(heights[1]).max(heights[2])];
-        // Most faces of a large plane lie far to one side.
+        // Early exit: most faces of a large plane lie far to one side.
         if high < -self.beside || low > self.beside {
             return [None; 2];
         }

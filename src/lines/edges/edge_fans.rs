@@ -1,10 +1,11 @@
-//! Lines along edges with three faces or more.
+//! Lines along edges with three or more faces.
 //!
-//! 1. Faces are grouped by body. Each body has the line that it would have alone: a border of one face, a contour, crease or material
-//!    boundary between two.
-//! 2. Three faces or more of one body are judged by all of them: a contour if they lie on one side of the edge in the image, else a crease
-//!    by the corner between faces into which the eye looks.
-//! 3. Of the lines of all bodies the strongest stays, and of equal ones that of the smaller part, as of all lines that coincide.
+//! 1. Faces are grouped by body. Each body has the line that it would have alone: a border for one face; a
+//!    contour, crease or material boundary for two.
+//! 2. Three or more faces of one body are judged together. The line is a contour if they lie on one side of
+//!    the edge in the image. Otherwise the corner between faces that the camera looks into decides on a
+//!    crease.
+//! 3. Of the lines of all bodies the strongest is kept; among equals that of the smaller part.
 
 use super::edge_lines::Finder;
 use crate::lines::{FeatureSegment, LineKind};
@@ -12,8 +13,10 @@ use crate::mesh::normals::dihedral::{is_unfolded_diagonal, mark, runs_up};
 use crate::mesh::{Dihedral, FaceId, MaterialId};
 
 impl Finder<'_> {
-    /// Three faces or more. Each body has the line that it would have alone, whether the bodies share the vertices of the edge or
-    /// merely touch there; of these lines the strongest is drawn, as of all that coincide, and of equal ones that of the smaller part.
+    /// Classifies an edge with three or more faces.
+    ///
+    /// Each body has the line that it would have alone, whether the bodies share the vertices of the edge or
+    /// merely touch there. The strongest line is drawn, and among equals that of the smaller part.
     pub(crate) fn classify_fan(&self, edge: usize, faces: &[u32]) -> Option<FeatureSegment> {
         let mesh = self.mesh;
         let mut real: Vec<u32> = faces.iter().copied().filter(|f| !self.degenerate(*f)).collect();
@@ -43,9 +46,8 @@ impl Finder<'_> {
         lines.min_by(|a, b| a.kind.cmp(&b.kind).then_with(|| extent(a).precedence(extent(b))))
     }
 
-    /// Three faces or more of one body. The line is a contour if all of them lie on one side of it in the
-    /// image. Else the eye looks into one of the corners between neighbouring faces, and that
-    /// corner decides about a crease.
+    /// Classifies three or more faces of one body: a contour if all of them lie on one side of the edge in
+    /// the image. Otherwise the corner that the camera looks into decides on a crease.
     fn classify_own_fan(&self, edge: usize, faces: &[u32]) -> Option<FeatureSegment> {
         let mesh = self.mesh;
         let side = |f: u32| self.view.facing[f as usize] == runs_up(mesh, edge, f);
@@ -70,8 +72,8 @@ impl Finder<'_> {
         })
     }
 
-    /// Whether the materials of faces that meet in one edge change from one to the next. Parts that lie on each other
-    /// face on face are one surface: where each of its faces is of the same materials, none of them ends.
+    /// Whether materials change across the edge. Parts that lie on each other face to face count as one
+    /// surface: if each of its faces has the same materials, none of them ends at the edge.
     fn materials_change(&self, edge: usize, faces: &[u32]) -> bool {
         let mesh = self.mesh;
         let ends = mesh.edges.vertices[edge];
@@ -86,8 +88,8 @@ impl Finder<'_> {
         surfaces.any(|other| Some(&other) != first.as_ref())
     }
 
-    /// Of faces that meet in one edge the one to which the line belongs: one that turns its outside to the
-    /// eye, of the smallest part. The order of parts in the file does not matter.
+    /// Face that the line belongs to: a face with its outside to the camera, of the smallest part. The order
+    /// of parts in the file does not matter.
     pub(crate) fn owner(&self, faces: &[u32]) -> u32 {
         let mesh = self.mesh;
         let seen = faces.iter().copied().filter(|f| self.view.facing[*f as usize]);
@@ -103,8 +105,7 @@ impl Finder<'_> {
         first.unwrap_or(faces[0])
     }
 
-    /// Degrees by which the surface turns in the corner between two faces into which the eye
-    /// looks.
+    /// Turn of the surface in the corner that the camera looks into, degrees.
     fn corner_turn(&self, edge: usize, faces: &[u32]) -> f32 {
         let mesh = self.mesh;
         let [lo, hi] = mesh.edges.vertices[edge];

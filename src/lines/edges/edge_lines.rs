@@ -1,8 +1,14 @@
-//! Feature lines that are edges of the mesh: contours, borders, creases, material boundaries.
+//! Feature lines that are mesh edges: contours, borders, creases and material boundaries.
 //!
-//! Source: Lake, Marshall, Harris and Blackstein, "Stylized rendering techniques for scalable
-//! real-time 3D animation", NPAR 2000, section 4.1. A contour is told from the geometry of its
-//! faces, not from their winding alone, so that meshes of mixed winding are drawn right.
+//! - One face: a border.
+//! - Two faces: a contour if one faces the camera and the other does not, a crease if the edge is hard, or a
+//!   material boundary. On rounded surfaces such edges form the mesh contour, which decides on the visibility
+//!   of the smooth contour.
+//! - Three or more faces: see `edge_fans`.
+//!
+//! Source: Lake, Marshall, Harris and Blackstein, "Stylized rendering techniques for scalable real-time 3D
+//! animation", NPAR 2000, section 4.1. Deviation: contours follow from the geometry of the faces and not from
+//! their winding alone, so meshes of mixed winding are drawn right.
 
 use crate::parallel::prelude::*;
 
@@ -16,15 +22,17 @@ use crate::parallel::task_size::GRAIN;
 use crate::surface::{HardEdges, Origin, SmoothNormals};
 use crate::view::View;
 
-/// All edges of the mesh that are feature lines of the kinds asked for, in edge order. Of rounded
-/// surfaces these are the hard edges and the witnesses of their contours ([`Role::Witness`]).
+/// All mesh edges that are feature lines of the wanted kinds, in edge order.
+///
+/// On rounded surfaces these are the hard edges, and the mesh contours that decide on visibility
+/// ([`Role::Witness`]).
 #[must_use]
 pub fn find(surface: &Surface, view: &View, options: &LineOptions) -> Vec<FeatureSegment> {
     let finder = Finder::new(surface, view, options);
     finder.find(surface.mesh.edges.len(), |k| k)
 }
 
-/// Feature lines among some edges of the mesh, given in ascending order.
+/// Feature lines among the given edges, which must be ascending.
 #[must_use]
 pub fn find_among(
     edges: &[u32],
@@ -65,7 +73,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// What the first `count` edges are that `edge` tells.
+    /// Classifies the edges `edge(0)` to `edge(count - 1)`.
     fn find(&self, count: usize, edge: impl Fn(usize) -> usize + Sync) -> Vec<FeatureSegment> {
         const CHUNK: usize = 1 << 12;
         let found: Vec<Vec<FeatureSegment>> = (0..count.div_ceil(CHUNK))
@@ -83,8 +91,8 @@ impl<'a> Finder<'a> {
         self.wanted & (1 << kind as u32) != 0
     }
 
-    /// An edge across which a rounded surface runs on: a turn between its faces is no crease but in the middle of a narrow rounding,
-    /// and where one of them is averted, the contour of the surface is near.
+    /// Classifies an edge inside a rounded surface. Where one face is averted, the smooth contour is near. A
+    /// turn is a crease only in the middle of a narrow rounding.
     #[inline]
     fn on_rounded(&self, edge: usize, [first, second]: [u32; 2]) -> Option<FeatureSegment> {
         let facing = &self.view.facing;
@@ -112,7 +120,7 @@ impl<'a> Finder<'a> {
         })
     }
 
-    /// Whether the second face falls away behind the first one's outside.
+    /// Whether the edge is convex: the second face lies behind the plane of the first.
     fn is_convex(&self, edge: usize, [first, second]: [u32; 2]) -> bool {
         let mesh = self.mesh;
         let ends = mesh.edges.vertices[edge];
@@ -130,7 +138,8 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Where a section is cut, lines belong to the cut face, and there are none of what lies within another part.
+    /// Classifies an edge of a section: lines belong to the cut face, and lines within another part are left
+    /// out.
     fn classify_marked(&self, edge: usize) -> Option<FeatureSegment> {
         let faces = match self.mesh.edges.faces(edge) {
             EdgeFaces::Two { faces, .. } => faces.to_vec(),
@@ -174,7 +183,8 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Whether the surface runs on over an edge between faces with area, as it does over most.
+    /// Whether the surface continues smoothly across an edge between faces with area. This holds for most
+    /// edges.
     #[inline]
     fn is_nothing(&self, edge: usize, first: u32, second: u32) -> bool {
         let (first, second) = (first as usize, second as usize);
@@ -183,7 +193,7 @@ impl<'a> Finder<'a> {
             && !self.is_crease(edge)
     }
 
-    /// Whether an edge is drawn for its shape, from wherever it is seen.
+    /// Whether the edge is a crease from every viewpoint.
     #[inline]
     pub(crate) fn is_crease(&self, edge: usize) -> bool {
         self.hard.is_hard(edge) || self.roundings.contains(edge)
@@ -207,13 +217,13 @@ impl<'a> Finder<'a> {
         let dihedral = || Dihedral::of(self.mesh, [first, second], same_way);
         let crease = self.is_crease(edge);
         let found = self.classify_flat_pair(edge, [first, second], same_way, crease)?;
-        // Where materials meet on a flat face, corners of the line are corners of what is painted there.
+        // A material boundary on a flat face is painted there, so its corners are real.
         let is_painted = found.kind == LineKind::Material && dihedral().is_flat(self.mesh, edge);
         let smooth = !self.hard.is_hard(edge) && !self.wrinkles.contains(edge) && !is_painted;
         Some(FeatureSegment { smooth, ..found })
     }
 
-    /// The line between two faces of a surface that is not rounded there.
+    /// Classifies an edge between two faces of a surface that is not rounded there.
     #[inline]
     pub(crate) fn classify_flat_pair(
         &self,
@@ -245,8 +255,8 @@ impl<'a> Finder<'a> {
         })
     }
 
-    /// Whether the surface turns from one side to the other between two faces. A face that is seen edge-on has no side: the surface ends
-    /// in it for the eye, whichever way it is wound.
+    /// Whether the surface turns from facing to averted between two faces. A face seen edge-on has no side:
+    /// the visible surface ends in it, for either winding.
     #[inline]
     fn turns_away(&self, faces: [u32; 2], same_way: bool) -> bool {
         let facing = &self.view.facing;
@@ -265,7 +275,7 @@ impl<'a> Finder<'a> {
         view.unsure.binary_search(&face).is_ok() || !view.frame.faces_eye(a, c, b)
     }
 
-    /// Whether the materials of two faces differ, and the file does not hide the edge.
+    /// Whether the materials of two faces differ and the file does not hide the edge.
     fn other_material(&self, edge: usize, faces: [u32; 2]) -> bool {
         let [first, second] = faces.map(|f| self.mesh.face_material[f as usize]);
         first != second && mark(self.mesh, edge, faces) != EdgeMark::Hidden
@@ -278,7 +288,7 @@ impl<'a> Finder<'a> {
         })
     }
 
-    /// Where one of the faces or both have no area, what is seen through them meets.
+    /// Classifies an edge next to faces without area. The faces on their other sides take their place.
     fn classify_beside_needle(&self, edge: usize, faces: &[u32]) -> Option<FeatureSegment> {
         let mut seen = Vec::with_capacity(faces.len());
         for face in faces {

@@ -1,28 +1,27 @@
-//! [`EdgeSearch`]: which edges of a surface may be feature lines in a view, found without asking all
-//! of them.
+//! [`EdgeSearch`]: candidate edges for feature lines of a view, found without testing all edges.
 //!
-//! Source: Claes, Di Fiore, Vansichem and Van Reeth, "Fast 3D cartoon rendering with improved
-//! quality by exploiting graphics hardware", IVCNZ 2001: sharp and border edges are gathered once,
-//! and contours are sought in the dual space (section 4). Made once for a surface of which many views
-//! are drawn. It only proposes edges, and finds the same lines as asking every edge.
+//! Only for speed: built once for a surface with many views, and gives the same lines as a test of every
+//! edge. Edges that are lines from every viewpoint are listed once; contours are searched in dual space.
+//! Source: Claes, Di Fiore, Vansichem and Van Reeth, "Fast 3D cartoon rendering with improved quality by
+//! exploiting graphics hardware", IVCNZ 2001, section 4.
 
 use crate::lines::Surface;
 use crate::mesh::bvh::{DualFound, DualTree};
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::view::View;
 
-/// The edges of a surface, ready for many views.
+/// Edges of a surface, sorted for many views.
 #[derive(Debug, Clone, Default)]
 pub struct EdgeSearch {
-    /// Edges that may be lines whatever they turn to the eye, ascending.
+    /// Edges that may be lines from every viewpoint, ascending.
     fixed: Vec<u32>,
-    /// Edges that can be nothing but contours, or witnesses of them.
+    /// Edges that can only be contours.
     tree: DualTree,
     faces: usize,
     edges: usize,
 }
 
-/// What an edge may be.
+/// Kinds of line that an edge may be.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Chance {
     OnlyContour,
@@ -40,30 +39,30 @@ impl EdgeSearch {
         Self { fixed, tree, faces: mesh.triangles.len(), edges }
     }
 
-    /// Whether this may be the search of a mesh: a refined mesh needs one of its own.
+    /// Whether the search matches a mesh by its counts. A refined mesh needs a new search.
     #[must_use]
     pub fn fits(&self, mesh: &Mesh) -> bool {
         (self.faces, self.edges) == (mesh.triangles.len(), mesh.edges.len())
     }
 
-    /// Edges that are lines or not whatever they turn to the eye: creases, borders and the like.
+    /// Edges that may be lines from every viewpoint, such as creases and borders.
     #[must_use]
     pub fn fixed(&self) -> &[u32] {
         &self.fixed
     }
 
-    /// The edges that can be nothing but contours.
+    /// Edges that can only be contours.
     #[must_use]
     pub fn tree(&self) -> &DualTree {
         &self.tree
     }
 
-    /// All edges of the mesh that may be lines in a view of it, ascending, and how many boxes were looked at to find them.
+    /// All edges that may be lines in a view, ascending, and the number of boxes that were visited.
     #[must_use]
     pub fn candidates(&self, mesh: &Mesh, view: &View) -> DualFound {
         let mut found = self.tree.candidates(view.frame.homogeneous_eye());
         if !view.unsure.is_empty() {
-            // The tree knows only the angles of these faces, which do not decide about them.
+            // For these faces the angles in the tree are not reliable.
             let sides = |face: &u32| {
                 let [a, b, c] = mesh.triangles[*face as usize];
                 [[a, b], [b, c], [c, a]].map(|[v, w]| [v.min(w), v.max(w)])
@@ -90,7 +89,7 @@ impl EdgeSearch {
     }
 }
 
-/// What an edge may be; the cases are those of `edge_lines`.
+/// Kinds of line that an edge may be; mirrors the cases of `edge_lines`.
 fn chance(surface: &Surface, edge: usize) -> Chance {
     let Surface { mesh, hard, roundings, smooth, .. } = surface;
     let EdgeFaces::Two { faces, .. } = mesh.edges.faces(edge) else { return Chance::Other };

@@ -1,11 +1,14 @@
-//! Wires that are lines of their own. A file that draws the edges of its meshes itself repeats what the mesh shows, and each edge is
-//! drawn once: as the mesh has it, with its kind and where its faces meet, so that a model looks alike with and without such wires.
+//! Free wires: wires of the file that do not repeat a line along mesh edges.
 //!
-//! 1. Lines along edges of the mesh are put into a tree of boxes.
-//! 2. Both they and the wires may be chords of a curve, cut at different steps. How far a curve stands off its chord follows from the
-//!    turns at the ends, as for seams of the mesh (`mesh::seams`).
-//! 3. A wire runs along a line over the range in which each lies within reach of the other. A wire that has lines along it from end to
-//!    end is left out. One that has them over a part of its way stays whole: where both coincide in the image the view map draws one.
+//! A file may draw the edges of its meshes itself. Each edge is drawn once, as the mesh has it, so that a
+//! model looks the same with and without such wires.
+//!
+//! 1. Lines along mesh edges are put into a bounding volume hierarchy.
+//! 2. Lines and wires may be chords of one curve, cut at different steps. The distance of the curve from its
+//!    chord (sagitta) follows from the turns at the ends, as for seams of the mesh (`mesh::seams`).
+//! 3. A wire runs along a line over the range where each lies within reach of the other. A wire that is
+//!    covered by lines from end to end is dropped. One that is covered in part stays whole, and the view map
+//!    merges the overlap.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -15,19 +18,19 @@ use crate::geometry::numbers::tolerance::SEAM_OF_PART;
 use crate::lines::feature_line::{FeatureSegment, Role};
 use crate::mesh::{Mesh, Wire};
 
-/// Chords of one curve turn by less than the angle of this cosine (45 degrees); what turns by more has a corner there.
+/// Cosine of the largest turn (45 degrees) between chords of one curve. A larger turn is a corner.
 const ALONG: f64 = 0.7;
 
-/// Chords of a curve differ in length: each may stand off by this many times what it would if all were alike.
+/// Factor on the sagitta, since the chords of a curve may differ in length.
 const UNEVEN: f64 = 2.0;
 
-/// Curves of space leave their plane by this part of how far they stand off.
+/// Ratio of a curve's sagitta to its distance from its plane.
 const TWIST: f64 = 4.0;
 
-/// Items in one box of the tree, and boxes in one above.
+/// Children per box of the hierarchy.
 const FAN: usize = 8;
 
-/// The wires of a mesh that do not run along any of the lines along its edges.
+/// Wires of a mesh that do not run along a line on its edges.
 pub(crate) fn find(mesh: &Mesh, lines: &[FeatureSegment]) -> Vec<Wire> {
     let drawn = lines.iter().filter(|line| line.role == Role::Line);
     let drawn = Chords::new(mesh, drawn.map(|line| (line.ends, mesh.extents.of(line.part).scale)));
@@ -42,7 +45,7 @@ pub(crate) fn find(mesh: &Mesh, lines: &[FeatureSegment]) -> Vec<Wire> {
     mesh.wires.iter().zip(free).filter_map(|(wire, free)| free.then_some(*wire)).collect()
 }
 
-/// Whether lines run along all of a wire.
+/// Whether lines cover a wire from end to end.
 fn is_covered(wire: &Chord, lines: &[Chord], tree: &Tree) -> bool {
     let mut ranges: Vec<(f64, f64)> = Vec::new();
     let (low, high) = wire.reach();
@@ -58,15 +61,15 @@ fn is_covered(wire: &Chord, lines: &[Chord], tree: &Tree) -> bool {
     !ranges.is_empty() && at + wire.slack >= wire.length
 }
 
-/// A straight piece that may stand for a part of a curve.
+/// Straight piece that may be a chord of a curve.
 #[derive(Debug, Clone, Copy)]
 struct Chord {
     start: DVec3,
     along: DVec3,
     length: f64,
-    /// From the chord to the farthest point of the curve; nothing for a straight line.
+    /// Vector from the chord to the farthest point of the curve; zero for a straight line.
     sagitta: DVec3,
-    /// What is nearer is in one place.
+    /// Largest distance of points that count as one.
     slack: f64,
 }
 
@@ -75,13 +78,13 @@ impl Chord {
         self.start + self.along * self.length
     }
 
-    /// The box around it and its curve.
+    /// Bounding box of the chord and its curve.
     fn reach(&self) -> (DVec3, DVec3) {
         let room = DVec3::splat(self.sagitta.length() + self.slack);
         (self.start.min(self.end()) - room, self.start.max(self.end()) + room)
     }
 
-    /// The range of lengths along this chord over which another one runs next to it.
+    /// Range of lengths along this chord where another chord runs next to it.
     fn along(&self, other: &Self) -> Option<(f64, f64)> {
         let cosine = self.along.dot(other.along);
         if cosine.abs() < ALONG {
@@ -93,7 +96,7 @@ impl Chord {
         if to - from <= self.slack.min(0.5 * self.length.min(other.length)) {
             return None;
         }
-        // From the other chord to this one, at both ends of the range.
+        // Offset between the chords, tested at both ends of the range.
         let offset = |t: f64| {
             let at = self.start + self.along * t;
             at - (other.start + other.along * ((t - first) / cosine))
@@ -102,7 +105,7 @@ impl Chord {
         (is_near(from) && is_near(to)).then_some((from, to))
     }
 
-    /// Whether a point at this offset may be one of the curve, or of a finer chord of it.
+    /// Whether a point at this offset may lie on the curve, or on a finer chord of it.
     fn holds(&self, other: &Self, offset: DVec3) -> bool {
         let slack = self.slack.max(other.slack);
         let way = self.sagitta.normalize_or_zero();
@@ -113,7 +116,7 @@ impl Chord {
     }
 }
 
-/// Chords, with how far their curves stand off.
+/// Chords with their sagittas.
 struct Chords {
     list: Vec<Chord>,
 }
@@ -140,22 +143,22 @@ impl Chords {
     }
 }
 
-/// Which chords meet where.
+/// Chords, connected at their ends.
 struct Graph<'a> {
     pieces: &'a [([u32; 2], f64)],
     list: &'a [Chord],
-    /// The chords that end at each vertex.
+    /// Chords that end at each vertex.
     at: Grouped<u32>,
 }
 
-/// A chord, gone along towards its end `to`: 1 as it runs, 0 against it.
+/// A chord with a direction: towards its end `to`, which is 1 forward and 0 backward.
 #[derive(Clone, Copy)]
 struct Walk {
     chord: usize,
     to: usize,
 }
 
-/// Most chords at one vertex that are compared with each other, so that work stays bounded.
+/// Maximum number of chords at a vertex that are compared, to bound the work.
 const MAX_CHORDS_AT_VERTEX: usize = 32;
 
 impl Graph<'_> {
@@ -164,7 +167,7 @@ impl Graph<'_> {
         if walk.to == 1 { along } else { -along }
     }
 
-    /// The chord that goes on most nearly straight, and the cosine of the turn.
+    /// Straightest continuation of a chord, and the cosine of the turn.
     fn next(&self, walk: Walk) -> Option<(Walk, f64)> {
         let corner = self.pieces[walk.chord].0[walk.to];
         let way = self.direction(walk);
@@ -176,8 +179,10 @@ impl Graph<'_> {
         others.max_by(|a, b| a.1.total_cmp(&b.1))
     }
 
-    /// How far the curve of which a piece is a chord may stand off, and which way. It follows from the turn at the end where it turns
-    /// less, without the share of that turn that belongs to the next chord, by its turn at its other end.
+    /// Sagitta of the curve of a chord, with its direction.
+    ///
+    /// It follows from the turn at the straighter end. The share of that turn that belongs to the next chord
+    /// is subtracted; it is estimated from the turn at the next chord's other end.
     fn sagitta(&self, chord: usize) -> DVec3 {
         let own = &self.list[chord];
         let ends = [0, 1].into_iter().filter_map(|to| {
@@ -188,7 +193,7 @@ impl Graph<'_> {
         let Some((walk, (beside, cosine))) = straighter.filter(|(_, (_, cosine))| *cosine >= ALONG) else {
             return DVec3::ZERO;
         };
-        // The tangent of half a turn; halves of a turn belong to either chord where both are alike.
+        // Tangent of half the turn. Equal chords share a turn evenly.
         let half_turn = |cosine: f64| ((1.0 - cosine) / (1.0 + cosine)).max(0.0).sqrt();
         let turn = half_turn(cosine);
         let share = self.next(beside).map_or(0.0, |(beyond, cosine)| {
@@ -201,10 +206,10 @@ impl Graph<'_> {
     }
 }
 
-/// Boxes around chords, around these, and so on.
+/// Bounding volume hierarchy of chords.
 struct Tree {
     order: Vec<u32>,
-    /// The boxes around chords first, the one around all last.
+    /// Boxes of the leaves first, the root last.
     levels: Vec<Vec<(DVec3, DVec3)>>,
 }
 
@@ -225,7 +230,7 @@ impl Tree {
         Self { order, levels }
     }
 
-    /// Visits the chords whose boxes, by eights, overlap a box.
+    /// Visits the chords in all leaves whose boxes overlap the given box.
     fn near(&self, low: DVec3, high: DVec3, mut visit: impl FnMut(u32)) {
         let mut open: Vec<(usize, usize)> = vec![(self.levels.len() - 1, 0)];
         while let Some((level, k)) = open.pop() {
@@ -244,7 +249,7 @@ impl Tree {
     }
 }
 
-/// Puts near points into one run.
+/// Sorts the items so that nearby ones form runs.
 fn part(items: &mut [(DVec3, u32)]) {
     if items.len() <= FAN {
         return;
@@ -253,7 +258,7 @@ fn part(items: &mut [(DVec3, u32)]) {
     let (low, high) = items.iter().fold(nothing, |(low, high), (p, _)| (low.min(*p), high.max(*p)));
     let size = high - low;
     let axis = (0..3).max_by(|a, b| size[*a].total_cmp(&size[*b])).unwrap_or(0);
-    // Runs stay whole, so that no box is around two places.
+    // Runs stay whole, so that no box spans two places.
     let middle = (items.len() / 2).next_multiple_of(FAN).min(items.len() - 1);
     items.select_nth_unstable_by(middle, |a, b| a.0[axis].total_cmp(&b.0[axis]).then(a.1.cmp(&b.1)));
     let (near, far) = items.split_at_mut(middle);

@@ -1,9 +1,9 @@
-//! Folds: edges along which a few faces turn from the eye while the smooth surface does not.
+//! Ripple edges: contour edges where a few faces turn away from the camera, but the smooth surface does not.
 //!
-//! The faces beyond an edge of the polyhedron's contour are walked through as long as they turn the
-//! same way. Where the contour of the smooth surface is among them, the edge stands for it, as it does
-//! where they reach a crease beyond which the other surface turns so too; where they come to an end
-//! without either, they are a ripple of the mesh.
+//! 1. From an edge of the mesh contour, the connected faces that turn the same way are visited.
+//! 2. If the smooth contour passes them, or they reach a crease where the next surface turns away too, the
+//!    edge is a real contour.
+//! 3. If they end without either, they are a ripple of the mesh.
 
 use crate::parallel::prelude::*;
 
@@ -12,10 +12,10 @@ use crate::mesh::{EdgeFaces, Mesh};
 use crate::surface::SmoothNormals;
 use crate::view::View;
 
-/// Faces walked through; what turns away for more is no ripple.
+/// Maximum number of faces in a ripple.
 const MOST_FACES: usize = 32;
 
-/// Tells the folds among the witnesses. `facing` is n·v, one per smooth vertex.
+/// Marks the ripple edges among the mesh contours. `facing` is n·v, one per smooth vertex.
 pub(crate) fn tell(
     mesh: &Mesh,
     view: &View,
@@ -27,8 +27,8 @@ pub(crate) fn tell(
     segments.par_iter_mut().with_min_len(1 << 7).with_max_len(1 << 8).for_each(|segment| {
         let hosts = segment.hosts;
         if let Role::Witness { convex, fold } = &mut segment.role {
-            // On a convex edge the eye sees the outside of the facing face, on a hollow one the inside
-            // of the averted one; the surface turns from it in the other.
+            // On a convex edge the camera sees the outside of the facing face; on a concave one the inside of
+            // the averted face. The surface turns away in the other face.
             let beyond = hosts.into_iter().find(|face| view.facing[*face as usize] != *convex);
             *fold = beyond.is_some_and(|face| surface.is_ripple(face));
         }
@@ -43,7 +43,7 @@ struct FoldedSurface<'a> {
 }
 
 impl FoldedSurface<'_> {
-    /// Whether the faces around one that turn as it does end before the smooth surface turns so.
+    /// Whether the connected faces with the same orientation end before the smooth surface turns.
     fn is_ripple(&self, first: u32) -> bool {
         let side = self.view.facing[first as usize];
         let mut faces = vec![first];
@@ -64,7 +64,7 @@ impl FoldedSurface<'_> {
                 let next = if pair[0] == face { pair[1] } else { pair[0] };
                 let turns_so = (self.view.facing[next as usize] == side) != same_way;
                 if self.smooth.across(self.mesh, edge).is_none() {
-                    // What lies beyond a crease turns so as well: the surface is seen no more there.
+                    // The surface across the crease turns away too, so the contour is real.
                     if turns_so {
                         return false;
                     }

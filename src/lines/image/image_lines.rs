@@ -1,4 +1,4 @@
-//! [`ImageLines`]: curves between the pixels of maps.
+//! [`ImageLines`]: curves between the pixels of the maps.
 
 use crate::parallel::prelude::*;
 use glam::DVec2;
@@ -16,44 +16,44 @@ use crate::lines::image::cracks::taut_path::{Bend, Gate, crossings, taut};
 use crate::mesh::{MaterialId, Mesh, PartId};
 use crate::view::raster::Maps;
 
-/// A point of a line in the image.
+/// Point of a line in the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImagePoint {
-    /// Where it is in the camera's frame, user units.
+    /// Position in the camera's frame, user units.
     pub position: DVec2,
-    /// Depth of what is nearer there, along the optical axis, world units.
+    /// Depth of the nearer side along the optical axis, world units.
     pub depth: f64,
 }
 
-/// A straight piece of a line in the image.
+/// Straight piece of a line in the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImagePiece {
-    /// Its ends in [`ImageLines::points`].
+    /// Ends, as indices into [`ImageLines::points`].
     pub ends: [u32; 2],
-    /// The part of the surface on its nearer side.
+    /// Part of the nearer surface.
     pub part: PartId,
-    /// The material of that.
+    /// Material of the nearer surface.
     pub material: MaterialId,
-    /// Whether depth does not jump across it: both surfaces that meet in it are seen.
+    /// Whether depth is continuous across it, so that both surfaces are seen.
     pub both_seen: bool,
-    /// Whether background is on its other side.
+    /// Whether its other side is background.
     pub silhouette: bool,
-    /// Number of the line that it is a piece of.
+    /// Index of its line.
     pub line: u32,
 }
 
-/// Lines found in the image. Pieces meet because they share a point.
+/// Lines found in the image. Pieces that meet share a point.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ImageLines {
     /// Ends of pieces.
     pub points: Vec<ImagePoint>,
-    /// The pieces, line after line.
+    /// Pieces, line by line.
     pub pieces: Vec<ImagePiece>,
     /// Number of lines.
     pub lines: u32,
 }
 
-/// Traces the edges that a test found: along the cracks between pixels over which more jumps than beside them.
+/// Traces lines through the edge pixels, along the cracks with the largest jumps.
 #[must_use]
 pub fn trace(mesh: &Mesh, maps: &Maps, edges: &[bool], options: &ImageOptions) -> ImageLines {
     let jumps = Jumps::new(mesh, maps, options);
@@ -68,10 +68,10 @@ pub fn trace(mesh: &Mesh, maps: &Maps, edges: &[bool], options: &ImageOptions) -
     assemble(&lattice, maps, &pulled)
 }
 
-/// Lines of fewer cracks are noise unless they jump like nothing else near by and hang on another line.
+/// Minimum length in cracks, except for strong lines that touch another line.
 const SHORTEST: usize = 12;
 
-/// Lines of fewer cracks that hang on no other are noise unless they jump like nothing else near by.
+/// Minimum length of weak isolated lines, in cracks.
 const SHORTEST_LOOSE: usize = 40;
 
 /// Whether a path is more than noise.
@@ -88,7 +88,7 @@ fn is_line(lattice: &Lattice, jumps: &JumpMap, path: &Path) -> bool {
     }
 }
 
-/// A path with its taut line.
+/// Path with its taut line.
 struct Pulled {
     path: Path,
     bends: Vec<Bend>,
@@ -108,7 +108,7 @@ fn pull(mesh: &Mesh, maps: &Maps, jumps: &Jumps, lattice: &Lattice, mut path: Pa
     let mut gates = gates_of(&path.cracks);
     let (mut start, mut end) = (corner(0), corner(path.cracks.len()));
     let mut bends = taut(start, &gates, end);
-    // A ring begins at a bend that it has anyway.
+    // A ring starts at one of its bends.
     let half = gates.len() / 2;
     let bend = bends.iter().skip(1).take(bends.len().saturating_sub(2));
     if let (true, Some(bend)) = (path.closed, bend.min_by_key(|bend| bend.gate.abs_diff(half)).copied()) {
@@ -123,14 +123,14 @@ fn pull(mesh: &Mesh, maps: &Maps, jumps: &Jumps, lattice: &Lattice, mut path: Pa
 }
 
 impl Pulled {
-    /// Where the line is after so many cracks.
+    /// Position of the line after the given number of cracks.
     fn at(&self, after: usize) -> DVec2 {
         let last = self.crossings.len().saturating_sub(1);
         let [a, b] = [after.saturating_sub(1), after.min(last)].map(|i| self.crossings[i]);
         a.midpoint(b)
     }
 
-    /// Places along the line where it has a point, in half cracks: bends lie on cracks, all else between them.
+    /// Points of the line with their positions in half cracks: bends lie on cracks, all others between them.
     fn stops(&self, junctions: &FxHashMap<usize, u32>, lattice: &Lattice) -> Vec<(usize, Stop)> {
         let n = self.path.cracks.len();
         let mut stops: Vec<(usize, Stop)> = Vec::with_capacity(self.bends.len());
@@ -154,7 +154,7 @@ impl Pulled {
     }
 }
 
-/// A point of a line to be.
+/// Future point of a line.
 #[derive(Debug, Clone, Copy)]
 enum Stop {
     Bend(DVec2),
@@ -164,7 +164,7 @@ enum Stop {
 fn assemble(lattice: &Lattice, maps: &Maps, pulled: &[Pulled]) -> ImageLines {
     let mut lines = ImageLines { lines: pulled.len() as u32, ..ImageLines::default() };
     let point = |at: DVec2, depth: f64| ImagePoint { position: at / maps.scale, depth };
-    // Lines that go through junctions say where these are; all others end there.
+    // Lines that pass through a junction determine its position; the others end there.
     let mut junctions: FxHashMap<usize, u32> = FxHashMap::default();
     for through in [true, false] {
         for own in pulled {

@@ -3,74 +3,74 @@
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// Where lines are sought.
+/// Where lines are found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Source {
-    /// On the surface: exact.
+    /// On the surface, exactly.
     #[default]
     Object,
-    /// In maps of normals and depth: what jumps from pixel to pixel, whatever the mesh is like.
+    /// In maps of normals and depth, for any mesh.
     Image,
     /// On the surface, and in the image where the surface has none.
     Both,
 }
 
-/// What makes a pixel of the maps an edge.
+/// Test for edge pixels of the maps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum EdgeTest {
-    /// How much the gradients of depth and normals change around it (Scheelk, section 3.4).
+    /// Change of the gradients of depth and normals (Scheelk, section 3.4).
     #[default]
     Gradient,
-    /// How much the pixels on opposite sides of it differ (Ishaya, listing 4).
+    /// Difference of the pixels on opposite sides (Ishaya, listing 4).
     Opposite,
 }
 
-/// How lines in a picture of edges are made wider (Ishaya, listing 5).
+/// How lines in an edge image are widened (Ishaya, listing 5).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Dilation {
-    /// Any of four neighbours makes a pixel ink.
+    /// A pixel becomes ink if any of its four neighbours is.
     #[default]
     Plain,
-    /// Each of four neighbours gives a pixel half of its ink.
+    /// A pixel gets half the ink of each of its four neighbours.
     Smooth,
 }
 
-/// How lines are found in the image. The thresholds are those of the papers.
+/// How lines are found in the image. The default thresholds are those of the papers.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ImageOptions {
-    /// What makes a pixel an edge. Default: gradient.
+    /// Test for edge pixels. Default: gradient.
     pub test: EdgeTest,
-    /// Pixels of the maps a px of the drawing, 1 to 8; no more than make 4096 along the longer side. Default: 2.
+    /// Map pixels per px of the drawing, 1 to 8, with at most 4096 along the longer side. Default: 2.
     #[serde(deserialize_with = "samples")]
     pub samples: f64,
-    /// Scheelk's k of depth: smaller draws more. Default: 0.003.
+    /// Scheelk's k for depth; smaller values draw more. Default: 0.003.
     #[serde(deserialize_with = "positive")]
     pub gradient_depth: f64,
-    /// Scheelk's k of normals: smaller draws more. Default: 0.0125.
+    /// Scheelk's k for normals; smaller values draw more. Default: 0.0125.
     #[serde(deserialize_with = "positive")]
     pub gradient_normal: f64,
-    /// What a pixel must reach of both together, 0 to 2. Default: 0.75.
+    /// Threshold for the sum of both tests, 0 to 2. Default: 0.75.
     #[serde(deserialize_with = "positive")]
     pub gradient_least: f64,
-    /// Ishaya's threshold for depth: larger draws more. Default: 0.25.
+    /// Ishaya's threshold for depth; larger values draw more. Default: 0.25.
     #[serde(deserialize_with = "positive")]
     pub opposite_depth: f64,
-    /// Ishaya's threshold for the cosine of normals: larger draws more. Default: 0.9.
+    /// Ishaya's threshold for the cosine of normals; larger values draw more. Default: 0.9.
     #[serde(deserialize_with = "positive")]
     pub opposite_normal: f64,
-    /// How much of that threshold is taken off where depth is 1, so that what is far away does not fill with lines.
-    /// Default: 0.25.
+    /// Reduction of that threshold at depth 1, so that distant parts do not fill with lines. Default: 0.25.
     #[serde(deserialize_with = "positive")]
     pub opposite_far: f64,
-    /// Draw lines between parts and between materials also where the test sees none, as between faces in one plane. Default: true.
+    /// Draw lines between parts and between materials even where the test finds none, as in one plane.
+    /// Default: true.
     pub parts: bool,
-    /// How many times the lines of `edges.png` are made wider. Default: 0.
+    /// Number of passes that widen the lines of `edges.png`. Default: 0.
     pub passes: u8,
-    /// How they are made wider. Default: plain.
+    /// How lines are widened. Default: plain.
     pub dilation: Dilation,
 }
 
@@ -92,7 +92,7 @@ impl Default for ImageOptions {
     }
 }
 
-/// A number above 0.
+/// Reads a number above 0, at most 100.
 fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let value = f64::deserialize(deserializer)?;
     if value > 0.0 && value <= 100.0 {
@@ -102,7 +102,7 @@ fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error>
     }
 }
 
-/// Pixels a px.
+/// Reads a number from 1 to 8.
 fn samples<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let value = f64::deserialize(deserializer)?;
     if (1.0..=8.0).contains(&value) {

@@ -1,14 +1,16 @@
-//! Wider lines in a picture of edges.
+//! Dilation: wider lines in an image of edges.
 //!
-//! Source: Ishaya, Real-Time Cartoon Rendering with Direct-X 8.0 Hardware, listing 5: two pixel shaders that ask the four pixels
-//! beside one. In drawings lines have the width of their pen instead.
+//! Source: Ishaya, Real-Time Cartoon Rendering with Direct-X 8.0 Hardware, listing 5: two pixel shaders that
+//! sample four neighbours. In drawings lines have the width of their pen instead.
 
 use super::{Dilation, ImageOptions};
 
-/// How much ink each pixel of a picture of edges has, 0 to 1, after the options' passes.
+/// Ink of each pixel of an edge image, 0 to 1, after the dilation passes of the options.
 ///
-/// A plain pass makes a pixel ink where one beside it is; a smooth one gives it half of the sum of theirs, but no more than 1. Neither
-/// takes ink away. Beyond the picture there is none.
+/// - Plain pass: a pixel becomes ink if a neighbour is.
+/// - Smooth pass: a pixel gets half the sum of its neighbours' ink, at most 1.
+///
+/// No pass removes ink. There is none outside the image.
 #[must_use]
 pub fn inked(edges: &[bool], columns: usize, options: &ImageOptions) -> Vec<f32> {
     let mut ink: Vec<f32> = edges.iter().map(|edge| f32::from(u8::from(*edge))).collect();

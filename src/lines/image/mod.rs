@@ -21,7 +21,7 @@ pub use soup_normals::Loose;
 
 use crate::view::raster::Maps;
 
-/// Which pixels of the maps are edges by the test that the options name, row after row.
+/// Edge flags of the maps' pixels by the test in the options, row by row.
 #[must_use]
 pub fn edges(maps: &Maps, options: &ImageOptions) -> Vec<bool> {
     match options.test {

@@ -1,8 +1,8 @@
-//! [`Loose`]: normals of surfaces whose faces do not hold together.
+//! [`Loose`]: normals of polygon soups, whose faces are not connected.
 //!
-//! A polygon soup has no connectivity: each face ends by itself, next to others that go on where it ends. Lines in the image need
-//! none, but the normals of the surface: faces of which corners lie within a px of each other, and which bend by less than a
-//! crease, are taken for one surface there. Closed surfaces have no loose corners.
+//! Lines in the image need no connectivity, but they need the normals of the surface. Faces with corners
+//! within a px of each other, which turn by less than a crease, count as one surface there. Closed surfaces
+//! are not affected.
 
 use crate::parallel::prelude::*;
 use glam::{DVec3, IVec3};
@@ -10,35 +10,38 @@ use glam::{DVec3, IVec3};
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
 use crate::view::View;
 
-/// Corners within this many px of the frame are one place.
+/// Largest distance of corners that count as one, px.
 const REACH_PX: f64 = 1.0;
 
-/// No more faces than this are asked in each of the 27 cells around a corner: where so many meet within a px, nothing is seen of one.
+/// Maximum number of corners that are used in each of the 27 cells around a corner. Where more meet within a
+/// px, no single face is visible.
 const MOST: usize = 16;
 
-/// Faces that have corners at open edges, and the normals there.
+/// Faces with corners at open edges, and the normals at their corners.
 #[derive(Debug, Clone, Default)]
 pub struct Loose {
-    /// For each face its number among those with normals, or [`NONE`]; empty if none is loose.
+    /// Index of each face into `normals`, or [`NONE`]; empty if there is no such face.
     number: Vec<u32>,
     normals: Vec<[DVec3; 3]>,
 }
 
 const NONE: u32 = u32::MAX;
 
-/// A corner of a face at an open vertex.
+/// Corner of a face at an open vertex.
 #[derive(Clone, Copy)]
 struct Corner {
     cell: IVec3,
     face: u32,
     position: DVec3,
-    /// On the side that is seen, as long as twice the area.
+    /// On the visible side; its length is twice the face's area.
     normal: DVec3,
 }
 
 impl Loose {
-    /// The loose faces of a mesh in a view. Those that bend by more than an angle (degrees) stay apart; `normals` are those of
-    /// faces that hold together, at their corners and on their outer side.
+    /// Normals of the loose faces in a view. Faces that differ by more than `crease_deg` stay separate.
+    ///
+    /// `normals` returns a face's own corner normals on its outer side, which are kept at corners that are
+    /// not open.
     #[must_use]
     pub fn new(
         mesh: &Mesh,
@@ -91,7 +94,7 @@ impl Loose {
         Self { number, normals: found }
     }
 
-    /// The normals at the corners of a face on its outer side, local space; none if it is not loose.
+    /// Corner normals of a face on its outer side, local space; none if it is not loose.
     #[inline]
     #[must_use]
     pub fn normals(&self, face: u32) -> Option<[DVec3; 3]> {
@@ -113,7 +116,7 @@ impl Loose {
     }
 }
 
-/// Corners by the cells they lie in.
+/// Corners, sorted by grid cell.
 struct Near<'a> {
     corners: &'a [Corner],
     reach: f64,
@@ -121,13 +124,13 @@ struct Near<'a> {
 }
 
 impl Near<'_> {
-    /// The normal of the surface around a place that a face is part of.
+    /// Normal at a position of the surface that a face belongs to.
     fn normal(&self, position: DVec3, own: DVec3) -> Option<DVec3> {
         let cell = (position / self.reach).floor().as_ivec3();
         let unit = own.try_normalize()?;
         let mut sum = DVec3::ZERO;
         for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
-            // Cells along z follow each other.
+            // Cells along z are consecutive.
             for dz in -1..=1 {
                 let cell = cell.saturating_add(IVec3::new(dx, dy, dz));
                 let first = self.corners.partition_point(|corner| corner.cell.to_array() < cell.to_array());
@@ -144,7 +147,7 @@ impl Near<'_> {
     }
 }
 
-/// The normal of a face on the side that is seen, as long as twice its area.
+/// Normal of a face on its visible side; its length is twice the area.
 fn seen_normal(mesh: &Mesh, view: &View, face: u32) -> DVec3 {
     let [a, b, c] = mesh.corners(FaceId(face));
     let normal = (b - a).cross(c - a);

@@ -1,19 +1,21 @@
-//! Intersection curves along which round surfaces only touch.
+//! Removes intersection curves along which curved surfaces only touch.
 //!
-//! A shaft in its bore and a tube in its clamp coincide in the CAD program, but their facets are cut in different places. So the facets
-//! pass through each other by the height of their arcs, all along the contact, and draw a dark band. A mesh cannot tell crossing from
-//! contact where its faces cross at a smaller angle than its surfaces turn from facet to facet:
+//! A shaft in its bore coincides with it in the CAD program, but the facets of both are cut at different
+//! places. They pass through each other by the height of their arcs, and would draw a dark band along the
+//! contact. Crossing and contact look the same where faces cross at a smaller angle than their surfaces turn
+//! from facet to facet:
 //!
 //! 1. Each face has a *facet angle*: the largest turn to a neighbour, of turns below [`MAX_FACET_DEG`].
 //! 2. A segment is *flat* if its faces cross at less than the mean of their facet angles.
-//! 3. A whole curve goes if nearly all of its length is flat, and stays whole otherwise: coarse bodies that truly cross do so at a small
-//!    angle in some places. A curve ends at a branching, and where it runs over a crease onto another surface.
+//! 3. A curve is removed if nearly all of its length is flat, and kept whole otherwise: coarse bodies that
+//!    truly cross do so at a small angle in some places. A curve ends at a branch, and where it passes over a
+//!    crease onto another surface.
 
 use crate::geometry::numbers::tolerance::{CONTACT_OF_CURVE, MAX_FACET_DEG};
 use crate::mesh::intersect::intersection_curves::{IntersectionCurves, IntersectionSegment};
 use crate::mesh::{Dihedral, FaceId, Mesh};
 
-/// The curves of a mesh that are no contacts.
+/// The intersection curves of a mesh, without contacts.
 #[must_use]
 pub fn without(curves: IntersectionCurves, mesh: &Mesh) -> IntersectionCurves {
     let is_flat: Vec<bool> = curves.segments.iter().map(|segment| is_flat(mesh, segment)).collect();
@@ -45,11 +47,11 @@ fn is_flat(mesh: &Mesh, segment: &IntersectionSegment) -> bool {
     let [a, b] = segment.faces.map(|face| mesh.face_normals[face as usize].map(f64::from));
     let cosine = (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]).abs().min(1.0);
     let angle = crate::geometry::numbers::portable_math::acos(cosine).to_degrees();
-    // No mean is larger than the largest facet angle.
+    // The facet angles, and so their mean, are below this.
     angle < MAX_FACET_DEG && angle < segment.faces.map(|face| facet_deg(mesh, face)).iter().sum::<f64>() / 2.0
 }
 
-/// The largest turn at the edges of a face that is one of facets and no crease, degrees.
+/// Facet angle of a face, degrees: the largest turn at its edges that is below a crease.
 fn facet_deg(mesh: &Mesh, face: u32) -> f64 {
     let [a, b, c] = mesh.triangles[face as usize];
     let turn = |[v, w]: [u32; 2]| {
@@ -63,7 +65,7 @@ fn facet_deg(mesh: &Mesh, face: u32) -> f64 {
     [[a, b], [b, c], [c, a]].into_iter().filter_map(turn).fold(0.0, f64::max)
 }
 
-/// The segments of each curve, from one point at which it ends to the next.
+/// Segments of each curve, between the points where curves end.
 fn whole_curves(curves: &IntersectionCurves, mesh: &Mesh) -> Vec<Vec<u32>> {
     let mut at_point: Vec<[u32; 2]> = vec![[NONE; 2]; curves.points.len()];
     let mut count: Vec<u8> = vec![0; curves.points.len()];
@@ -104,17 +106,17 @@ fn whole_curves(curves: &IntersectionCurves, mesh: &Mesh) -> Vec<Vec<u32>> {
     found
 }
 
-/// Whether one of the two surfaces of a curve is creased between two consecutive segments, whose faces are given.
+/// Whether one of the two surfaces is creased between two consecutive segments, given the faces of both.
 fn is_over_crease(mesh: &Mesh, [before, after]: [[u32; 2]; 2]) -> bool {
     let Some(shared) = before.iter().find(|face| after.contains(face)) else { return false };
     let other = |faces: [u32; 2]| if faces[0] == *shared { faces[1] } else { faces[0] };
     Dihedral::of(mesh, [other(before), other(after)], false).turn() >= MAX_FACET_DEG as f32
 }
 
-/// No segment.
+/// No segment, or no point.
 const NONE: u32 = u32::MAX;
 
-/// Curves of some segments, with just the points that these use, in the order of their first use.
+/// Curves of the given segments. Unused points are dropped, and the rest are in order of first use.
 fn renumbered(points: &[glam::DVec3], mut segments: Vec<IntersectionSegment>) -> IntersectionCurves {
     let mut numbers = vec![NONE; points.len()];
     let mut used = Vec::new();
@@ -139,7 +141,8 @@ mod tests {
     use super::*;
     use crate::mesh::Soup;
 
-    /// Adds the side of a cylinder about z, of so many flat strips, turned by a part of one.
+    /// Adds the side of a cylinder about z, made of `strips` flat strips and rotated by a fraction of a
+    /// strip.
     fn add_tube(soup: &mut Soup, strips: u32, radius: f64, [low, high]: [f64; 2], turned: f64) {
         let first = soup.positions.len() as u32;
         let at = |k: u32, z: f64| {
@@ -185,7 +188,8 @@ mod tests {
             }
             let mesh = Mesh::build(soup);
             let curves = all_curves(&mesh);
-            // Two closed curves, each at least as long as the thin tube goes round, or one where it is cut open.
+            // Two closed curves at least as long as the circumference of the thin tube, or one where the tube
+            // is cut open.
             assert!(length(&curves) > 2.0, "{strips}: {}", length(&curves));
             let ends = |point: u32| curves.segments.iter().filter(|s| s.ends.contains(&point)).count();
             assert!((0..curves.points.len() as u32).all(|point| ends(point) == 2), "{strips}");

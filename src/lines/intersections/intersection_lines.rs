@@ -1,11 +1,11 @@
-//! Feature lines where surfaces pass through each other.
+//! Intersection lines: feature lines where surfaces pass through each other.
 //!
-//! All intersections of a large mesh take long to find, and most are out of sight. Where only
-//! visible lines are drawn and it is known which faces surely are out of sight, the others alone are
-//! searched. Else small meshes, and drawings with hidden lines, get the full search, which no view changes; in
-//! large ones a buffer of the faces in sight proposes those that may meet others, and
-//! from the pairs found among them the curves are followed over the mesh, so that every visible
-//! curve is whole, its hidden parts included.
+//! A full search of a large mesh is slow, and most intersections are hidden. There are three ways:
+//!
+//! 1. If only visible lines are drawn and some faces are known to be hidden, the other faces are searched.
+//! 2. Small meshes, and drawings with hidden lines, get the full search, which does not depend on the view.
+//! 3. In large meshes a buffer of visible faces proposes candidates. From the pairs among them the curves are
+//!    followed over the mesh, so that every visible curve is complete, including its hidden parts.
 
 use crate::parallel::prelude::*;
 
@@ -24,23 +24,23 @@ use crate::surface::Origin;
 use crate::view::View;
 use crate::view::raster::{FaceBuffer, Screen, intersecting_candidates};
 
-/// Meshes with at most this many triangles are searched in full, which takes no longer.
+/// Maximum number of triangles for the full search, which is fast enough for these.
 pub const FULL_SEARCH_TRIANGLES: usize = 300_000;
 
-/// The intersection curves of all faces that have area; without hidden lines, at least those that show in the view.
+/// Intersection curves of all faces with area; without hidden lines, at least those visible in the view.
 #[must_use]
 pub fn find(mesh: &Mesh, view: &View, hidden: HiddenLines) -> IntersectionCurves {
     if is_searched_in_full(mesh, hidden) { all_curves(mesh) } else { visible_curves(mesh, view) }
 }
 
-/// Whether [`all_curves`] are sought, and not those that show in a view.
+/// Whether [`all_curves`] is used, and not only the curves visible in a view.
 #[must_use]
 pub fn is_searched_in_full(mesh: &Mesh, hidden: HiddenLines) -> bool {
     hidden != HiddenLines::None || mesh.triangles.len() <= FULL_SEARCH_TRIANGLES
 }
 
-/// Adds curves of a mesh to the lines of a view: their segments run the same way and come in the same order for any order of
-/// parts in the file.
+/// Adds curves to the lines of a view. The direction and order of their segments do not depend on the order
+/// of parts.
 pub(crate) fn add(curves: &IntersectionCurves, mesh: &Mesh, view: &View, lines: &mut FeatureLines) {
     let first = (mesh.positions.len() + lines.points.len()) as u32;
     lines.points.extend_from_slice(&curves.points);
@@ -72,13 +72,13 @@ pub(crate) fn add(curves: &IntersectionCurves, mesh: &Mesh, view: &View, lines: 
     }));
 }
 
-/// The face that a line belongs to, of two faces that pass through each other, that of the smaller part first: the one that turns its
-/// outside to the eye; if both do, the first, which sticks in the other.
+/// Face that the line belongs to, given the face of the smaller part first: the one with its outside to the
+/// camera, or the first if both have.
 fn owner(view: &View, [a, b]: [u32; 2]) -> u32 {
     if view.facing[b as usize] && !view.facing[a as usize] { b } else { a }
 }
 
-/// All curves of a mesh.
+/// All intersection curves of a mesh.
 #[must_use]
 pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
     let active = active(mesh);
@@ -89,7 +89,7 @@ pub fn all_curves(mesh: &Mesh) -> IntersectionCurves {
     )
 }
 
-/// The curves of a mesh between faces that are not `out_of_sight`: of [`all_curves`] every segment of which something shows.
+/// Intersection curves between faces that are not `out_of_sight`: every visible segment of [`all_curves`].
 #[must_use]
 pub fn curves_in_sight(mesh: &Mesh, mut out_of_sight: Vec<bool>) -> IntersectionCurves {
     out_of_sight.par_iter_mut().enumerate().with_min_len(GRAIN).for_each(|(face, out)| {
@@ -103,7 +103,7 @@ pub fn curves_in_sight(mesh: &Mesh, mut out_of_sight: Vec<bool>) -> Intersection
     )
 }
 
-/// All curves of a mesh, so that those of finer meshes made of it are found sooner: [`curves_of_finer`].
+/// Search of all curves of a mesh, to be reused for refined meshes in [`curves_of_finer`].
 #[must_use]
 pub fn search(mesh: &Mesh) -> PairSearch {
     let active = active(mesh);
@@ -112,8 +112,8 @@ pub fn search(mesh: &Mesh) -> PairSearch {
     })
 }
 
-/// All curves of a surface some of whose faces were cut, with the help of a [`search`] of the mesh it was made of:
-/// those that [`all_curves`] finds.
+/// All curves of a refined surface, from a [`search`] of the original mesh. The result is that of
+/// [`all_curves`].
 #[must_use]
 pub fn curves_of_finer(search: &PairSearch, finer: &Finer) -> IntersectionCurves {
     let mesh = &finer.surface.mesh;
@@ -126,7 +126,7 @@ pub fn curves_of_finer(search: &PairSearch, finer: &Finer) -> IntersectionCurves
     )
 }
 
-/// Which faces have area; empty if all have.
+/// Whether each face has area; empty if all have.
 fn active(mesh: &Mesh) -> Vec<bool> {
     if mesh.cleaning.degenerate == 0 {
         return Vec::new();
@@ -138,7 +138,7 @@ fn input<'a>(mesh: &'a Mesh, active: &'a [bool], bodies: &'a [PartId]) -> Inters
     IntersectionInput { positions: &mesh.positions, triangles: &mesh.triangles, active, bodies }
 }
 
-/// The curves of which something shows in a view, whole, and perhaps others.
+/// All curves with a visible part, complete, and possibly others.
 #[must_use]
 pub fn visible_curves(mesh: &Mesh, view: &View) -> IntersectionCurves {
     let buffer = FaceBuffer::new(&Screen::new(mesh, view));

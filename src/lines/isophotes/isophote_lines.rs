@@ -1,10 +1,10 @@
-//! Isophotes: where the tone of the surface changes, traced through the faces.
+//! Isophotes: curves where the tone of the surface changes, traced through the faces.
 //!
-//! Source: Claes, Di Fiore, Vansichem and Van Reeth, "Fast 3D cartoon rendering with improved
-//! quality by exploiting graphics hardware", IVCNZ 2001, sections 3.5 and 3.6: triangles are cut
-//! where the tone changes, by the number of tones at their corners, and at the centroid where three
-//! meet. Here any number of levels is cut, and instead of at corners the tone is asked with the
-//! interpolated unit normal wherever it bends, so that borders are right inside large faces too.
+//! Source: Claes, Di Fiore, Vansichem and Van Reeth, "Fast 3D cartoon rendering with improved quality by
+//! exploiting graphics hardware", IVCNZ 2001, sections 3.5 and 3.6. There triangles are cut by the tones at
+//! their corners and at the centroid where three tones meet. Deviations: any number of levels is traced.
+//! Light is evaluated with the interpolated unit normal where it is not linear. So borders are right inside
+//! large faces too.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -19,8 +19,10 @@ use crate::lines::{FeatureLines, LineKind, Lit, NO_FACE};
 use crate::mesh::{FaceId, PaintId};
 use crate::parallel::task_size::GRAIN;
 
-/// Adds the isophotes of a lit surface, for each of these sets of lights that are in shadow. With `sees_through` gradients have
-/// steps behind other faces too. Returns what each of them was traced for, in order.
+/// Adds the isophotes of a lit surface, for each of the given sets of shadowed lights.
+///
+/// With `sees_through` gradients get steps on covered faces too. Returns the reason for each added segment,
+/// in order.
 pub fn find(lit: &Lit, shadowed: &[u32], sees_through: bool, lines: &mut FeatureLines) -> Vec<Traced> {
     const CHUNK: usize = 1 << 9;
     let count = lit.mesh.triangles.len();
@@ -50,33 +52,33 @@ struct Tracer<'a> {
     lit: &'a Lit<'a>,
     ready: &'a Ready,
     found: Vec<Found>,
-    /// The reason why each of these was traced.
+    /// Reason for each piece in `found`.
     traced: Vec<Traced>,
 }
 
-/// What is the same for all faces.
+/// Tables that are the same for all faces.
 struct Ready {
     /// A CSS px in user units.
     px: f64,
-    /// For each channel and each set of shadowed lights the values at all normals of a surface that
-    /// turns its outside to the eye, then its inside; empty where values vary from place to place.
+    /// For each channel and set of shadowed lights, the light at every normal, with the outside and with the
+    /// inside to the camera; empty if light depends on position.
     values: Vec<Vec<[Vec<f64>; 2]>>,
-    /// For each channel whether it varies from place to place.
+    /// For each channel, whether light depends on position.
     is_local: Vec<bool>,
-    /// By how much other channels change with the normal.
+    /// Bound on the change of the other channels with the normal.
     slope: Slope,
-    /// Where there are gradients, which faces may be seen; empty if all of them.
+    /// Whether each face may be visible; used for gradients, empty if unknown.
     in_sight: Vec<bool>,
 }
 
-/// A CSS px in user units, on a page of the usual size.
+/// A CSS px in user units, on a page of nominal size.
 pub(crate) fn page_px(lit: &Lit) -> f64 {
     lit.view.frame.width.max(lit.view.frame.height) / PAGE_PX
 }
 
 impl Ready {
     fn new(lit: &Lit, shadowed: &[u32], sees_through: bool) -> Self {
-        // Values are the same for all paints.
+        // The light does not depend on the paint.
         let paint = PaintId(0);
         let value = |channel: usize, normal: DVec3, shadowed: u32| {
             let point = SurfacePoint { position: DVec3::ZERO, normal, openness: 1.0 };
@@ -111,7 +113,7 @@ impl<'a> Tracer<'a> {
         Self { lit, ready, found: Vec::new(), traced: Vec::new() }
     }
 
-    /// Whether no level can be crossed on a face, told from the values at its corners.
+    /// Whether no level can cross a face, from the light at its corners and the turn of its normals.
     fn is_even(
         &self,
         face: u32,
@@ -168,13 +170,13 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// The sides of a face.
+    /// Lengths and turns along the sides of a face.
     fn measures(&self, face: u32, n: &[DVec3; 3]) -> Measures {
         let Lit { mesh, view, .. } = self.lit;
         let corners = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
         let length = |i: usize, j: usize| {
             let way = corners[j].truncate() - corners[i].truncate();
-            // A side that the near plane cuts is as long as can be.
+            // A side that the near plane cuts has unlimited length.
             if way.is_nan() || corners[i].z.is_nan() || corners[j].z.is_nan() {
                 f64::INFINITY
             } else {
@@ -197,7 +199,7 @@ impl<'a> Tracer<'a> {
         levels: &'a [f64],
         shadowed: u32,
     ) -> Band<'a> {
-        // Strokes of a hatching end there, one by one: less will do.
+        // Hatching strokes end there one by one, so lower accuracy is enough.
         let (near, exact) = if self.lit.shading.bins() == Some(channel) {
             (tolerance::BIN_PX, tolerance::BIN_VALUE)
         } else if self.lit.is_gradient(channel, levels) {
@@ -224,7 +226,7 @@ impl<'a> Tracer<'a> {
         }
     }
 
-    /// The paints that a face shows, if they differ in their levels.
+    /// Paints that a textured face shows; only the first if all have the same levels. None without texture.
     fn paints_shown(&self, face: u32) -> Option<Vec<PaintId>> {
         let Lit { mesh, shading, textures, .. } = self.lit;
         let textured = textures.on(mesh, face)?;
@@ -234,7 +236,7 @@ impl<'a> Tracer<'a> {
         Some(if (0..shading.channels()).any(differs) { textured.paints() } else { vec![*first] })
     }
 
-    /// A corner of a face.
+    /// Corner of a face, from the tables where possible.
     fn corner(&self, band: &Band, k: usize, shadow: usize) -> Node {
         let [outside, inside] = &self.ready.values[band.channel][shadow];
         let values = if self.lit.view.facing[band.face as usize] { outside } else { inside };
@@ -245,19 +247,19 @@ impl<'a> Tracer<'a> {
     }
 }
 
-/// The corners of a face.
+/// Barycentric weights of the corners of a face.
 const UNIT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Pages count as this many px wide.
+/// Nominal width of a page, px.
 const PAGE_PX: f64 = 1000.0;
 
-/// Fewer levels than this part tones that the eye tells apart, so that their borders must be right.
+/// Minimum number of levels that lie close together, so that their borders need less accuracy.
 const FEW_LEVELS: usize = 16;
 
-/// Where there are many, values need be no better than this part of a step.
+/// Largest invisible error for such levels, as a share of one step.
 const ALIKE: f64 = 0.05;
 
-/// By how much values may be off without a difference that is seen.
+/// Largest invisible error of light; 0 for few levels.
 fn alike(levels: &[f64]) -> f64 {
     match levels {
         [first, .., last] if levels.len() >= FEW_LEVELS => ALIKE * (last - first) / (levels.len() - 1) as f64,

@@ -1,9 +1,9 @@
-//! Strides: how many steps of a gradient are drawn as one where a face shows them too narrow to be seen one by one.
+//! Level strides: merges the steps of a gradient on faces where they are too narrow to be seen.
 //!
-//! Toward a contour, and wherever else light changes fast in the image, hundreds of steps may fall into a px. Nobody sees
-//! them, but each would be hidden, noded and painted. A face whose steps are narrow keeps every second border of them
-//! only, or every fourth, and so on, and what lies between two that are left has the tone in its middle.
-//! Where a neighbour keeps more, the others break off, and the page's triangles close the gap as they do everywhere.
+//! Close to a contour, hundreds of steps may fall into one px. They are invisible, but each would cost time
+//! in every later stage. A face with narrow steps keeps every second border only, or every fourth, and so on.
+//! The merged band gets its middle tone. Where a neighbour keeps more borders, the others end, and the
+//! triangulation of the page closes the gap.
 
 use glam::DVec2;
 
@@ -13,12 +13,12 @@ use crate::lines::Lit;
 use crate::mesh::PaintId;
 
 impl Lit<'_> {
-    /// Whether the levels of a channel are so many that nobody sees one by one what they part.
+    /// Whether the levels of a channel are too close for single steps to be seen.
     pub(crate) fn is_gradient(&self, channel: usize, levels: &[f64]) -> bool {
         levels.len() > tolerance::FEW_LEVELS && self.shading.bins() != Some(channel)
     }
 
-    /// How many steps of a channel a face shows as one: a power of two, 1 unless it is a gradient.
+    /// Number of steps of a channel that a face shows as one: a power of two, 1 unless it is a gradient.
     pub(crate) fn stride(&self, face: u32, channel: usize, levels: &[f64], shadowed: u32) -> usize {
         let [first, .., last] = levels else { return 1 };
         if !self.is_gradient(channel, levels) {
@@ -30,7 +30,7 @@ impl Lit<'_> {
         let [n, m, o] = self.normals.of(face);
         let turn = n.distance(m).max(m.distance(o)).max(o.distance(n));
         let px = page_px(self);
-        // Light that is not all but linear on a face is as steep as can be in a part of it only.
+        // Light that is not almost linear is steep in a part of the face only.
         let is_bent = turn > MOST_TURN || (self.shading.is_local(channel) && longest > MOST_PX * px);
         if is_bent || points.iter().any(|p| p.is_nan()) {
             return 1;
@@ -50,7 +50,7 @@ impl Lit<'_> {
         stride
     }
 
-    /// The band of a point that reaches so many levels, as its face shows it.
+    /// Band of a point as its face shows it, given the number of levels reached.
     pub(crate) fn band_shown(
         &self,
         face: u32,
@@ -66,7 +66,7 @@ impl Lit<'_> {
     }
 }
 
-/// By how much a linear function changes at most per unit of length, told from its values at three points.
+/// Gradient length of a linear function, from its values at three points.
 fn steepness([a, b, c]: [DVec2; 3], [at_a, at_b, at_c]: [f64; 3]) -> f64 {
     let (u, v) = (b - a, c - a);
     let (by_u, by_v) = (at_b - at_a, at_c - at_a);
@@ -75,13 +75,13 @@ fn steepness([a, b, c]: [DVec2; 3], [at_a, at_b, at_c]: [f64; 3]) -> f64 {
     if gradient == DVec2::ZERO { 0.0 } else { gradient.length() / area.abs() }
 }
 
-/// Light is all but linear where normals turn by no more than this, radians.
+/// Largest turn of normals for which light is almost linear, radians.
 const MOST_TURN: f64 = 0.25;
 
-/// Where light varies from place to place it is all but linear on faces no longer than this, px.
+/// Largest face on which light that depends on position is almost linear, px.
 const MOST_PX: f64 = 40.0;
 
-/// Most steps that are drawn as one.
+/// Maximum number of merged steps.
 const MOST_STRIDE: usize = 16;
 
 #[cfg(test)]

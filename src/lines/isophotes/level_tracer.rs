@@ -1,7 +1,8 @@
-//! [`Band`]: one channel of light on one face, through which levels are traced.
+//! [`Band`]: traces the levels of one channel of light on one face.
 //!
-//! The face is cut until the value is all but linear on its pieces; through each the levels are straight, and their ends are
-//! where the value itself is right.
+//! 1. The face is subdivided until light is almost linear on each piece.
+//! 2. On a piece each level is a straight segment.
+//! 3. Its ends are exact: they are found on the sides by root finding.
 
 use glam::DVec3;
 
@@ -9,67 +10,67 @@ use crate::light::{Slope, SurfacePoint, TURN_OF_CHORD};
 use crate::lines::Lit;
 use crate::mesh::PaintId;
 
-/// A piece of a level, and the face it lies on. The brighter side is on its left.
+/// Segment of a level, and the face it lies on. The brighter side is on its left.
 pub(crate) type Found = (u32, [DVec3; 2]);
 
-/// A corner of a piece of a face: its barycentric weights and its value.
+/// Corner of a piece of a face: barycentric weights and light.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Node {
     pub weights: [f64; 3],
     pub value: f64,
 }
 
-/// What is traced: one channel of one face.
+/// Tracer of one channel of light on one face.
 pub(crate) struct Band<'a> {
     pub lit: &'a Lit<'a>,
     /// A CSS px in user units.
     pub px: f64,
     pub face: u32,
     pub paint: PaintId,
-    /// The normals at its corners.
+    /// Normals at the corners of the face.
     pub normals: [DVec3; 3],
     pub channel: usize,
-    /// Whether its value varies from place to place and not with the normal alone.
+    /// Whether the light depends on position, and not on the normal alone.
     pub is_local: bool,
-    /// By how much its value changes with the normal, where it is not local.
+    /// Bound on the change of light with the normal, if it is not local.
     pub slope: Slope,
     pub shadowed: u32,
     pub levels: &'a [f64],
-    /// One in so many of them is drawn: the others are too near to it to be seen.
+    /// Only each `stride`-th level is traced, since the others are too close to be seen.
     pub stride: usize,
-    /// Values that are off by no more than this cannot be told apart.
+    /// Largest invisible error of light.
     pub alike: f64,
-    /// How far the curve may lie from where the level is, px.
+    /// Largest error of a curve's position, px.
     pub near: f64,
-    /// How far the value at a point of the curve may be from the level.
+    /// Largest error of light at a point of the curve.
     pub exact: f64,
     pub measures: Measures,
 }
 
-/// The sides of a face, each opposite the corner of its number.
+/// Measures along the sides of a face; entry k is for the side opposite corner k.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Measures {
-    /// Their lengths in the image.
+    /// Lengths in the image.
     pub sides: [f64; 3],
-    /// Their lengths in space.
+    /// Lengths in space.
     pub spans: [f64; 3],
-    /// By how much normals turn along them, radians.
+    /// Turns of the normal, radians.
     pub turns: [f64; 3],
 }
 
-/// A side of a piece of a face.
+/// Side of a piece of a face.
 #[derive(Clone, Copy)]
 struct Side {
-    /// By how much normals turn along it, radians.
+    /// Turn of the normal along it, radians.
     turn: f64,
-    /// Its length in the image.
+    /// Length in the image.
     length: f64,
-    /// Whether normals turn so little along it that the value must be all but linear there.
+    /// Whether the normal turns so little that light is almost linear.
     is_straight: bool,
 }
 
 impl Band<'_> {
-    /// The point of the face with these weights.
+    /// Light at the point with the given weights.
     pub fn node(&self, weights: [f64; 3]) -> Node {
         Node {
             weights,
@@ -77,11 +78,11 @@ impl Band<'_> {
         }
     }
 
-    /// The point of the face with these weights, as the light of this channel asks for it.
+    /// Surface point with the given weights, with the properties that this channel needs.
     fn point(&self, weights: [f64; 3]) -> SurfacePoint {
         if !self.is_local {
             let normal = self.lit.normal(self.face, &self.normals, weights);
-            // Where there is no normal, that to the eye stands for it, and this varies from place to place.
+            // Without a normal, the direction to the camera replaces it, and that depends on position.
             if normal != DVec3::ZERO {
                 return SurfacePoint { position: DVec3::ZERO, normal, openness: 1.0 };
             }
@@ -89,14 +90,14 @@ impl Band<'_> {
         self.lit.point(self.face, weights)
     }
 
-    /// Traces the levels through the face; these are its corners.
+    /// Traces the levels through the face, given its corners.
     pub fn trace(&self, corners: [Node; 3], found: &mut Vec<Found>) {
         self.cut(corners, 0, found);
     }
 
-    /// Cuts a piece until the value is all but linear in it, then draws the levels through it.
+    /// Subdivides a piece until light is almost linear on it, then draws the levels.
     ///
-    /// Whether a side is cut depends on the side alone, so that the pieces of neighbours meet.
+    /// Whether a side is split depends on the side alone, so that neighbouring pieces share their points.
     fn cut(&self, nodes: [Node; 3], depth: u32, found: &mut Vec<Found>) {
         let turns = [self.turn(&nodes, 0), self.turn(&nodes, 1), self.turn(&nodes, 2)];
         if self.is_out_of_reach(&nodes, turns) {
@@ -141,12 +142,12 @@ impl Band<'_> {
         self.draw(nodes, found);
     }
 
-    /// By how much normals turn along the side of a piece opposite a corner of it, radians, at most.
+    /// Bound on the turn of the normal along the side opposite a corner, radians.
     fn turn(&self, nodes: &[Node; 3], opposite: usize) -> f64 {
         extent(&self.measures.turns, nodes[(opposite + 1) % 3].weights, nodes[(opposite + 2) % 3].weights)
     }
 
-    /// Whether no level can be crossed anywhere on a piece, by how far normals turn along its sides.
+    /// Whether no level can cross a piece, by the turn of normals along its sides.
     fn is_out_of_reach(&self, nodes: &[Node; 3], turns: [f64; 3]) -> bool {
         let turn = turns[0].max(turns[1]).max(turns[2]);
         let (low, high) = if self.is_local {
@@ -163,10 +164,10 @@ impl Band<'_> {
             == self.levels.partition_point(|level| *level <= high)
     }
 
-    /// A side of a piece along which normals turn by so much.
+    /// A side of a piece, given the turn of the normal along it.
     fn side(&self, a: Node, b: Node, turn: f64) -> Side {
         let length = extent(&self.measures.sides, a.weights, b.weights);
-        // What a cosine is off its chord at most.
+        // Largest deviation of a cosine from its chord.
         let off = turn * turn / 8.0 * self.slope.most;
         let is_straight = !self.is_local
             && turn <= MOST_TURN
@@ -174,7 +175,7 @@ impl Band<'_> {
         Side { turn, length, is_straight }
     }
 
-    /// Whether the value along a side bends so much that a level would cross it elsewhere.
+    /// Whether light along a side is so far from linear that a level would move.
     fn is_bent(&self, a: Node, middle: Node, b: Node, side: Side) -> bool {
         let Side { turn, length, .. } = side;
         let far_reaching = length > LONGEST_PX * self.px && self.is_local;
@@ -182,7 +183,7 @@ impl Band<'_> {
             || self.is_off(&[a, b], middle.value, f64::midpoint(a.value, b.value), length)
     }
 
-    /// Whether a value differs from the linear one so much that a level would be displaced.
+    /// Whether the difference between a value and the linear one would move a level.
     fn is_off(&self, nodes: &[Node], value: f64, linear: f64, length: f64) -> bool {
         let off = (value - linear).abs();
         if length <= SHORTEST_PX * self.px || off <= self.alike {
@@ -207,14 +208,14 @@ impl Band<'_> {
         for number in (first..last).filter(|number| (number + 1) % self.stride == 0) {
             let level = &self.levels[number];
             let above = nodes.map(|node| node.value >= *level);
-            // The corner that is alone on its side, and the two others.
+            // The corner that is alone on its side of the level.
             let Some(alone) =
                 (0..3).find(|k| above[(k + 1) % 3] == above[(k + 2) % 3] && above[*k] != above[(k + 1) % 3])
             else {
                 continue;
             };
             let mut ends = [1, 2].map(|k| self.crossing(nodes[alone], nodes[(alone + k) % 3], *level));
-            // The brighter side lies on the left.
+            // The brighter side is on the left.
             if above[alone] {
                 ends.swap(0, 1);
             }
@@ -224,7 +225,7 @@ impl Band<'_> {
         }
     }
 
-    /// Where a level crosses a side, from below to above.
+    /// Point where a level crosses a side.
     fn crossing(&self, a: Node, b: Node, level: f64) -> DVec3 {
         let (low, high) = if a.value < level { (a, b) } else { (b, a) };
         let at = |t: f64| {
@@ -235,7 +236,7 @@ impl Band<'_> {
         let (mut f_low, mut f_high) = (low.value - level, high.value - level);
         let mut t = 0.0;
         let mut stays = 0;
-        // Regula falsi after Illinois: an end that stays for a second time counts half.
+        // Illinois variant of regula falsi: the weight of an end that stays twice is halved.
         for _ in 0..MOST_ROUNDS {
             t = t_low + (t_high - t_low) * (-f_low / (f_high - f_low)).clamp(0.0, 1.0);
             let f = self.node(at(t)).value - level;
@@ -256,35 +257,34 @@ impl Band<'_> {
     }
 }
 
-/// How often a face is cut in two at most, along each side.
+/// Maximum depth of subdivision.
 const DEEPEST: u32 = 9;
 
-/// Rounds of the search along a side.
+/// Maximum number of root-finding steps.
 const MOST_ROUNDS: u32 = 30;
 
-/// Pieces turn by no more than this, radians, so that no peak hides between their corners.
+/// Largest turn of the normal along a side, radians, so that no peak is missed between corners.
 const MOST_TURN: f64 = 0.25;
 
-/// Where light varies from place to place, pieces are no longer than this.
+/// Largest side of a piece where light depends on position, px.
 const LONGEST_PX: f64 = 40.0;
 
-/// Pieces this short are not cut again.
+/// Sides shorter than this are not split, px.
 const SHORTEST_PX: f64 = 0.5;
 
-/// Half way between two points of a face.
+/// Midpoint of two points of a face.
 fn mean(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [f64::midpoint(a[0], b[0]), f64::midpoint(a[1], b[1]), f64::midpoint(a[2], b[2])]
 }
 
-/// How far it is between two points of a face of which these are the sides (each opposite the corner
-/// of its number), at most; exact along a side.
+/// Upper bound on a measure between two points of a face, from the measures of its sides. Exact along a side.
 #[inline]
 pub(crate) fn extent(sides: &[f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
     let change = [(a[0] - b[0]).abs(), (a[1] - b[1]).abs(), (a[2] - b[2]).abs()];
     let mut sum = 0.0;
     for k in 0..3 {
         let part = change[(k + 1) % 3].min(change[(k + 2) % 3]);
-        // A side may be as long as can be.
+        // A side may have unlimited length.
         if part > 0.0 {
             sum += sides[k] * part;
         }
@@ -292,9 +292,9 @@ pub(crate) fn extent(sides: &[f64; 3], a: [f64; 3], b: [f64; 3]) -> f64 {
     sum
 }
 
-/// A triangle cut at the middles of some of its sides (each opposite the corner of its number).
+/// Splits a triangle at the midpoints of some of its sides. Midpoint k is on the side opposite corner k.
 pub(crate) fn pieces<N: Copy>(n: [N; 3], middles: [Option<N>; 3]) -> [Option<[N; 3]>; 4] {
-    // Turned so that the cases below are all there are.
+    // Rotated so that the cases below are complete.
     let turned = |k: usize| {
         ([n[k], n[(k + 1) % 3], n[(k + 2) % 3]], [middles[k], middles[(k + 1) % 3], middles[(k + 2) % 3]])
     };
@@ -304,7 +304,8 @@ pub(crate) fn pieces<N: Copy>(n: [N; 3], middles: [Option<N>; 3]) -> [Option<[N;
             [Some(p), Some(q), Some(r)] => {
                 return [Some([a, r, q]), Some([r, b, p]), Some([q, p, c]), Some([p, q, r])];
             }
-            // Two sides that meet in a: the corner is cut off, the rest along a diagonal.
+            // Two split sides that meet in `a`: the corner is cut off, and the rest is split along a
+            // diagonal.
             [None, Some(q), Some(r)] => {
                 return [Some([a, r, q]), Some([r, b, c]), Some([r, c, q]), None];
             }

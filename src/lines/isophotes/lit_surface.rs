@@ -1,4 +1,4 @@
-//! [`Lit`]: a surface under light, point by point.
+//! [`Lit`]: a lit surface in a view; returns paint, light and tone at any point of it.
 
 use glam::DVec3;
 
@@ -8,34 +8,34 @@ use crate::lines::Textures;
 use crate::mesh::{FaceId, Mesh, PaintId};
 use crate::view::View;
 
-/// A lit surface, seen by an eye.
+/// Lit surface in a view.
 #[derive(Debug, Clone, Copy)]
 pub struct Lit<'a> {
-    /// The faces.
+    /// Faces.
     pub mesh: &'a Mesh,
-    /// Where the eye is.
+    /// Camera view.
     pub view: &'a View,
-    /// Normals by which light falls.
+    /// Shading normals.
     pub normals: &'a ShadedNormals,
-    /// The lights, and the levels of tone.
+    /// Lights and levels of tone.
     pub shading: &'a Shading,
-    /// How much of the sky each vertex of the mesh sees, or empty.
+    /// Ambient visibility per vertex, 0 to 1; empty if not used.
     pub openness: &'a [f64],
-    /// The pictures that are seen on it.
+    /// Textures of the surface.
     pub textures: &'a Textures,
-    /// The parts nobody sees the inside of, by their number; none if empty.
+    /// Whether the inside of each part is never visible; empty if unknown.
     pub solid: &'a [bool],
 }
 
 impl Lit<'_> {
-    /// The paint at a point of a face.
+    /// Paint at a point of a face.
     #[must_use]
     pub fn paint(&self, face: u32, at: DVec3) -> PaintId {
         self.textures.paint(self.mesh, face, at)
     }
 
-    /// The point of a face with these barycentric weights, as light falls on the side that the eye
-    /// sees. The same on both faces of an edge that share their normals.
+    /// Surface point with the given barycentric weights, lit on the side that the camera sees. Faces that
+    /// share normals along an edge return the same points there.
     #[must_use]
     pub fn point(&self, face: u32, weights: [f64; 3]) -> SurfacePoint {
         let t = self.mesh.triangles[face as usize];
@@ -52,7 +52,8 @@ impl Lit<'_> {
         }
     }
 
-    /// The unit normal of a face at the point with these weights, on the side that the eye sees; `corners` are those at its corners.
+    /// Interpolated unit normal of a face, on the side that the camera sees. `corners` are the normals at its
+    /// corners.
     #[inline]
     pub(crate) fn normal(&self, face: u32, corners: &[DVec3; 3], weights: [f64; 3]) -> DVec3 {
         let sum = DVec3::ZERO + corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
@@ -60,11 +61,11 @@ impl Lit<'_> {
         if self.view.facing[face as usize] { normal } else { -normal }
     }
 
-    /// A point of a face, moved out to the curved surface for which the face stands, if that is no
-    /// more than a fraction of a px away: coarser faces show as what they are.
+    /// Point of a face, moved out to the curved surface that the face approximates. Only shifts of a fraction
+    /// of a px are applied, so coarse faces keep their shape.
     ///
-    /// Source: Boubekeur and Alexa, "Phong tessellation", SIGGRAPH Asia 2008, eq. 3, with a weight
-    /// of 1/2, which is right for spheres.
+    /// Source: Boubekeur and Alexa, "Phong tessellation", SIGGRAPH Asia 2008, eq. 3, with weight 1/2, which
+    /// is right for spheres.
     pub(crate) fn lifted(&self, face: u32, weights: [f64; 3], px: f64) -> DVec3 {
         let corners = self.mesh.corners(FaceId(face));
         let normals = self.normals.of(face);
@@ -74,30 +75,30 @@ impl Lit<'_> {
         let frame = &self.view.frame;
         let per_px = if frame.perspective { frame.depth(p) } else { 1.0 } * px / frame.scale;
         let way = lift.length() / (per_px * tolerance::LIFT_PX);
-        // Whole up to half of that, then less and less.
+        // The full shift up to half of the limit, then less, down to none.
         p + lift * (2.0 - 2.0 * way).clamp(0.0, 1.0)
     }
 
-    /// Whether the eye may see a face: not the averted ones of solid parts.
+    /// Whether a face may be visible: averted faces of solid parts are not.
     #[inline]
     pub(crate) fn may_be_seen(&self, face: usize) -> bool {
         let solid = || self.solid.get(self.mesh.face_part[face].index()).copied().unwrap_or_default();
         self.view.facing[face] || !solid()
     }
 
-    /// The tone of a point, for lights of which those in `shadowed` do not reach it.
+    /// Tone of a point, given a mask of the shadowed lights.
     #[must_use]
     pub fn tone(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> u16 {
         self.tone_and_bin(paint, point, shadowed).0
     }
 
-    /// The tone of a point, and the bin of light in which it is hatched, 0 the darkest.
+    /// Tone and hatching bin of a point; 0 is the darkest.
     #[must_use]
     pub fn tone_and_bin(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> (u16, u16) {
         self.look(paint, point, shadowed, |_, _, band| band)
     }
 
-    /// The tone and the bin of a point of a face, as they are shown there: steps of a gradient that are too narrow count as one.
+    /// Tone and hatching bin of a point of a face as drawn, where narrow steps of a gradient are merged.
     #[must_use]
     pub fn tone_and_bin_shown(
         &self,
@@ -110,8 +111,8 @@ impl Lit<'_> {
         self.look(paint, point, shadowed, shown)
     }
 
-    /// The tone and the bin of a point; `shown` tells from a channel, its levels, and how many of them are reached as how
-    /// many that counts.
+    /// Tone and hatching bin of a point. `shown` maps the number of levels reached in a channel to the number
+    /// that counts.
     fn look(
         &self,
         paint: PaintId,
@@ -131,5 +132,5 @@ impl Lit<'_> {
     }
 }
 
-/// Most channels of a shading.
+/// Maximum number of channels.
 const MOST_CHANNELS: usize = 8;

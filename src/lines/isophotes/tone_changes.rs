@@ -1,10 +1,12 @@
-//! Which pieces of tone borders change the tone: only those are inked as isophotes.
+//! Tone changes: which pieces of tone borders change the tone. Only those are drawn as isophotes.
 //!
-//! Tone borders are traced for every set of lights that may be in shadow, each over the whole surface, and so are the borders of
-//! shadows: regions need all of them. But an isophote of the lit surface changes nothing inside the shadow, the border of a shadow
-//! nothing where both tones are one, and an edge nothing where both its sides have one tone. So borders on a face are cut where they
-//! cross each other, edges where these end at them, and in the middle of each piece the tones of both sides are compared, under the
-//! lights that reach it.
+//! Tone borders are traced over the whole surface, for every set of lights that may be in shadow, and so are
+//! shadow borders. Regions need all of them. But an isophote of the lit surface has no effect inside a
+//! shadow. A shadow border has none where both tones are equal, and neither has an edge.
+//!
+//! 1. Borders on a face are cut where they cross each other.
+//! 2. Edges are cut where borders end at them.
+//! 3. At the middle of each piece the tones on both sides are compared, under the lights that reach it.
 
 use std::ops::Range;
 
@@ -17,40 +19,40 @@ use crate::lines::shared_points::PointIds;
 use crate::lines::{FeatureLines, FeatureSegment, Lit, NO_FACE};
 use crate::mesh::{FaceId, PaintId};
 
-/// The reason why an isophote was traced.
+/// Reason why an isophote was traced.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Traced {
-    /// The channel of the shading.
+    /// Channel of the shading.
     pub channel: usize,
-    /// The lights that are in shadow.
+    /// Mask of the shadowed lights.
     pub shadowed: u32,
 }
 
-/// Where the tone borders are among the segments of all lines.
+/// Positions of the tone borders among all segments.
 #[derive(Debug, Clone, Default)]
 pub struct ToneBorders {
-    /// Edges between tones, whole ones.
+    /// Uncut edges between tones.
     pub edges: Range<usize>,
     /// Isophotes.
     pub isophotes: Range<usize>,
-    /// The reason why each of these was traced.
+    /// Reason for each isophote.
     pub traced: Vec<Traced>,
-    /// Borders of shadows.
+    /// Shadow borders.
     pub shadows: Range<usize>,
-    /// Which light casts each of these.
+    /// Light that casts each shadow border.
     pub casters: Vec<u32>,
 }
 
-/// Which cast shadows darken what: tones, and bins of hatching.
+/// Effects of cast shadows.
 #[derive(Debug, Clone, Copy)]
 pub struct Darkens {
-    /// Tones.
+    /// Tones of fills.
     pub tones: bool,
-    /// Bins of hatching.
+    /// Hatching bins.
     pub bins: bool,
 }
 
-/// What a border is.
+/// Type of a border.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Class {
     Edge,
@@ -58,8 +60,10 @@ enum Class {
     Shadow(u32),
 }
 
-/// Cuts tone borders where they begin or cease to change the tone, and gives the numbers of the segments that change nothing, ascending.
-/// `shadowed` returns the lights that do not reach points of faces.
+/// Cuts tone borders where they start or stop changing the tone, and returns the segments without effect,
+/// ascending.
+///
+/// `shadowed` returns a mask of the lights that do not reach each point.
 #[must_use]
 pub fn unchanged(
     lit: &Lit,
@@ -87,14 +91,14 @@ pub fn unchanged(
     rewrite(lit, &pieces, &changes, lines)
 }
 
-/// Cuts nearer to each other than this part of a segment are one.
+/// Minimum distance of cuts, as a fraction of the segment.
 const SAME_PLACE: f64 = 1e-9;
 
-/// Lights do not reach points of an edge by what stands on the face next to it: so far towards its middle they are asked for, as part of the
-/// way.
+/// Shift of the shadow test point from an edge towards the middle of the face, as a fraction of the distance.
+/// An adjacent surface may shade the edge itself.
 const INWARD: f64 = 1e-4;
 
-/// Where a segment is cut.
+/// Position where a segment is cut.
 #[derive(Clone, Copy)]
 struct Cut {
     segment: usize,
@@ -102,7 +106,7 @@ struct Cut {
     point: DVec3,
 }
 
-/// A piece of a segment between two cuts, or its ends.
+/// Piece of a segment between two cuts or ends.
 #[derive(Clone, Copy)]
 struct Piece {
     segment: usize,
@@ -133,7 +137,7 @@ impl Finder<'_> {
         self.lines.segments[segment].ends.map(|end| self.lines.position(self.lit.mesh, end))
     }
 
-    /// Isophotes and borders of shadows, by their faces.
+    /// Isophotes and shadow borders, sorted by face.
     fn on_faces(&self) -> Vec<(u32, usize)> {
         let ToneBorders { isophotes, shadows, .. } = self.borders;
         let all = isophotes.clone().chain(shadows.clone());
@@ -143,7 +147,7 @@ impl Finder<'_> {
         on_faces
     }
 
-    /// Where borders on a face cross.
+    /// Crossings of borders on a face.
     fn cuts_on_faces(&self) -> Vec<Cut> {
         let on_faces = self.on_faces();
         let faces: Vec<&[(u32, usize)]> =
@@ -177,7 +181,7 @@ impl Finder<'_> {
                 if turn == 0.0 || !(0.0..=1.0).contains(&at) || !(0.0..=1.0).contains(&its) {
                     continue;
                 }
-                // Borders of shadows lie on the face itself.
+                // Shadow borders lie exactly on the face.
                 let (on, t) =
                     if matches!(its_class, Class::Shadow(_)) { (*other, its) } else { (*first, at) };
                 let [from, to] = self.ends(on);
@@ -190,7 +194,7 @@ impl Finder<'_> {
         cuts
     }
 
-    /// Where borders on its faces end at an edge.
+    /// Ends of borders at an edge of their face.
     fn cuts_on_edges(&self) -> Vec<Cut> {
         let on_faces = self.on_faces();
         let frame = &self.lit.view.frame;
@@ -217,7 +221,7 @@ impl Finder<'_> {
         self.borders.edges.clone().into_par_iter().flat_map_iter(of_edge).collect()
     }
 
-    /// The pieces of all tone borders, in order.
+    /// Pieces of all tone borders, in order.
     fn pieces(&self, cuts: &[Cut]) -> Vec<Piece> {
         let ToneBorders { edges, isophotes, shadows, .. } = self.borders;
         let mut pieces = Vec::new();
@@ -240,7 +244,7 @@ impl Finder<'_> {
         pieces
     }
 
-    /// The faces beside a piece, and where on them it is asked which lights are in shadow.
+    /// For both faces of a piece, the point where the shadowed lights are tested.
     fn asked(&self, piece: &Piece) -> [Option<(u32, DVec3)>; 2] {
         let mesh = self.lit.mesh;
         let hosts = self.lines.segments[piece.segment].hosts;
@@ -255,7 +259,7 @@ impl Finder<'_> {
         })
     }
 
-    /// Whether the tone changes at a piece, given which lights do not reach it on both its faces.
+    /// Whether a piece changes the tone, given the shadowed lights on both faces.
     fn changes(&self, piece: &Piece, masks: [u32; 2]) -> bool {
         let FeatureSegment { hosts, .. } = self.lines.segments[piece.segment];
         let sides = |face: u32| self.point(face, piece.middle);
@@ -279,7 +283,7 @@ impl Finder<'_> {
         }
     }
 
-    /// What is seen of a point of a face.
+    /// Paint and surface point at a point of a face.
     fn point(&self, face: u32, p: DVec3) -> Option<(PaintId, SurfacePoint)> {
         let lit = self.lit;
         let [a, b, c] = lit.mesh.corners(FaceId(face));
@@ -292,7 +296,7 @@ impl Finder<'_> {
             .then(|| (lit.paint(face, p), lit.point(face, weights.map(|weight| weight / sum))))
     }
 
-    /// The lights that are dark for a channel.
+    /// Shadowed lights that count for a channel.
     fn mask(&self, channel: usize, shadowed: u32) -> u32 {
         let is_bin = self.lit.shading.bins() == Some(channel);
         let darkens = if is_bin { self.darkens.bins } else { self.darkens.tones };
@@ -308,7 +312,7 @@ impl Finder<'_> {
         (0..shading.channels()).map(band).collect()
     }
 
-    /// The tone and the bin of a point.
+    /// Tone and hatching bin of a point.
     fn look(&self, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> (u16, Option<u16>) {
         let bands = self.bands(paint, point, shadowed);
         self.look_of(paint, &bands)
@@ -320,7 +324,7 @@ impl Finder<'_> {
         (shading.tone(paint, bands), bin)
     }
 
-    /// Whether a level that was traced is one under the lights that reach the point, and parts two tones.
+    /// Whether a traced level exists under the lights that reach the point, and separates two tones.
     fn is_level(&self, paint: PaintId, point: &SurfacePoint, traced: Traced, shadowed: u32) -> bool {
         let shading = self.lit.shading;
         let Traced { channel, shadowed: assumed } = traced;
@@ -344,7 +348,7 @@ impl Finder<'_> {
     }
 }
 
-/// Puts the pieces in the place of their segments; gives the numbers of those where nothing changes, ascending.
+/// Replaces segments by their pieces. Returns the indices of those without effect, ascending.
 fn rewrite(lit: &Lit, pieces: &[Piece], changes: &[bool], lines: &mut FeatureLines) -> Vec<u32> {
     let mut unchanged = Vec::new();
     let first = lit.mesh.positions.len() as u32;
@@ -357,7 +361,7 @@ fn rewrite(lit: &Lit, pieces: &[Piece], changes: &[bool], lines: &mut FeatureLin
         let whole = lines.segments[number];
         let mut k = 0;
         while k < own.len() {
-            // Pieces in a row of which one thing is so are one.
+            // Consecutive pieces with the same result are merged.
             let run = verdicts[k..].iter().take_while(|verdict| **verdict == verdicts[k]).count();
             let mut end = |point: Option<DVec3>, whole: u32| {
                 point.map_or(whole, |p| ids.of(&mut lines.points, first, p))

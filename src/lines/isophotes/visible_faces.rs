@@ -1,7 +1,7 @@
-//! Which faces a nearer one may leave something of in sight: steps of gradients are not sought on the others.
+//! Faces that may be visible: gradients are not traced on faces that are surely covered by nearer ones.
 //!
-//! A buffer of pixels proposes only. Lines are hidden exactly, wherever they come from; what could be missed is the step of a
-//! gradient in a sliver narrower than a px, which nobody can see.
+//! The test uses a pixel buffer and only skips work. Lines get exact visibility later. The test can miss a
+//! step of a gradient in a sliver narrower than a px only.
 
 use crate::parallel::prelude::*;
 
@@ -10,11 +10,11 @@ use crate::mesh::Mesh;
 use crate::view::View;
 use crate::view::raster::{FaceBuffer, Screen};
 
-/// Whether something of each face may be seen.
+/// Whether any of each face may be visible.
 pub(crate) fn in_sight(mesh: &Mesh, view: &View) -> Vec<bool> {
     let screen = Screen::new(mesh, view);
     let buffer = FaceBuffer::new(&screen);
-    // The pixels that an extent touches, and one more on each side.
+    // Pixels that an extent touches, plus one on each side.
     let pixels = |low: f32, high: f32, count: usize| {
         (low - 1.0).max(0.0) as usize..((high + 2.0).max(0.0) as usize).min(count)
     };
@@ -42,12 +42,12 @@ pub(crate) fn in_sight(mesh: &Mesh, view: &View) -> Vec<bool> {
         .collect()
 }
 
-/// For each part whether its faces are drawn where they show their inside: those of solid parts never, those of other parts if any
-/// pixel does. Strokes along hidden insides would change those next to them.
+/// For each part, whether its faces are drawn where they show their inside: never for solid parts, and for
+/// others if the inside covers any pixel. Strokes on hidden insides would disturb their neighbours.
 pub(crate) fn shows_inside(lit: &Lit) -> Vec<bool> {
     let Lit { mesh, view, solid, .. } = *lit;
     let count = mesh.face_part.iter().map(|part| part.index() + 1).max().unwrap_or(0);
-    // Where the near plane cuts a part open, none is solid.
+    // If the near plane cuts a part open, none counts as solid.
     if solid.is_empty() {
         return vec![true; count];
     }
@@ -62,10 +62,10 @@ pub(crate) fn shows_inside(lit: &Lit) -> Vec<bool> {
     shows
 }
 
-/// Nearness from 0 to 1 is off by no more than this in single precision.
+/// Largest error of nearness (0 to 1) in single precision.
 const SLACK: f32 = 1e-5;
 
-/// Faces in a box of more pixels than this are not looked at.
+/// Faces whose bounding box has more pixels than this are not tested, and count as visible.
 const MOST_PIXELS: usize = 1 << 14;
 
 #[cfg(test)]

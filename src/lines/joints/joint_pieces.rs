@@ -1,4 +1,4 @@
-//! [`Faces`]: which faces reach a line, and which pieces of it are joints.
+//! [`Faces`]: the faces that reach a line, and the pieces of it that are joints.
 
 use glam::{DVec2, DVec3};
 
@@ -7,32 +7,32 @@ use crate::mesh::bvh::box_tree::BoxTree;
 use crate::mesh::normals::normal_carriers::height;
 use crate::mesh::{FaceId, Mesh, PartId};
 
-/// Faces are tested on both sides of a line, at this many times the reach of contact.
+/// Distance of the test lines on both sides of a line, in contact distances.
 const BESIDE: f64 = 4.0;
 
-/// Pieces of lines shorter than this many times that distance come from the test, not from the shape.
+/// Minimum length of a piece, in test distances. Shorter pieces are artefacts of the test.
 const SHORTEST: f64 = 8.0;
 
-/// The faces of a mesh by where they are, and the kind of each.
+/// Faces of a mesh in a tree of boxes, with their kinds.
 pub(crate) struct Faces<'a> {
     mesh: &'a Mesh,
     kinds: &'a [u32],
     tree: BoxTree,
-    /// The greatest reach of contact of all parts.
+    /// Largest contact distance of all parts.
     contact: f64,
 }
 
-/// A piece of a line, and whether it is a joint.
+/// Piece of a line, and whether it is a joint.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
-    /// Where it ends, as a part of the line's length.
+    /// End of the piece, as a fraction of the line's length.
     pub end: f64,
-    /// The vertex of the mesh at its end, if there is one.
+    /// Mesh vertex at its end, if there is one.
     pub vertex: Option<u32>,
     pub is_joint: bool,
 }
 
-/// A straight line from end to end.
+/// Straight line between two points.
 struct Way {
     from: DVec3,
     to: DVec3,
@@ -40,18 +40,19 @@ struct Way {
     length: f64,
 }
 
-/// A face at a line.
+/// Face that reaches a line.
 struct Reached {
     face: u32,
     normal: DVec3,
-    /// The least height of the triangle that says which plane it is in.
+    /// Smallest height of the triangle that defines the face's plane.
     height: f64,
-    /// The parts of the line's length that it covers: first on the side of normal × line, then on the other one.
+    /// Ranges that it covers, as fractions of the line's length: on the side of normal × line, and on the
+    /// other.
     covers: [Option<[f64; 2]>; 2],
 }
 
 impl<'a> Faces<'a> {
-    /// None if there is nothing to join: parts of one kind.
+    /// Builds the tree; none if no kind has two parts, so that there are no joints.
     pub fn new(mesh: &'a Mesh, kinds: &'a [u32]) -> Option<Self> {
         let of = |face: u32| kind(mesh, kinds, face);
         let mut owners: Vec<(u32, PartId)> =
@@ -70,7 +71,8 @@ impl<'a> Faces<'a> {
         Some(Self { mesh, kinds, tree, contact })
     }
 
-    /// The pieces of a line of a part, in order; `None` if none is a joint, or if more than `most` faces are near.
+    /// Pieces of a line of a part, in order; `None` if none is a joint, or if more than `most` faces are
+    /// near.
     pub fn pieces(&self, part: PartId, [from, to]: [DVec3; 2], most: usize) -> Option<Vec<Piece>> {
         let along = (to - from).try_normalize()?;
         let way = Way { from, to, along, length: from.distance(to) };
@@ -78,7 +80,7 @@ impl<'a> Faces<'a> {
         let own = self.mesh.extents.of(part).contact;
         let contact_of = |face: u32| self.mesh.extent(FaceId(face)).contact.max(own);
         near.retain(|face| self.reached(&way, *face, contact_of(*face)).is_some());
-        // Parts of one kind must be among them.
+        // Two parts of one kind must be among them.
         let owner = |face: &u32| (kind(self.mesh, self.kinds, *face), self.mesh.face_part[*face as usize]);
         let is_shared = |face: &u32| {
             let (kind, part) = owner(face);
@@ -94,7 +96,7 @@ impl<'a> Faces<'a> {
         pieces.iter().any(|piece| piece.is_joint).then_some(pieces)
     }
 
-    /// The faces whose boxes come near that of a line, ascending.
+    /// Faces whose boxes are near that of the line, ascending.
     fn near(&self, way: &Way, most: usize) -> Option<Vec<u32>> {
         let around = 2.0 * BESIDE * self.contact;
         let (low, high) = (way.from.min(way.to) - around, way.from.max(way.to) + around);
@@ -104,7 +106,7 @@ impl<'a> Faces<'a> {
         (near.len() <= most).then_some(near)
     }
 
-    /// The stretches that a face covers on both sides of a line, if its plane holds the line.
+    /// Ranges that a face covers on both sides of a line, if its plane holds the line.
     fn reached(&self, way: &Way, face: u32, contact: f64) -> Option<Reached> {
         let mesh = self.mesh;
         let corners = mesh.corners(FaceId(face));
@@ -117,14 +119,14 @@ impl<'a> Faces<'a> {
             DVec2::new(from.dot(way.along) / way.length, from.dot(side))
         });
         let beside = BESIDE * contact;
-        // Where the plane holds the line, within rounding.
+        // Range where the plane holds the line, within rounding.
         let heights = [way.from, way.to].map(|end| normal.dot(end - corners[0]));
         let held = held(heights, contact)?;
         let least = SHORTEST * beside / way.length;
         let covers = [beside, -beside].map(|at| {
             let [start, end] = covered(&flat, at)?;
             let own = [start.max(held[0]), end.min(held[1])];
-            // Of planes that cross the line less is near.
+            // A plane that crosses the line holds only a short range.
             (own[1] - own[0] > least.min(0.5 * (end - start).min(1.0)) && own[1] > 0.0 && own[0] < 1.0)
                 .then_some(own)
         });
@@ -134,7 +136,7 @@ impl<'a> Faces<'a> {
         Some(Reached { face, normal, height: height(&known), covers })
     }
 
-    /// The pieces of a line, given the faces that reach it.
+    /// Pieces of a line, given the faces that reach it.
     fn cut(&self, way: &Way, reached: &[Reached], contact: f64) -> Vec<Piece> {
         let least = SHORTEST * BESIDE * contact / way.length;
         let mut cuts: Vec<f64> =
@@ -161,7 +163,7 @@ impl<'a> Faces<'a> {
         pieces
     }
 
-    /// The faces at a place of a line as rays.
+    /// Faces at a position on the line, as rays.
     fn rays(&self, way: &Way, reached: &[Reached], at: f64, contact: f64) -> Vec<Ray> {
         let mesh = self.mesh;
         let mut rays = Vec::new();
@@ -183,7 +185,7 @@ impl<'a> Faces<'a> {
         rays
     }
 
-    /// The vertex of some faces nearest to a point, within `reach`.
+    /// Nearest vertex of the given faces, within `reach`.
     fn vertex_at(&self, point: DVec3, reached: &[Reached], reach: f64) -> Option<u32> {
         let vertices = reached.iter().flat_map(|own| self.mesh.triangles[own.face as usize]);
         let distance = |v: u32| self.mesh.positions[v as usize].distance(point);
@@ -192,13 +194,14 @@ impl<'a> Faces<'a> {
     }
 }
 
-/// The kind of a face.
+/// Kind of a face.
 fn kind(mesh: &Mesh, kinds: &[u32], face: u32) -> u32 {
     let paint = mesh.paint(FaceId(face)).0;
     kinds.get(paint as usize).copied().unwrap_or(paint)
 }
 
-/// Between which parts of a line's length it is no farther than `contact` from a plane, given its heights over it at both ends.
+/// Range of a line, in fractions of its length, within `contact` of a plane. Given are the heights of both
+/// ends.
 fn held([from, to]: [f64; 2], contact: f64) -> Option<[f64; 2]> {
     let rise = to - from;
     if rise == 0.0 {
@@ -209,7 +212,7 @@ fn held([from, to]: [f64; 2], contact: f64) -> Option<[f64; 2]> {
     (held[0] < 1.0 && held[1] > 0.0).then_some(held)
 }
 
-/// Between which parts of a line's length a triangle covers what is `at` to its side.
+/// Range of a line, in fractions of its length, where a triangle covers the parallel at offset `at`.
 fn covered(corners: &[DVec2; 3], at: f64) -> Option<[f64; 2]> {
     let (mut start, mut end) = (f64::INFINITY, f64::NEG_INFINITY);
     for k in 0..3 {

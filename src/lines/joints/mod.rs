@@ -26,13 +26,16 @@ use self::joint_pieces::{Faces, Piece};
 use super::{FeatureLines, FeatureSegment, LineKind, Role};
 use crate::mesh::Mesh;
 
-/// Faces near lines that are looked at in all, and at least for each line; a line with more near it stays.
+/// Maximum number of face tests in total, and the minimum budget per line. A line with more faces nearby is
+/// kept.
 const MAX_TESTS: usize = 100_000_000;
 const LEAST_TESTS: usize = 1000;
 
-/// Takes the joints out of the lines of a view. `kinds` has for each paint the number of its kind: the parts of one kind look the same.
+/// Removes the joints from the lines of a view. `kinds` holds a number per paint; parts of one kind look the
+/// same.
 ///
-/// With `keep` they stay as borders between regions, of kind [`LineKind::Isophote`]: then their numbers are returned, ascending.
+/// With `keep` joints stay as borders between regions, of kind [`LineKind::Isophote`]. Their indices are
+/// returned, ascending.
 pub fn take_out(mesh: &Mesh, lines: &mut FeatureLines, kinds: &[u32], keep: bool) -> Vec<u32> {
     let Some(faces) = Faces::new(mesh, kinds) else { return Vec::new() };
     let most = (MAX_TESTS / lines.segments.len().max(1)).max(LEAST_TESTS);
@@ -55,7 +58,7 @@ pub fn take_out(mesh: &Mesh, lines: &mut FeatureLines, kinds: &[u32], keep: bool
             split.add(segment, ends, pieces);
         }
     }
-    // Curves are none of the lines that are cut, and stay together.
+    // Curves contain no lines that are cut, so their segments stay consecutive.
     let mut before = 0u32;
     let places: Vec<u32> = pieces
         .iter()
@@ -79,14 +82,14 @@ pub fn take_out(mesh: &Mesh, lines: &mut FeatureLines, kinds: &[u32], keep: bool
     borders.collect()
 }
 
-/// Whether a line may be a joint by its kind.
+/// Whether a line of this kind may be a joint.
 fn may_be_joint(segment: &FeatureSegment) -> bool {
     use LineKind::{Border, Contour, Crease, Intersection, Material};
     let is_kind = matches!(segment.kind, Contour | Border | Crease | Material | Intersection);
     is_kind && segment.role == Role::Line
 }
 
-/// The cut lines, in place of the whole ones.
+/// Pieces of the lines that were cut.
 struct Split {
     keep: bool,
     first_point: usize,

@@ -1,38 +1,40 @@
-//! [`Around`]: the faces around a short stretch of a line, seen along the line, and whether surfaces run on over it.
+//! [`Around`]: the faces around a stretch of a line, seen along the line, and whether surfaces continue
+//! across it.
 //!
-//! In the plane across the line each face that reaches it is a ray. The two rays of a corner of a solid enclose its material; where
-//! solids touch face on face, two rays coincide and material lies on both sides of them. So material of one kind is bounded by the rays
-//! with material on one side alone. A line is no edge of the union of parts if these rays are none, or two that are opposite.
+//! In the plane across the line, each face that reaches it is a ray. The two rays of a solid's corner enclose
+//! its material. Where solids touch face to face, two rays coincide with material on both sides. So material
+//! of one kind is bounded by the rays with material on one side only. The line is no edge of the union of
+//! parts if there are no such rays, or two opposite ones.
 
 use glam::DVec3;
 
 use crate::geometry::numbers::tolerance::UNSURE_SINE;
 use crate::mesh::PartId;
 
-/// A face at a line, seen along the line.
+/// Face at a line, seen along the line.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Ray {
-    /// Away from the line, a unit vector across it.
+    /// Direction away from the line, a unit vector across it.
     pub way: DVec3,
-    /// Whether material begins behind the ray, for one who turns about the line from `right` to `up`.
+    /// Whether material starts behind the ray, when turning from `right` to `up`.
     pub begins: bool,
-    /// The sine of its possible error.
+    /// Sine of its largest angle error.
     pub doubt: f64,
     pub kind: u32,
     pub part: PartId,
     pub body: PartId,
 }
 
-/// Rays about a line, sorted by their angle.
+/// Rays around a line, sorted by angle.
 pub(crate) struct Around {
-    /// Each ray with the number of its direction.
+    /// Each ray with the index of its direction.
     rays: Vec<(Ray, usize)>,
-    /// The ray of each direction that is known best.
+    /// The most accurate ray of each direction.
     directions: Vec<Ray>,
 }
 
 impl Around {
-    /// Rays in the plane of `right` and `up`.
+    /// Sorts rays in the plane of `right` and `up`, and groups those that coincide.
     pub fn new(mut rays: Vec<Ray>, right: DVec3, up: DVec3) -> Self {
         rays.sort_by(|a, b| turn(a.way, right, up).total_cmp(&turn(b.way, right, up)));
         let is_one =
@@ -43,7 +45,7 @@ impl Around {
             count += usize::from(numbered.last().is_none_or(|(last, _)| !is_one(last, &ray)));
             numbered.push((ray, count - 1));
         }
-        // The last ones may go on in the first.
+        // The last rays may coincide with the first.
         if let [(first, _), .., (last, number)] = numbered.as_slice()
             && *number > 0
             && is_one(last, first)
@@ -60,7 +62,7 @@ impl Around {
         Self { rays: numbered, directions }
     }
 
-    /// Whether parts of one kind meet here and surfaces of no kind end or turn.
+    /// Whether parts of one kind meet here, and no surface ends or turns.
     pub fn is_joint(&self) -> bool {
         let mut kinds: Vec<u32> = self.rays.iter().map(|(ray, _)| ray.kind).collect();
         kinds.sort_unstable();
@@ -82,7 +84,7 @@ impl Around {
         is_shared
     }
 
-    /// The directions of the surface of one kind, away from the line.
+    /// Indices of the directions that bound material of one kind.
     fn bounds(&self, kind: u32) -> Vec<usize> {
         let count = self.directions.len();
         let own =
@@ -91,7 +93,7 @@ impl Around {
             self.rays.iter().filter(|(ray, _)| ray.kind == kind).map(|(ray, _)| ray.body).collect();
         bodies.sort_unstable();
         bodies.dedup();
-        // How many bodies fill what follows each direction, and where there are surfaces without an inside.
+        // Number of bodies that fill the sector after each direction, and directions with an open surface.
         let (mut filled, mut sheets) = (vec![0; count], vec![false; count]);
         for body in bodies {
             let mut steps = vec![0i32; count];
@@ -125,7 +127,7 @@ impl Around {
     }
 }
 
-/// A number that grows with the angle from `right` by way of `up`, from 0 to 4.
+/// Monotonic function of the angle from `right` towards `up`, from 0 to 4.
 fn turn(way: DVec3, right: DVec3, up: DVec3) -> f64 {
     let (x, y) = (way.dot(right), way.dot(up));
     let share = y / (x.abs() + y.abs());
@@ -137,8 +139,10 @@ fn turn(way: DVec3, right: DVec3, up: DVec3) -> f64 {
     }
 }
 
-/// The sine of the largest error of a triangle's angle about a line, given its least height and the line's length, if rounding moves
-/// corners by half of `contact`.
+/// Sine of the largest angle error of a triangle about a line, if rounding moves corners by half of
+/// `contact`.
+///
+/// `height` is the smallest height of the triangle, and `length` that of the line.
 pub(crate) fn doubt(contact: f64, height: f64, length: f64) -> f64 {
     (contact / height + contact / length).min(UNSURE_SINE)
 }
@@ -147,7 +151,7 @@ pub(crate) fn doubt(contact: f64, height: f64, length: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Rays at degrees about z: where material begins, and where it ends.
+    /// Rays about z in degrees: where material starts, and where it ends.
     fn around(corners: &[(u32, u32, [f64; 2])]) -> Around {
         let ray = |degrees: f64, begins: bool, kind: u32, part: u32| {
             let angle = degrees.to_radians();
@@ -167,7 +171,7 @@ mod tests {
     #[test]
     fn only_what_leaves_a_plane_or_nothing_is_a_joint() {
         let is_joint = |corners: &[(u32, u32, [f64; 2])]| {
-            // Turned by any angle.
+            // The result does not depend on rotation.
             let found: Vec<bool> = [0.0, 45.0, 100.0, 180.0, 269.0]
                 .map(|turn| {
                     around(
@@ -187,15 +191,16 @@ mod tests {
         assert!(is_joint(&[(0, 0, [0.0, 90.0]), (0, 1, [90.0, 180.0]), (0, 2, [180.0, 360.0])]));
         // The end of a box within another one, flush with it.
         assert!(is_joint(&[(0, 0, [180.0, 270.0]), (0, 1, [180.0, 360.0])]));
-        // The edge of one box alone, of a box on a wider one, of two that meet in an edge alone, and of one that turns a little.
+        // Not joints: the edge of a single box, a box on a wider one, two that share only an edge, and one
+        // that turns slightly.
         assert!(!is_joint(&[(0, 0, [180.0, 270.0])]));
         assert!(!is_joint(&[(0, 0, [0.0, 90.0]), (0, 1, [180.0, 360.0])]));
         assert!(!is_joint(&[(0, 0, [0.0, 90.0]), (0, 1, [180.0, 270.0])]));
         assert!(!is_joint(&[(0, 0, [180.0, 270.0]), (0, 1, [270.0, 361.0])]));
-        // One part alone, and another material.
+        // Not joints: one part alone, and a second material.
         assert!(!is_joint(&[(0, 0, [180.0, 360.0])]));
         assert!(!is_joint(&[(0, 0, [180.0, 270.0]), (1, 1, [270.0, 360.0])]));
-        // On a floor of another material, and before one that ends there.
+        // A joint on a floor of another material, but not in front of one that ends there.
         assert!(is_joint(&[(0, 0, [0.0, 90.0]), (0, 1, [90.0, 180.0]), (1, 2, [180.0, 360.0])]));
         assert!(!is_joint(&[(0, 0, [0.0, 90.0]), (0, 1, [90.0, 180.0]), (1, 2, [180.0, 300.0])]));
     }

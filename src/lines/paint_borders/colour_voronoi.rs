@@ -1,16 +1,18 @@
-//! [`borders`]: where a triangle over which a colour passes linearly is parted by what of a few colours it is nearest to.
+//! [`borders`]: borders inside a triangle between the palette colours nearest to its interpolated colour.
 //!
-//! Each of the few has a convex cell of the triangle, as cells of a Voronoi diagram are: a border is the stretch of the line
-//! between two that is nearer to no third. What is found on a side follows from the side alone, so that neighbours agree.
+//! The colour is linear over the triangle. As in a Voronoi diagram, each palette colour has a convex cell. A
+//! border is the part of the bisector of two colours that is nearer to no third one. Points on a side depend
+//! on that side alone, so that neighbouring triangles agree.
 
 use crate::colour::oklab::Oklab;
 
-/// A border: its ends in barycentric weights of the triangle, and the numbers of the colours on its sides.
+/// Border: its ends in barycentric weights of the triangle, and the indices of the colours on its sides.
 pub(crate) type Border = ([[f64; 3]; 2], [u8; 2]);
 
-/// The borders in a triangle with these colours at its corners. Sides run from the corner that comes first to the other.
+/// Borders in a triangle with the given corner colours. Sides run from the earlier corner to the later one.
 pub(crate) fn borders(corners: [Oklab; 3], palette: &[Oklab]) -> Vec<Border> {
-    // How far each colour is from that of a corner, but for what is the same for all: linear between corners.
+    // Squared distance of each colour from a corner's colour, without the common term. It is linear between
+    // corners.
     let far = |colour: &Oklab| {
         corners.map(|own| {
             (0..3)
@@ -33,7 +35,7 @@ pub(crate) fn borders(corners: [Oklab; 3], palette: &[Oklab]) -> Vec<Border> {
     found
 }
 
-/// The border between two cells, if they have one.
+/// Border between two cells, if they have one.
 fn between(
     far: &[[f64; 3]],
     i: usize,
@@ -53,7 +55,7 @@ fn between(
     };
     let mut crossed = [[0, 1], [0, 2], [1, 2]].into_iter().filter_map(on_side);
     let ends = [crossed.next()?, crossed.next()?];
-    // What of it is nearer to none of the others.
+    // The part that is nearer to no other colour.
     let mut range = [(0.0, None), (1.0, None)];
     for k in others {
         let ahead = ends.map(|at| (0..3).map(|c| (far[k][c] - far[i][c]) * at[c]).sum::<f64>());
@@ -79,7 +81,7 @@ fn between(
     Some([end(0)?, end(1)?])
 }
 
-/// Where three cells meet, whichever of their borders asks.
+/// Point where three cells meet. The result is the same for each of their borders.
 fn meeting(far: &[[f64; 3]], mut of: [usize; 3]) -> Option<[f64; 3]> {
     of.sort_unstable();
     let [i, j, k] = of;
@@ -95,7 +97,7 @@ fn meeting(far: &[[f64; 3]], mut of: [usize; 3]) -> Option<[f64; 3]> {
 mod tests {
     use super::*;
 
-    /// The nearest of some colours to that at a point of a triangle.
+    /// Palette colour nearest to the colour at a point of the triangle.
     fn nearest(corners: [Oklab; 3], palette: &[Oklab], at: [f64; 3]) -> u8 {
         let own: [f64; 3] = [0, 1, 2].map(|k| (0..3).map(|c| f64::from(corners[c][k]) * at[c]).sum::<f64>());
         let far = |colour: &Oklab| (0..3).map(|k| (f64::from(colour[k]) - own[k]).powi(2)).sum::<f64>();
@@ -103,7 +105,7 @@ mod tests {
         best.unwrap_or_default() as u8
     }
 
-    /// Numbers without order, 0 to 1.
+    /// Pseudo-random number from 0 to 1.
     fn dice(seed: &mut u64) -> f32 {
         *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (*seed >> 40) as f32 / (1u64 << 24) as f32
@@ -155,7 +157,7 @@ mod tests {
         let ends: Vec<[u64; 3]> =
             found.iter().flat_map(|(ends, _)| ends.map(|end| end.map(f64::to_bits))).collect();
         assert!(ends.iter().any(|end| ends.iter().filter(|other| *other == end).count() == 3));
-        // The same side with another corner behind it.
+        // The same side in a triangle with another third corner.
         let other = borders([corners[0], corners[1], [0.1, 0.9, 0.4]], &palette);
         let on_side = |found: &[Border]| {
             let all = found.iter().flat_map(|(ends, _)| *ends).filter(|end| end[2] == 0.0);

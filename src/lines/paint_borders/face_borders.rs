@@ -1,4 +1,4 @@
-//! Where the colours of pictures and of vertices change on a face, and along its sides.
+//! Colour borders on a face, and the points on its sides where colours change.
 
 use glam::DVec2;
 
@@ -10,15 +10,15 @@ use crate::lines::textures::textured_face::Textured;
 use crate::mesh::PaintId;
 use crate::scene::textures::texel_plane::side_crossings::{TexelSide, turn};
 
-/// A piece of a border on a face.
+/// Piece of a border on a face.
 pub(crate) struct Piece {
-    /// In barycentric weights.
+    /// Ends in barycentric weights.
     pub ends: [[f64; 3]; 2],
-    /// What it parts: twice the same where a picture only changes its scale.
+    /// Paints on both sides; equal where only the level of a picture changes.
     pub paints: [PaintId; 2],
 }
 
-/// What lies on a face of the borders between its colours.
+/// Colour borders on a face.
 pub(crate) fn borders(lit: &Lit, face: u32, textured: &Textured) -> Vec<Piece> {
     let mut pieces = Vec::new();
     let middle = |[a, b]: [[f64; 3]; 2]| [0, 1, 2].map(|k| f64::midpoint(a[k], b[k]));
@@ -42,7 +42,7 @@ pub(crate) fn borders(lit: &Lit, face: u32, textured: &Textured) -> Vec<Piece> {
     pieces
 }
 
-/// The places on a side of a face where its colours change, from one end to the other: in barycentric weights.
+/// Points on a side of a face where colours change, from one end to the other, in barycentric weights.
 pub(crate) fn changes_along(lit: &Lit, face: u32, textured: &Textured, ends: [u32; 2]) -> Vec<[f64; 3]> {
     let vertices = lit.mesh.triangles[face as usize];
     let Some([from, to]) = corners_of(vertices, ends) else { return Vec::new() };
@@ -69,13 +69,13 @@ pub(crate) fn changes_along(lit: &Lit, face: u32, textured: &Textured, ends: [u3
     found
 }
 
-/// The corners of a face that are these vertices.
+/// Corners of a face with the given vertices.
 fn corners_of(vertices: [u32; 3], ends: [u32; 2]) -> Option<[usize; 2]> {
     let [from, to] = ends.map(|v| vertices.iter().position(|own| *own == v));
     Some([from?, to?]).filter(|[from, to]| from != to)
 }
 
-/// A point of a side, so far on the way from one corner to the other.
+/// Point of a side at the given parameter between two corners.
 fn on_side([from, to]: [usize; 2], part: f64) -> [f64; 3] {
     let mut weights = [0.0; 3];
     weights[from] = 1.0 - part;
@@ -83,13 +83,13 @@ fn on_side([from, to]: [usize; 2], part: f64) -> [f64; 3] {
     weights
 }
 
-/// A side of a face in the plane of the texels.
+/// Side of a face in texel coordinates.
 fn side(corners: [DVec2; 3], [from, to]: [usize; 2]) -> TexelSide {
     let inside = turn(corners[from], corners[to], corners[3 - from - to]) >= 0.0;
     TexelSide { from: corners[from], to: corners[to], inside }
 }
 
-/// The sides of a face, each from the vertex of the lesser number, so that both its faces cut it from the same end on.
+/// Sides of a face, each starting at the smaller vertex, so that both its faces cut it from the same end.
 fn side_ends(lit: &Lit, face: u32) -> [[usize; 2]; 3] {
     let vertices = lit.mesh.triangles[face as usize];
     [0, 1, 2].map(|k| {
@@ -98,7 +98,7 @@ fn side_ends(lit: &Lit, face: u32) -> [[usize; 2]; 3] {
     })
 }
 
-/// What lies on a face of the borders of its picture.
+/// Borders of the picture, clipped to the face.
 fn of_picture(lit: &Lit, face: u32, on: &OnPicture, mut put: impl FnMut([[f64; 3]; 2], [u8; 2])) {
     let ends = side_ends(lit, face);
     for level in on.levels() {
@@ -129,7 +129,7 @@ fn of_picture(lit: &Lit, face: u32, on: &OnPicture, mut put: impl FnMut([[f64; 3
     }
 }
 
-/// The parts of a piece of border that are of a level.
+/// Parts of a border piece where the given level applies.
 fn within(on: &OnPicture, ends: [[f64; 3]; 2], level: usize) -> Vec<[[f64; 3]; 2]> {
     let cuts = on.level_ends(ends);
     let at = |part: f64| [0, 1, 2].map(|k| ends[0][k] + (ends[1][k] - ends[0][k]) * part);
@@ -140,7 +140,7 @@ fn within(on: &OnPicture, ends: [[f64; 3]; 2], level: usize) -> Vec<[[f64; 3]; 2
     parts.filter(|(middle, _)| on.level(at(*middle)) == level).map(|(_, ends)| ends).collect()
 }
 
-/// The barycentric weights of a point of the plane of the texels.
+/// Barycentric weights of a point in texel coordinates.
 fn weights(corners: &[DVec2; 3], at: DVec2) -> [f64; 3] {
     let shares = [0, 1, 2].map(|k| turn(at, corners[(k + 1) % 3], corners[(k + 2) % 3]));
     let whole: f64 = shares.iter().sum();

@@ -1,4 +1,4 @@
-//! The borders between the colours of pictures, and between those of vertices, on the faces that show them.
+//! Adds the borders between painted colours, of pictures and of vertices, to the feature lines.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -11,7 +11,7 @@ use crate::lines::shared_points::PointIds;
 use crate::lines::{FeatureLines, FeatureSegment, LineKind, Lit, NO_FACE};
 use crate::mesh::FaceId;
 
-/// Adds the borders between painted colours on faces, and edges of which only some parts two.
+/// Adds the borders on faces, and the edges that separate two colours along a part only.
 pub fn find(lit: &Lit, seams: Vec<Seam>, lines: &mut FeatureLines) {
     if lit.textures.is_empty() {
         return;

@@ -1,5 +1,4 @@
-//! Edges of the mesh across which the surface looks different: another part or material, or another
-//! tone because its normals differ.
+//! Tone edges: mesh edges across which part, material, paint or tone differ.
 
 use crate::parallel::prelude::*;
 use rustc_hash::FxHashSet;
@@ -12,12 +11,13 @@ use crate::lines::{FeatureLines, FeatureSegment, LineKind, Lit};
 use crate::mesh::{EdgeFaces, EdgeSet, FaceId, MaterialId, Mesh, PaintId, PartId};
 use crate::scene::Paints;
 
-/// Places along an edge where both its sides are looked at. What differs between them only ends
-/// there: the border runs on to the end of the edge, with the same look on both sides.
+/// Parameters along an edge where both sides are compared. If they differ at any of them, the whole edge is a
+/// border.
 const PLACES: [f64; 5] = [0.0, 0.25, 0.5, 0.75, 1.0];
 
-/// The edges across which a surface may look different, whatever the light: where parts, materials or
-/// normals differ, or what is shown of pictures or of the colours of vertices. The same for all views.
+/// Edges that may separate two looks in some light. The same for all views.
+///
+/// These are edges where parts, materials, normals, texture coordinates or vertex colours differ.
 #[must_use]
 pub fn candidates(mesh: &Mesh, normals: &ShadedNormals, paints: &Paints) -> EdgeSet {
     let mut varies = vec![false; paints.list.len()];
@@ -58,18 +58,18 @@ pub fn candidates(mesh: &Mesh, normals: &ShadedNormals, paints: &Paints) -> Edge
     })
 }
 
-/// An edge that is one kind of line in some places, and another in others.
+/// Edge that has different kinds along its length.
 #[derive(Debug, Clone)]
 pub struct Seam {
-    /// The whole of it.
+    /// The whole edge.
     pub(crate) segment: FeatureSegment,
-    /// What each piece is, from end to end: where it begins and ends in the first face, in barycentric weights; none at the ends
-    /// of the edge.
+    /// Pieces from end to end: start and end in barycentric weights of the first face (none at the ends of
+    /// the edge), and the kind.
     pub(crate) pieces: Vec<([Option<[f64; 3]>; 2], LineKind)>,
 }
 
-/// Adds those of the candidates that part two looks, for any of these sets of lights that are in
-/// shadow, and are no lines yet; gives those that are several lines, which are left to be added.
+/// Adds the candidates that separate two looks, under any of the given sets of shadowed lights, unless they
+/// are lines already. Returns the edges with several kinds, which are not added.
 pub fn find(lit: &Lit, candidates: &EdgeSet, shadowed: &[u32], lines: &mut FeatureLines) -> Vec<Seam> {
     let edges: Vec<usize> = candidates.iter().collect();
     let mut found: Vec<Seam> = edges
@@ -96,7 +96,7 @@ fn parting(lit: &Lit, edge: usize, shadowed: &[u32]) -> Option<Seam> {
         EdgeFaces::One(_) => return None,
         EdgeFaces::Two { faces: [first, second], .. } => (first, second),
         EdgeFaces::Many(faces) => {
-            // The first face, and one that looks different.
+            // The first face, and another one that looks different.
             let first = *faces.iter().find(|f| is_real(f))?;
             let other = |f: &&u32| **f != first && is_real(f) && differ(lit, ends, [first, **f], shadowed);
             (first, *faces.iter().find(other)?)
@@ -126,7 +126,7 @@ fn parting(lit: &Lit, edge: usize, shadowed: &[u32]) -> Option<Seam> {
     Some(Seam { segment: segment(mesh, first, faces, kind, ends), pieces })
 }
 
-/// What the line is on an edge that parts two faces, piece by piece.
+/// Kinds of line along an edge between two faces, piece by piece.
 fn kinds_along(lit: &Lit, ends: [u32; 2], faces: [u32; 2]) -> Vec<([Option<[f64; 3]>; 2], LineKind)> {
     let mesh = lit.mesh;
     let [a, b] = faces.map(|face| (mesh.face_part[face as usize], mesh.face_material[face as usize]));
@@ -150,14 +150,14 @@ fn kinds_along(lit: &Lit, ends: [u32; 2], faces: [u32; 2]) -> Vec<([Option<[f64;
     places.into_iter().map(|at| (at, kind(middle(lit, ends, faces[0], at)))).collect()
 }
 
-/// The paint of a face so far along an edge.
+/// Paint of a face at a parameter of its edge.
 fn paint_along(lit: &Lit, ends: [u32; 2], face: u32, at: f64) -> PaintId {
     let textured = lit.textures.on(lit.mesh, face);
     let weights = weights_along(lit.mesh, ends, face, at);
     textured.and_then(|textured| textured.paint(weights)).unwrap_or_else(|| lit.mesh.paint(FaceId(face)))
 }
 
-/// The barycentric weights in a face of a point so far along an edge.
+/// Barycentric weights in a face of a point on its edge.
 fn weights_along(mesh: &Mesh, ends: [u32; 2], face: u32, at: f64) -> [f64; 3] {
     mesh.triangles[face as usize].map(|v| match v {
         v if v == ends[0] => 1.0 - at,
@@ -166,15 +166,15 @@ fn weights_along(mesh: &Mesh, ends: [u32; 2], face: u32, at: f64) -> [f64; 3] {
     })
 }
 
-/// How far along an edge the middle of a stretch lies.
+/// Parameter of the middle of a stretch of an edge.
 fn middle(lit: &Lit, ends: [u32; 2], face: u32, places: [Option<[f64; 3]>; 2]) -> f64 {
     let corner = lit.mesh.triangles[face as usize].iter().position(|v| *v == ends[1]).unwrap_or_default();
     let [from, to] = [(places[0], 0.0), (places[1], 1.0)].map(|(at, end)| at.map_or(end, |at| at[corner]));
     f64::midpoint(from, to)
 }
 
-/// The stretches of an edge on which neither face changes the colour that is shown on it: where each begins and ends in the first face, in
-/// barycentric weights; none at the ends of the edge.
+/// Stretches of an edge where neither face changes its colour: start and end in barycentric weights of the
+/// first face (none at the ends of the edge).
 fn stretches<'a>(
     lit: &Lit,
     ends: [u32; 2],
@@ -203,10 +203,10 @@ fn stretches<'a>(
     ends.windows(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 
-/// Places on an edge that are nearer to each other than this part of it are one.
+/// Minimum distance of cuts, as a fraction of the edge.
 const SAME_PLACE: f64 = 1e-9;
 
-/// What a face belongs to, and its paint.
+/// Part, material and paint of a face.
 fn owner(mesh: &Mesh, face: u32) -> (PartId, MaterialId, PaintId) {
     (mesh.face_part[face as usize], mesh.face_material[face as usize], mesh.paint(FaceId(face)))
 }
@@ -228,7 +228,7 @@ fn differ(lit: &Lit, ends: [u32; 2], faces: [u32; 2], shadowed: &[u32]) -> bool 
     if (0..2).all(|k| normals[0][a[k]] == normals[1][b[k]]) {
         return false;
     }
-    // Both sides belong to the same and have the same paint: only their tones may differ.
+    // Both faces have the same part, material and paint, so only tones may differ.
     let look = |face: u32, at: [usize; 2], t: f64, shadowed: u32| {
         let mut weights = [0.0; 3];
         weights[at[0]] = 1.0 - t;

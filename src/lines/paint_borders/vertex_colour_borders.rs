@@ -1,7 +1,8 @@
-//! Where the colours of vertices, as they pass into each other on faces, fall into others of a few colours.
+//! Vertex colour borders: where interpolated vertex colours change from one palette colour to the next.
 //!
-//! Between corners light is linear; how it looks is not. Faces are cut until it is within a fraction of a px, side by side, so
-//! that neighbours cut the side they share alike; in each piece borders are those of [`super::colour_voronoi`].
+//! Light is linear between corners, but perceived colour (Oklab) is not. Faces are subdivided until it is
+//! linear within a fraction of a px. The decision depends on each side alone, so that neighbours agree. On
+//! each piece the borders are those of [`super::colour_voronoi`].
 
 use super::colour_voronoi::{Border, borders};
 use crate::colour::oklab::{Oklab, distance2};
@@ -9,26 +10,26 @@ use crate::lines::Lit;
 use crate::lines::isophotes::level_tracer::{extent, pieces};
 use crate::scene::paints::vertex_colours::Tints;
 
-/// How far borders may lie beside their place, px.
+/// Largest error of borders, px.
 const NEAR_PX: f64 = 0.1;
 
-/// Pieces this short are not cut again, px.
+/// Sides shorter than this are not split, px.
 const SHORTEST_PX: f64 = 0.5;
 
-/// How often a face is cut in two at most, along each side.
+/// Maximum depth of subdivision.
 const DEEPEST: u32 = 6;
 
-/// How much farther looks may go on the way between two than these are from each other.
+/// Bound on the colour range of a piece, relative to the colour distances of its corners.
 const STRAY: f32 = 1.5;
 
-/// A face whose corners are coloured.
+/// Face with colours at its corners.
 pub(crate) struct TintedFace<'a> {
     tints: &'a Tints,
-    /// The light of its corners, in the order of the vertices' numbers.
+    /// Light at its corners, ordered by vertex.
     light: [[f64; 3]; 3],
-    /// The corner of the face that comes first, second, third in that order.
+    /// Corners of the face, ordered by vertex.
     order: [usize; 3],
-    /// The lengths of its sides, px, each opposite the corner of its number in that order.
+    /// Lengths of its sides, px. Entry k is for the side opposite the k-th corner in that order.
     sides: [f64; 3],
 }
 
@@ -39,7 +40,7 @@ struct Node {
 }
 
 impl<'a> TintedFace<'a> {
-    /// A face with this light at its corners; `px` is that of the page in user units.
+    /// A face with the given light at its corners; `px` is a px in user units.
     pub fn new(lit: &Lit, face: u32, tints: &'a Tints, light: [[f32; 3]; 3], px: f64) -> Self {
         let vertices = lit.mesh.triangles[face as usize];
         let mut order = [0, 1, 2];
@@ -48,14 +49,14 @@ impl<'a> TintedFace<'a> {
         let length = |i: usize, j: usize| {
             let way = points[j].truncate() - points[i].truncate();
             let is_cut = way.is_nan() || points[i].z.is_nan() || points[j].z.is_nan();
-            // A side that the near plane cuts is as long as can be.
+            // A side that the near plane cuts has unlimited length.
             if is_cut { f64::INFINITY } else { way.length() / px }
         };
         let sides = [length(1, 2), length(2, 0), length(0, 1)];
         Self { tints, light: order.map(|k| light[k].map(f64::from)), order, sides }
     }
 
-    /// The borders on the face, in its barycentric weights.
+    /// Borders on the face, in its barycentric weights.
     pub fn borders(&self) -> Vec<Border> {
         let mut found = Vec::new();
         self.cut([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|w| self.node(w)), 0, &mut found);
@@ -69,7 +70,7 @@ impl<'a> TintedFace<'a> {
     }
 
     fn node(&self, weights: [f64; 3]) -> Node {
-        // From the first corner on, so that both faces of a side add up the same.
+        // Summed in a fixed order, so that both faces of a side get the same bits.
         let sum = |k: usize| (0..3).map(|c| self.light[c][k] * weights[c]).sum::<f64>();
         Node { weights, look: self.tints.looks([sum(0), sum(1), sum(2)]) }
     }
@@ -90,7 +91,7 @@ impl<'a> TintedFace<'a> {
             }
         }
         let mut nodes = nodes;
-        // From the corner on that is nearest to the first of the face, whichever face asks.
+        // In the same order from both faces.
         nodes.sort_by(|a, b| order(b, a));
         let within =
             |at: [f64; 3]| [0, 1, 2].map(|k| (0..3).map(|c| nodes[c].weights[k] * at[c]).sum::<f64>());
@@ -98,7 +99,7 @@ impl<'a> TintedFace<'a> {
         found.extend(own.into_iter().map(|(ends, parted)| (ends.map(within), parted)));
     }
 
-    /// The middle of a side along which looks bend so much that borders would be displaced.
+    /// Midpoint of a side whose colours are so far from linear that borders would move.
     fn bend(&self, a: Node, b: Node) -> Option<Node> {
         let length = extent(&self.sides, a.weights, b.weights);
         if length <= SHORTEST_PX || a.look == b.look {
@@ -110,7 +111,7 @@ impl<'a> TintedFace<'a> {
         (off * length > NEAR_PX * f64::from(distance2(a.look, b.look)).sqrt()).then_some(middle)
     }
 
-    /// Whether all of a piece is certainly nearest to one colour.
+    /// Whether a piece certainly has one nearest colour.
     fn is_one(&self, nodes: &[Node; 3]) -> bool {
         let look = nodes[0].look;
         let reach = nodes.iter().map(|node| distance2(look, node.look)).fold(0.0, f32::max).sqrt() * STRAY;
@@ -126,7 +127,7 @@ impl<'a> TintedFace<'a> {
     }
 }
 
-/// Which of two points of a face lies nearer to its first corner, then to its second.
+/// Orders points by their weight at the first corner, then at the second.
 fn order(a: &Node, b: &Node) -> std::cmp::Ordering {
     (0..3).fold(std::cmp::Ordering::Equal, |known, k| known.then(a.weights[k].total_cmp(&b.weights[k])))
 }

@@ -1,4 +1,4 @@
-//! [`Drawn`]: a picture as a view shows it, in a few colours, in one scale or in several.
+//! [`Drawn`]: a picture as a view shows it, reduced to a few colours, at one scale or at several.
 
 use std::sync::Arc;
 
@@ -9,29 +9,32 @@ use super::texel_scale::{Density, Scale, density_of};
 use crate::scene::textures::texel_plane::texel_borders::{Outline, Segment};
 use crate::scene::textures::{ColourMap, Painted};
 
-/// A picture as a view shows it.
+/// Picture as a view shows it.
 #[derive(Debug)]
 pub(crate) struct Drawn {
-    /// With the finest first.
+    /// Levels, the finest first.
     levels: Vec<Level>,
-    /// The densities of texels at which the next level begins.
+    /// Texel densities where the next level starts.
     ends: Vec<Density>,
-    /// How dense texels are at the corners of each face, or empty where there is one level.
+    /// Texel densities at the corners of each face; empty if there is one level.
     densities: Vec<[Density; 3]>,
 }
 
-/// A picture in one scale.
+/// Picture at one scale.
 #[derive(Debug)]
 struct Level {
     map: Arc<ColourMap>,
     borders: Outline,
 }
 
-/// How far borders may lie beside their place, px.
+/// Largest error of borders, px.
 const NEAR_PX: f64 = 0.15;
 
 impl Drawn {
-    /// A picture whose texels are seen so large; `smooth` makes its detail that much coarser. None if there is too much of it.
+    /// Reduces a picture at the given scale; `smooth` makes its detail coarser by that factor. None if there
+    /// is too much detail.
+    ///
+    /// With several levels, `densities` is evaluated.
     pub fn new(
         painted: &Painted,
         scale: &Scale,
@@ -60,7 +63,7 @@ impl Drawn {
         Some(Self { levels: levels?, ends: ends.collect(), densities: densities() })
     }
 
-    /// A face on the picture, with these texture coordinates at its corners; none if they are no places.
+    /// A face on the picture, with the given texture coordinates; none if these are invalid.
     pub fn on(&self, face: u32, uvs: [[f32; 2]; 3]) -> Option<OnPicture<'_>> {
         let densities = self.densities.get(face as usize).copied().unwrap_or_default();
         let on = OnPicture { drawn: self, uvs, densities };
@@ -68,23 +71,23 @@ impl Drawn {
     }
 }
 
-/// Where a face lies on its picture.
+/// Position of a face on its picture.
 #[derive(Clone, Copy)]
 pub(crate) struct OnPicture<'a> {
     drawn: &'a Drawn,
     uvs: [[f32; 2]; 3],
-    /// How dense texels lie at its corners.
+    /// Texel densities at its corners.
     densities: [Density; 3],
 }
 
 impl OnPicture<'_> {
-    /// The corners of the face in the plane of the texels of a level.
+    /// Corners of the face in texel coordinates of a level.
     pub fn corners(&self, level: usize) -> Option<[DVec2; 3]> {
         let [a, b, c] = self.uvs.map(|uv| self.drawn.levels[level].map.labels.texels.place(uv));
         Some([a?, b?, c?])
     }
 
-    /// The level at a point of the face: the coarser one that either density asks for.
+    /// Level at a point of the face: the coarser one of those that the two densities select.
     pub fn level(&self, weights: [f64; 3]) -> usize {
         let of = |which: usize| {
             let density = self.density(which, weights);
@@ -93,16 +96,16 @@ impl OnPicture<'_> {
         of(0).max(of(1))
     }
 
-    /// One of the densities at a point of the face.
+    /// One of the two densities at a point of the face.
     fn density(&self, which: usize, weights: [f64; 3]) -> f64 {
         (0..3).map(|k| self.densities[k][which] * weights[k]).sum()
     }
 
-    /// The levels that the face may show.
+    /// Range of levels that may occur on the face.
     pub fn levels(&self) -> std::ops::RangeInclusive<usize> {
         let corners = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|at| self.level(at));
-        // Between corners of different levels there is none that neither reaches: what is greatest somewhere is so at a corner,
-        // but the least may lie between two.
+        // The largest level occurs at a corner. The smallest may occur between corners, so the two densities
+        // are bounded separately.
         let least = |which: usize| {
             let low = (0..3).map(|k| self.densities[k][which]).fold(f64::INFINITY, f64::min);
             self.drawn.ends.partition_point(|end| end[which] <= low)
@@ -110,7 +113,7 @@ impl OnPicture<'_> {
         least(0).max(least(1))..=corners.into_iter().max().unwrap_or_default()
     }
 
-    /// The parts of the way between two points of the face at which a level may end.
+    /// Parameters between two points of the face where the level may change.
     pub fn level_ends(&self, ends: [[f64; 3]; 2]) -> Vec<f64> {
         let mut found = Vec::new();
         for which in 0..2 {
@@ -122,8 +125,8 @@ impl OnPicture<'_> {
         found
     }
 
-    /// The lines on the face along which a level may end, each between the sides `sides` (from a corner to another) that it crosses:
-    /// the numbers of the sides and how far along them.
+    /// Lines on the face along which the level may change. Each runs between two of the given sides: the
+    /// side's index, and the parameter on it.
     pub fn level_lines(&self, sides: &[[usize; 2]; 3]) -> Vec<[(usize, f64); 2]> {
         let levels = self.levels();
         let mut found = Vec::new();
@@ -141,20 +144,20 @@ impl OnPicture<'_> {
         found
     }
 
-    /// The number of the colour at a point of the face.
+    /// Palette index at a point of the face.
     pub fn colour(&self, weights: [f64; 3]) -> Option<u8> {
         let level = self.level(weights);
         let [a, b, c] = self.corners(level)?;
         Some(self.drawn.levels[level].map.labels.at(a * weights[0] + b * weights[1] + c * weights[2]))
     }
 
-    /// The number of the colour in the middle of the face, were it all of one level.
+    /// Palette index at the centre of the face on a given level.
     pub fn middle_colour(&self, level: usize) -> Option<u8> {
         let [a, b, c] = self.corners(level)?;
         Some(self.drawn.levels[level].map.labels.at((a + b + c) / 3.0))
     }
 
-    /// The borders between the colours of a level that may lie on the face, and the numbers of the colours that each parts.
+    /// Colour borders of a level that may lie on the face, and the palette indices on both sides.
     pub fn borders(&self, level: usize) -> Vec<(Segment, [u8; 2])> {
         let Some([a, b, c]) = self.corners(level) else { return Vec::new() };
         let make = |segment: Segment, parted: [u8; 2]| (segment, parted);

@@ -1,4 +1,4 @@
-//! How large the texels of pictures are seen in a view, on the whole and from place to place.
+//! Texel scale: how many texels of each picture fall on a px in a view, as a mean and from place to place.
 
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
@@ -8,71 +8,70 @@ use crate::mesh::{EdgeFaces, FaceId, Mesh};
 use crate::scene::textures::texel_plane::Texels;
 use crate::view::View;
 
-/// Where pictures lie on a mesh that is seen.
+/// Pictures on a mesh in a view.
 pub(crate) struct Seen<'a, N> {
     pub mesh: &'a Mesh,
     pub view: &'a View,
     /// A px in user units.
     pub px: f64,
-    /// The number of the picture that a face shows.
+    /// Returns the index of the picture that a face shows.
     pub number: N,
-    /// The texels of each picture.
+    /// Texels of each picture.
     pub texels: &'a [Option<Texels>],
 }
 
-/// How large the texels of a picture are seen.
+/// Scale of a picture in a view.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Scale {
-    /// How many lie along a px where it turns to the eye, in the mean over what is seen of the page.
+    /// Texels per px on faces towards the camera, as a mean over the visible page.
     pub mean: f64,
-    /// The least and the greatest number of them along a px, if they differ much: powers of two.
+    /// Smallest and largest number of texels per px as powers of two, if they differ much.
     pub range: Option<[i32; 2]>,
 }
 
-/// How dense texels lie at a corner of a face: a number for how many lie on a px, and one for how many along it in the direction
-/// in which the face turns away, each of which runs straight along plane faces.
+/// Texel density at a corner of a face: one value for texels per px area, and one for texels per px along the
+/// direction of foreshortening. Both are scaled so that they are linear on plane faces.
 pub(crate) type Density = [f64; 2];
 
-/// What is this many times as narrow as it is long, because its face turns away, is drawn all the same.
+/// Largest foreshortening of details that are still drawn.
 const SLANT: f64 = 3.0;
 
-/// What is seen of a face that turns to the eye.
+/// Areas of a face that is turned to the camera.
 #[derive(Debug, Clone, Copy, Default)]
 struct Share {
-    /// How large it is in texels, twice.
+    /// Twice its area in texels.
     texels: f64,
-    /// How large it is, twice.
+    /// Twice its area in space.
     world: f64,
-    /// How large it is on a page on which it is seen from a depth of 1, px, twice.
+    /// Twice its area on the page if seen from depth 1, px².
     page: f64,
 }
 
-/// A picture has several scales where some of it is seen from so many times farther away than other parts, ...
+/// Ratio of largest to smallest depth above which a picture may have several scales.
 const DEEP: f64 = 4.0;
 
-/// ... and more of what is seen of it than this has texels more than [`FAR`] times as large, or as
-/// small, as they are in the mean.
+/// Share of the visible area that must differ from the mean scale by more than [`FAR`] for several scales.
 const SHARE: f64 = 0.04;
 
-/// See [`SHARE`]; in powers of two.
+/// Difference from the mean scale that counts for [`SHARE`], in powers of two.
 const FAR: f64 = 2.0;
 
-/// What is seen of less than this part of a picture needs no scale of its own.
+/// Share of the visible area that is ignored at both ends of the scale range.
 const LITTLE: f64 = 0.005;
 
-/// Texels larger than a px are drawn alike, however large they are.
+/// Lower end of the scale range, as a power of two. Texels larger than a px are all drawn alike.
 const LARGEST: i32 = -1;
 
-/// No picture is made smaller by more than this power of two.
+/// Upper end of the scale range, as a power of two.
 const SMALLEST: i32 = 14;
 
-/// Faces are looked at in pieces that are about as long as this, px.
+/// Approximate side length of the pieces of a sampled face, px.
 const PIECE_PX: f64 = 24.0;
 
-/// No face is looked at in more pieces along a side.
+/// Maximum number of pieces along a side.
 const MOST_PIECES: f64 = 48.0;
 
-/// The corners of a face in the plane of the texels.
+/// Corners of a face in texel coordinates.
 pub(crate) fn texels(
     mesh: &Mesh,
     face: u32,
@@ -84,7 +83,7 @@ pub(crate) fn texels(
 }
 
 impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
-    /// How large the texels of each picture are seen.
+    /// Scale of each picture in the view.
     pub fn scales(&self) -> Vec<Scale> {
         let means = self.means();
         let single = |mean: f64| Scale { mean, range: None };
@@ -127,7 +126,7 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
         means.into_iter().zip(ranges).zip(depths).map(scale).collect()
     }
 
-    /// How many texels of each picture lie along a px, in the mean over what is seen of the page.
+    /// Mean number of texels per px of each picture, over the visible page.
     fn means(&self) -> Vec<f64> {
         let (width, height) = (self.view.frame.width, self.view.frame.height);
         let of_face = |face: usize| -> Option<(usize, [f64; 2])> {
@@ -147,14 +146,14 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
             (on_page.is_finite()).then_some((number, [in_texels, on_page / (self.px * self.px)]))
         };
         let mut sums = vec![[0.0_f64; 2]; self.texels.len()];
-        // One after another, so that sums are the same with any number of threads.
+        // Sequential, so that sums do not depend on the number of threads.
         for (number, areas) in (0..self.mesh.triangles.len()).filter_map(of_face) {
             sums[number].iter_mut().zip(areas).for_each(|(sum, area)| *sum += area);
         }
         sums.iter().map(|[texels, page]| if *page > 0.0 { (texels / page).sqrt() } else { 1.0 }).collect()
     }
 
-    /// The picture of a face that turns to the eye, and what is seen of it.
+    /// Picture and areas of a face that is turned to the camera.
     fn share(&self, face: u32) -> Option<(usize, Share)> {
         let number = (self.number)(face)?;
         if !self.view.facing[face as usize] {
@@ -166,30 +165,31 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
         let [p, q, r] = self.mesh.corners(FaceId(face));
         let across = (q - p).cross(r - p);
         let to_eye = if frame.perspective { frame.eye - p } else { -frame.forward };
-        // The page shrinks with the square of the depth, and as the face turns away with the cosine, which is the distance of
-        // its plane from the eye by the depth.
+        // The projected area shrinks with the square of the depth, and with the cosine of the angle to the
+        // camera. That cosine is the distance of the face's plane from the camera, divided by the depth.
         let page = across.dot(to_eye).abs() * self.scale().powi(2);
         let texels = (b - a).perp_dot(c - a).abs();
         (page > 0.0 && texels.is_finite()).then_some((number, Share { texels, world: across.length(), page }))
     }
 
-    /// Px to a unit of length at a depth of 1.
+    /// Px per unit of length at depth 1.
     fn scale(&self) -> f64 {
         self.view.frame.scale / self.px
     }
 
-    /// How many texels lie on a px, its root, at a depth of 1; and along a px in the direction in which the face turns away.
+    /// Texels per px at depth 1: the square root of the area ratio, and the number along the direction of
+    /// foreshortening.
     fn texels_per_px(&self, share: &Share) -> [f64; 2] {
         let Share { texels, world, page } = share;
         [(texels / page).sqrt(), (texels * world).sqrt() / page * self.scale() / SLANT]
     }
 
-    /// By how much depth the page shrinks.
+    /// Reduction of the image by depth: lengths are divided by this.
     fn shrinks(&self, depth: f64) -> f64 {
         if self.view.frame.perspective { depth } else { 1.0 }
     }
 
-    /// Goes through a face piece by piece: how many texels lie along a px there, how deep, and how large the piece is on the page.
+    /// Visits a face piece by piece: texels per px, depth, and area of the piece on the page.
     fn each_piece(&self, face: u32, share: Share, mut call: impl FnMut(f64, f64, f64)) {
         let frame = &self.view.frame;
         let points = self.mesh.triangles[face as usize].map(|v| self.view.points[v as usize]);
@@ -225,8 +225,8 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
         }
     }
 
-    /// For each corner of each face that shows a picture how dense texels lie there, the same on both faces of an edge that turn
-    /// by less than `crease_deg`; see [`density_of`].
+    /// Texel densities at the corners of all faces that show a picture; see [`density_of`]. Faces share
+    /// values along edges that turn by less than `crease_deg`.
     pub fn densities(&self, picture: usize, crease_deg: f64) -> Vec<[Density; 3]> {
         let mesh = self.mesh;
         let count = mesh.triangles.len();
@@ -266,14 +266,14 @@ impl<N: Fn(u32) -> Option<usize>> Seen<'_, N> {
             }
             let depth = self.shrinks(self.view.frame.depth(mesh.positions[mesh.triangles[face][k] as usize]));
             let [on_px, slanted] = self.texels_per_px(share);
-            // Faces seen edge-on have more texels on a px than there are numbers.
+            // Faces seen edge-on have unlimited densities.
             [density_of(on_px)[0], density_of(slanted)[1]].map(|density| (density * depth).clamp(-1e9, 1e9))
         };
         (0..count).map(|face| [0, 1, 2].map(|k| of_corner(face, k, &mut joined))).collect()
     }
 }
 
-/// Where some steps add up to more than a little, as a power of two.
+/// First scale whose accumulated area exceeds `little`, as a power of two.
 fn end(mut steps: impl Iterator<Item = (i32, f64)>, little: f64) -> Option<f64> {
     let mut sum = 0.0;
     let (step, _) = steps.find(|(_, area)| {
@@ -283,18 +283,19 @@ fn end(mut steps: impl Iterator<Item = (i32, f64)>, little: f64) -> Option<f64> 
     Some(f64::from(step) / 4.0)
 }
 
-/// The power of two that a number is.
+/// Logarithm to base 2.
 fn power_of_two(number: f64) -> f64 {
     portable_math::ln(number.max(f64::MIN_POSITIVE)) / std::f64::consts::LN_2
 }
 
-/// The densities at which so many texels lie along a px. On a plane those on a px grow with the power 3/2 of the depth, those along
-/// it in the direction in which the plane turns away with its square: powers of them grow evenly.
+/// Densities for the given number of texels per px. On a plane, texels per px area grow with depth to the
+/// power 3/2, and texels per px along the foreshortened direction with its square. Powers of both make them
+/// linear.
 pub(crate) fn density_of(texels_per_px: f64) -> Density {
     [portable_math::cbrt(texels_per_px * texels_per_px), texels_per_px.sqrt()]
 }
 
-/// What is one, by the least number of it.
+/// Union-find; the root is the smallest member.
 struct Joined(Vec<u32>);
 
 impl Joined {

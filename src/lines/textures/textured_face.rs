@@ -1,57 +1,57 @@
-//! [`Textured`]: a face on which colours vary, point by point.
+//! [`Textured`]: a face with varying colours, evaluated point by point.
 
 use super::picture_levels::OnPicture;
 use crate::mesh::PaintId;
 use crate::scene::paints::varying_surface::PaintTable;
 use crate::scene::paints::vertex_colours::Tints;
 
-/// A face on which colours vary.
+/// Face with varying colours.
 pub(crate) struct Textured<'a> {
     pub paints: &'a PaintTable,
-    /// Where it lies on a picture.
+    /// Position on a picture.
     pub picture: Option<OnPicture<'a>>,
-    /// The light of its corners.
+    /// Light at its corners.
     pub tints: Option<(&'a Tints, [[f32; 3]; 3])>,
 }
 
 impl Textured<'_> {
-    /// The paint at a point of the face.
+    /// Paint at a point of the face.
     pub fn paint(&self, weights: [f64; 3]) -> Option<PaintId> {
         self.paints.paint(self.colour(weights), self.tint(weights))
     }
 
-    /// The number of the colour of the picture at a point of the face.
+    /// Palette index of the picture at a point of the face.
     fn colour(&self, weights: [f64; 3]) -> Option<u8> {
         self.picture?.colour(weights)
     }
 
-    /// The number of the tint at a point of the face.
+    /// Index of the tint at a point of the face.
     fn tint(&self, weights: [f64; 3]) -> Option<u8> {
         let (tints, corners) = self.tints?;
         let sum = |k: usize| (0..3).map(|c| f64::from(corners[c][k]) * weights[c]).sum::<f64>();
         Some(tints.at([sum(0), sum(1), sum(2)]))
     }
 
-    /// The paints beside a border between two colours of the picture, near a point of the face.
+    /// Paints on both sides of a border between two colours of the picture, near a point of the face.
     pub fn parted(&self, colours: [u8; 2], near: [f64; 3]) -> Option<[PaintId; 2]> {
         let tint = self.tint(near);
         let [a, b] = colours.map(|colour| self.paints.paint(Some(colour), tint));
         Some([a?, b?])
     }
 
-    /// The paints beside a border between two tints, near a point of the face.
+    /// Paints on both sides of a border between two tints, near a point of the face.
     pub fn parted_tints(&self, tints: [u8; 2], near: [f64; 3]) -> Option<[PaintId; 2]> {
         let colour = self.colour(near);
         let [a, b] = tints.map(|tint| self.paints.paint(colour, Some(tint)));
         Some([a?, b?])
     }
 
-    /// The paints that there are on any such face.
+    /// All paints that any such face may have.
     pub fn palette(&self) -> &[PaintId] {
         &self.paints.paints
     }
 
-    /// The paints that may be seen on the face.
+    /// Paints that may be visible on the face.
     pub fn paints(&self) -> Vec<PaintId> {
         let Some(on) = self.picture.filter(|_| self.tints.is_none()) else {
             return self.paints.paints.clone();
@@ -60,7 +60,7 @@ impl Textured<'_> {
         let places = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [third; 3]];
         let within = places.into_iter().filter_map(|at| on.colour(at));
         let parted = on.levels().flat_map(|level| on.borders(level)).flat_map(|(_, colours)| colours);
-        // Where levels change something else may be seen that has no border there.
+        // Where the level changes, a colour without a border may appear.
         let all = on.levels().flat_map(|level| on.middle_colour(level));
         let colours = within.chain(parted).chain(all);
         let mut paints: Vec<PaintId> =

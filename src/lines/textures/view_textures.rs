@@ -1,4 +1,5 @@
-//! [`Textures`]: the pictures and the colours of vertices that a view shows on its surfaces, in the few colours they are painted in.
+//! [`Textures`]: the pictures and vertex colours that a view shows, reduced to the few colours that are
+//! painted.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -14,28 +15,28 @@ use crate::scene::paints::varying_surface::{PaintTable, Varied};
 use crate::scene::paints::vertex_colours::Tints;
 use crate::view::View;
 
-/// The pictures and the colours of vertices that a view shows on its surfaces, in the few colours they are painted in.
+/// Pictures and vertex colours that a view shows, reduced to the few colours that are painted.
 #[derive(Debug, Default)]
 pub struct Textures {
-    /// By the number of the paint of what shows them.
+    /// Indexed by the paint that shows them.
     of_paint: Vec<Option<Shown>>,
-    /// Where lines are wanted between colours.
+    /// Criteria for artist lines, if these are drawn.
     artist: Option<Artist>,
     warnings: Vec<String>,
 }
 
-/// Where lines are wanted between colours.
+/// Criteria for artist lines.
 #[derive(Debug)]
 struct Artist {
-    /// How paints look; none of those on whose materials lines run by another picture.
+    /// Colour of each paint; none on materials whose lines follow another picture.
     looks: Vec<Option<Oklab>>,
-    /// How far two are apart that have a line between them.
+    /// Smallest colour distance with a line.
     tolerance: f32,
-    /// By their number, the materials on which lines run by a picture that is not painted, and how its colours look.
+    /// Indexed by material: the picture that lines follow although it is not painted, and its palette.
     inked: Vec<Option<(Shown, Vec<Oklab>)>>,
 }
 
-/// What is shown in one paint, or on one material, and varies.
+/// Varying colours of one paint or one material.
 #[derive(Debug)]
 struct Shown {
     picture: Option<Drawn>,
@@ -43,11 +44,11 @@ struct Shown {
     paints: PaintTable,
 }
 
-/// The smoothing of pictures that the style asks for if it says nothing, px.
+/// Default smoothing of pictures, px.
 const SMOOTH_PX: f64 = 0.7;
 
 impl Textures {
-    /// The pictures as they are seen on a mesh, with a px of so many user units.
+    /// The textures as seen on a mesh; `px` is a px in user units.
     #[must_use]
     pub fn new(mesh: &Mesh, view: &View, paints: &Paints, px: f64, options: &LineOptions) -> Self {
         let mut textures = Self::default();
@@ -87,12 +88,12 @@ impl Textures {
         textures
     }
 
-    /// What could not be painted.
+    /// Warnings about textures that could not be painted.
     pub fn warnings(&self) -> &[String] {
         &self.warnings
     }
 
-    /// The paint at a point of a face.
+    /// Paint at a point of a face.
     #[must_use]
     pub fn paint(&self, mesh: &Mesh, face: u32, at: DVec3) -> PaintId {
         let shown = self.on(mesh, face);
@@ -100,20 +101,20 @@ impl Textures {
         shown.unwrap_or_else(|| mesh.paint(FaceId(face)))
     }
 
-    /// What a line is that parts two paints of one material.
+    /// Kind of the line between two paints of one material.
     pub(crate) fn parting(&self, a: PaintId, b: PaintId) -> LineKind {
         let look = |paint: PaintId| self.artist.as_ref()?.looks.get(paint.index()).copied().flatten();
         self.kind(look(a), look(b))
     }
 
-    /// What a line is that parts two colours of the picture by which lines run on a face.
+    /// Kind of the line between two colours of the picture that lines follow on a face.
     pub(crate) fn parting_ink(&self, mesh: &Mesh, face: u32, [a, b]: [PaintId; 2]) -> LineKind {
         let inked = self.inked(mesh, face);
         let look = |colour: PaintId| inked?.1.get(colour.index()).copied();
         self.kind(look(a), look(b))
     }
 
-    /// What a line is between two looks.
+    /// Kind of the line between two colours.
     fn kind(&self, a: Option<Oklab>, b: Option<Oklab>) -> LineKind {
         let Some((artist, a, b)) = self.artist.as_ref().zip(a).zip(b).map(|((artist, a), b)| (artist, a, b))
         else {
@@ -123,23 +124,23 @@ impl Textures {
         if is_far { LineKind::Artist } else { LineKind::Isophote }
     }
 
-    /// Whether lines are wanted where painted colours change.
+    /// Whether artist lines are drawn.
     pub(crate) fn has_artist(&self) -> bool {
         self.artist.is_some()
     }
 
-    /// Whether no face shows anything that varies.
+    /// Whether no face shows varying colours.
     pub(crate) fn is_empty(&self) -> bool {
         self.of_paint.iter().all(Option::is_none)
             && self.artist.as_ref().is_none_or(|artist| artist.inked.iter().all(Option::is_none))
     }
 
-    /// What a face shows; none if it is of one paint.
+    /// Varying colours of a face; none if it has a single paint.
     pub(crate) fn on(&self, mesh: &Mesh, face: u32) -> Option<Textured<'_>> {
         self.of_paint.get(mesh.paint(FaceId(face)).index())?.as_ref()?.on(mesh, face)
     }
 
-    /// What lies on a face of the picture by which lines run there, its colours as paints by their numbers.
+    /// The picture that lines follow on a face. Its colours are paints with the same numbers.
     pub(crate) fn ink_on(&self, mesh: &Mesh, face: u32) -> Option<Textured<'_>> {
         self.inked(mesh, face)?.0.on(mesh, face)
     }
@@ -150,7 +151,7 @@ impl Textures {
 }
 
 impl Shown {
-    /// What of it lies on a face.
+    /// Varying colours on a face.
     fn on(&self, mesh: &Mesh, face: u32) -> Option<Textured<'_>> {
         let picture = self.picture.as_ref().and_then(|drawn| {
             let [a, b, c] = mesh.corner_uvs.get(face as usize)?.map(|uv| mesh.uvs.get(uv as usize).copied());
@@ -161,20 +162,20 @@ impl Shown {
     }
 }
 
-/// How surfaces are looked at.
+/// How pictures are evaluated.
 struct Sight<'a> {
     mesh: &'a Mesh,
     view: &'a View,
     px: f64,
-    /// How much coarser than it is seen detail is drawn.
+    /// Coarseness of the drawn detail, relative to visible detail.
     smooth: f64,
-    /// Surfaces go on across edges that turn by less than this.
+    /// Surfaces continue across edges that turn by less than this.
     crease_deg: f64,
 }
 
 impl Sight<'_> {
-    /// What is shown of each of some things that vary; a function tells which of them a face shows. None where a picture has too
-    /// much detail.
+    /// Reduces the given textures for the view. `number` returns the index of the texture that a face shows.
+    /// None where a picture has too much detail.
     fn shown(
         &self,
         varied: &[&Varied],

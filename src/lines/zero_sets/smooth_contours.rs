@@ -1,11 +1,11 @@
-//! Contours of rounded surfaces: the zero set of n·v, as curves from end to end.
+//! Smooth contours of rounded surfaces: the zero set of n·v, joined into curves.
 //!
-//! On a mesh whose faces stand for a rounded surface, the contour of the polyhedron zigzags along
-//! edges, while the zero set of the interpolated n·v crosses the triangles as one smooth curve. It is
-//! the shape of the line; what of it is seen the edges say ([`crate::lines::Role::Witness`]).
+//! On a mesh that approximates a rounded surface, the contour of the polyhedron zigzags along edges. The zero
+//! set of the interpolated n·v crosses the faces as a smooth curve. This curve gives the shape; its
+//! visibility follows from the mesh contour ([`crate::lines::Role::Witness`]).
 //!
-//! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, sections
-//! 4.1 and 4.2; the points lie on the arcs over the edges rather than on the edges themselves.
+//! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, sections 4.1 and
+//! 4.2. Deviation: points lie on arcs over the edges, and not on the edges themselves.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -18,10 +18,10 @@ use crate::view::View;
 
 const NONE: u32 = u32::MAX;
 
-/// Points or pieces that one task looks at, at least.
+/// Minimum number of points or pieces per task.
 const GRAIN: usize = 1 << 7;
 
-/// A piece of a contour, with the facing side of the surface on its left, seen from outside.
+/// Piece of a contour, with the facing side of the surface on its left, seen from outside.
 #[derive(Debug, Clone, Copy)]
 struct ContourPiece {
     segment: FeatureSegment,
@@ -29,10 +29,10 @@ struct ContourPiece {
     advance: f32,
 }
 
-/// The contours of all rounded surfaces, curve by curve, and nothing else. `facing` is n·v, one per smooth vertex.
+/// Smooth contours of all rounded surfaces, and no other lines. `facing` is n·v, one per smooth vertex.
 #[must_use]
 pub fn find(mesh: &Mesh, view: &View, smooth: &SmoothNormals, facing: &[f64]) -> FeatureLines {
-    // Faces without area have no side, but the curve passes through them.
+    // Degenerate faces have no side, but curves pass through them.
     let set = zero_set::trace(mesh, smooth, facing, |_| true);
     let first = mesh.positions.len() as u32;
     let point = |p: &EdgePoint| EdgeArc::over(mesh, smooth, p.between).at(p.t);
@@ -58,8 +58,8 @@ pub fn find(mesh: &Mesh, view: &View, smooth: &SmoothNormals, facing: &[f64]) ->
     lines
 }
 
-/// The sign of the radial curvature (DeCarlo et al. 2003, section 2), taken from the piece itself, so
-/// that it changes exactly where its image turns back.
+/// Sign of the radial curvature (DeCarlo et al. 2003, section 2), with a confidence. It is taken from the
+/// piece itself, so that it changes exactly where the image of the piece turns back.
 fn advance(view: &View, smooth: &SmoothNormals, set: &ZeroSet, ends: [u32; 2], [a, b]: [DVec3; 2]) -> f32 {
     let normal = |end: u32| {
         let point = &set.points[end as usize];
@@ -68,13 +68,13 @@ fn advance(view: &View, smooth: &SmoothNormals, set: &ZeroSet, ends: [u32; 2], [
     };
     let outward = normal(ends[0]) + normal(ends[1]);
     let across = outward.cross(b - a).dot(view.frame.to_eye((a + b) / 2.0));
-    // What leaves the surface of the normals comes from the mesh and says nothing.
+    // The part of the piece along the normal is an artefact of the mesh, and lowers the confidence.
     let astray = outward.dot(b - a).abs();
     let said = (1.0 - astray / across.abs().max(f64::MIN_POSITIVE)).max(0.0);
     (said * across.signum()) as f32
 }
 
-/// A piece of contour over a face.
+/// Piece of a contour on a face.
 fn segment(mesh: &Mesh, ends: [u32; 2], face: u32) -> FeatureSegment {
     FeatureSegment {
         ends,
@@ -90,8 +90,8 @@ fn segment(mesh: &Mesh, ends: [u32; 2], face: u32) -> FeatureSegment {
     }
 }
 
-/// The pieces in the order in which curves pass them, and whether each curve closes; their ends are `first` and above. Where more
-/// than one piece leaves a point, the earlier ones go on.
+/// Curves as ordered pieces, and whether each is closed. Point ids start at `first`. Where several pieces
+/// leave a point, the earliest unused one continues.
 fn curves(pieces: &[ContourPiece], first: u32) -> Vec<(Vec<u32>, bool)> {
     let ends = |piece: &ContourPiece| piece.segment.ends.map(|end| (end - first) as usize);
     let count = pieces.iter().flat_map(ends).max().map_or(0, |last| last + 1);
@@ -105,7 +105,7 @@ fn curves(pieces: &[ContourPiece], first: u32) -> Vec<(Vec<u32>, bool)> {
     }
     let mut used = vec![false; pieces.len()];
     let mut found = Vec::new();
-    // Open curves begin where nothing arrives; what they leave is closed.
+    // Open curves start where no piece arrives; the rest are closed.
     for open in [true, false] {
         for start in 0..pieces.len() as u32 {
             let [begin, _] = ends(&pieces[start as usize]);

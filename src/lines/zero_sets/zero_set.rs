@@ -1,11 +1,10 @@
-//! [`ZeroSet`]: the curve on a mesh along which a field on its smooth vertices vanishes.
+//! [`ZeroSet`]: the curves on a mesh where a field on its smooth vertices vanishes.
 //!
-//! Contours of rounded surfaces, suggestive contours, ridges and valleys, isophotes: all are zero
-//! sets, and all are traced here. Inside a triangle the field is linear, so its zero set is a straight
-//! piece between two sides.
+//! Smooth contours, suggestive contours, ridges and valleys are zero sets, and all are traced here. Inside a
+//! triangle the field is linear, so its zero set is a straight piece between two sides.
 //!
-//! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, section
-//! 4.2: contours of smooth surfaces as zero sets of an interpolated field.
+//! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, section 4.2:
+//! contours of smooth surfaces as zero sets of an interpolated field.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -15,16 +14,16 @@ use crate::mesh::Mesh;
 use crate::surface::SmoothNormals;
 use crate::surface::normals::smooth_normals::NO_NORMAL;
 
-/// Faces that one task looks at. Fixed, so that nothing depends on the number of threads.
+/// Faces per task. Fixed, so that the result does not depend on the number of threads.
 const CHUNK: usize = 1 << 12;
 
-/// A point on an edge of the mesh, between two smooth vertices.
+/// Point on an edge of the mesh, between two smooth vertices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EdgePoint {
-    /// The smooth vertices at the ends of the edge, the smaller id first. On both sides of an edge
-    /// that is not hard they are the same, so that neighbouring faces share the point.
+    /// Smooth vertices at the ends of the edge, smaller id first. Faces on both sides of an edge that is not
+    /// hard have the same ones, and so share the point.
     pub between: [u32; 2],
-    /// How far it lies on the way from the first to the second, 0 to 1, both excluded.
+    /// Parameter from the first to the second vertex, 0 to 1 exclusive.
     pub t: f64,
 }
 
@@ -37,7 +36,7 @@ impl EdgePoint {
         a + (b - a) * self.t
     }
 
-    /// A number that is linear along the edge, from its values at all smooth vertices.
+    /// Field value at the point, interpolated linearly along the edge.
     #[inline]
     #[must_use]
     pub fn value(&self, field: &[f64]) -> f64 {
@@ -46,28 +45,28 @@ impl EdgePoint {
     }
 }
 
-/// A straight piece of a zero set inside one face.
+/// Straight piece of a zero set inside one face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ZeroSegment {
-    /// The face it crosses.
+    /// Face that it crosses.
     pub face: u32,
-    /// Its ends, as indices into [`ZeroSet::points`].
+    /// Ends, as indices into [`ZeroSet::points`].
     pub ends: [u32; 2],
 }
 
-/// Curves over a mesh. Pieces that meet share the point they meet in.
+/// Curves over a mesh. Pieces that meet share a point.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ZeroSet {
-    /// Where the curves cross edges, ordered by the smooth vertices of the edge.
+    /// Crossings of the curves with edges, ordered by the smooth vertices of the edge.
     pub points: Vec<EdgePoint>,
-    /// The pieces, in the order of the faces they cross.
+    /// Pieces, in the order of their faces.
     pub segments: Vec<ZeroSegment>,
 }
 
-/// The zero set of a field with one value a smooth vertex, on the faces that are wanted.
+/// Zero set of a field with one value per smooth vertex, on the wanted faces.
 ///
-/// Zero counts as positive, so that curves neither branch nor end at vertices. Each piece has the
-/// positive side on its left, seen from where the face is counter-clockwise.
+/// Zero counts as positive, so that curves neither branch nor end at vertices. Each piece has the positive
+/// side on its left, seen from the side where the face is counter-clockwise.
 #[must_use]
 pub fn trace(
     mesh: &Mesh,
@@ -90,17 +89,17 @@ pub fn trace(
     )
 }
 
-/// Where a curve crosses an edge.
+/// Crossing of a curve with an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
-    /// How far on the way from the one end to the other, 0 to 1.
+    /// Parameter from one end to the other, 0 to 1.
     pub t: f64,
-    /// Whether the field grows on that way; false where it has no sign.
+    /// Whether the field grows in that direction; false where it has no sign.
     pub rising: bool,
 }
 
-/// The curves of which is known where they cross each edge: `crossing(a, b)` with smooth vertices
-/// a < b. A face with two crossings has a piece between them; other faces have none.
+/// Curves from their crossings with edges: `crossing(a, b)` is called with smooth vertices a < b. A face with
+/// two crossings has a piece between them; other faces have none.
 #[must_use]
 pub fn trace_crossings(
     mesh: &Mesh,
@@ -113,7 +112,7 @@ pub fn trace_crossings(
         let found = crossing(lo, hi)?;
         let inner = tolerance::ZERO_SET_OF_EDGE..=1.0 - tolerance::ZERO_SET_OF_EDGE;
         let t = found.t.clamp(*inner.start(), *inner.end());
-        // Going round the face, the curve enters it where the field rises.
+        // On the way around the face, the curve enters where the field rises.
         Some((EdgePoint { between: [lo, hi], t }, found.rising == (a < b)))
     };
     let piece = |face: u32| {
@@ -137,7 +136,7 @@ pub fn trace_crossings(
     joined(&found.concat(), mesh.positions.len())
 }
 
-/// Gives each crossed edge one point.
+/// Merges the crossings of each edge into one point.
 fn joined(pieces: &[(u32, [EdgePoint; 2])], vertices: usize) -> ZeroSet {
     debug_assert!(vertices > 0 || pieces.is_empty());
     let key = |[a, b]: [u32; 2]| u64::from(a) << 32 | u64::from(b);
@@ -164,7 +163,7 @@ mod tests {
     use super::*;
     use crate::mesh::Soup;
 
-    /// A square of n × n cells, each cut in two, one unit wide, around zero.
+    /// A unit square around zero of n × n cells, each cut in two.
     fn square(n: u32) -> (Mesh, SmoothNormals) {
         let mut positions = Vec::new();
         let mut triangles = Vec::new();
@@ -233,7 +232,7 @@ mod tests {
         assert_eq!((whole.segments.len(), whole.points.len()), (4, 5));
         assert_eq!(trace(&mesh, &smooth, &field, |face| face < 6).segments.len(), 2);
 
-        // The right half gets vertices of its own.
+        // The right half gets separate vertices.
         let count = smooth.vertices.len() as u32;
         for v in 0..count {
             smooth.vertices.push(smooth.vertices[v as usize]);

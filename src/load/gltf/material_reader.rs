@@ -1,4 +1,4 @@
-//! Materials: base colour, own light, and the base-colour texture: its file or its bytes.
+//! Reads materials: base colour, emitted light, and the file or bytes of the base-colour texture.
 
 use std::sync::Arc;
 
@@ -10,24 +10,24 @@ use crate::load::gltf::storage::buffers::{Buffers, Fetch};
 use crate::scene::model_folder::Neighbours;
 use crate::scene::{Filter, Material, Warnings, Wrap};
 
-/// The path of a texture beside the model, or its bytes.
+/// Path of a texture next to the model, or its bytes.
 type TextureSource = (Option<String>, Option<Arc<[u8]>>);
 
-/// Bytes of an image that are looked at to tell whether it is one.
+/// Number of bytes that are tested for an image format.
 const HEAD: usize = 32;
 
-/// The files next to a model.
+/// Access to the files next to a model.
 #[derive(Clone, Copy)]
 pub struct Files<'a> {
-    /// Reads the beginning of one.
+    /// Reads the beginning of a file.
     pub fetch: &'a Fetch<'a>,
-    /// All of them; none if the model is not in a file.
+    /// Index of all files; `None` if the model is not a file.
     pub all: Option<&'a Neighbours>,
 }
 
 impl Files<'_> {
-    /// The beginning of the file that a relative URI names, its path, and whether that is the path of the URI: if no file is
-    /// there, the one of its name is taken.
+    /// Beginning of the file of a relative URI, its path, and whether that is the path in the URI. If no file
+    /// is there, a file of a similar name is used.
     fn head(&self, uri: &str) -> Result<(Vec<u8>, String, bool), String> {
         let message = match uri::inside_folder(uri) {
             Err(message) => message,
@@ -45,7 +45,7 @@ impl Files<'_> {
     }
 }
 
-/// All materials of a file; whatever is wrong with their textures is only a warning.
+/// Reads all materials of a file; problems with textures are only warnings.
 pub fn materials(buffers: &Buffers, files: Files, warnings: &mut Warnings) -> Vec<Material> {
     let read = |material: &json::Material| {
         let texture =
@@ -66,7 +66,7 @@ pub fn materials(buffers: &Buffers, files: Files, warnings: &mut Warnings) -> Ve
     buffers.root.materials.iter().map(read).collect()
 }
 
-/// The values of a material, as the file stores them.
+/// Values of a material as stored in the file.
 pub fn factors(material: &json::Material) -> Factors {
     let transmission = material.extensions.transmission.as_ref();
     Factors {
@@ -83,14 +83,15 @@ pub fn factors(material: &json::Material) -> Factors {
     }
 }
 
-/// Whether the base colour is that of another extension than the metallic workflow, which nothing then points to.
+/// Whether the base colour comes from KHR_materials_pbrSpecularGlossiness; animation pointers to the metallic
+/// base colour then have no effect.
 pub fn is_glossy(material: &json::Material) -> bool {
     let glossy = material.extensions.specular_glossiness.as_ref();
     material.pbr_metallic_roughness.base_color_factor.is_none()
         && glossy.is_some_and(|glossy| glossy.diffuse_factor.is_some())
 }
 
-/// The texture that gives a material its colour.
+/// Base-colour texture of a material.
 pub fn base_texture(material: &json::Material) -> Option<&json::TextureUse> {
     let glossy = material.extensions.specular_glossiness.as_ref();
     let metallic = material.pbr_metallic_roughness.base_color_texture.as_ref();
@@ -103,7 +104,7 @@ fn base_colour(material: &json::Material) -> [f32; 4] {
     metallic.or_else(|| glossy.and_then(|glossy| glossy.diffuse_factor)).unwrap_or([1.0; 4])
 }
 
-/// What is between the texels of a texture.
+/// Interpolation between the texels of a texture.
 fn filter(root: &json::Root, texture: &json::TextureUse) -> Filter {
     let sampler = root.textures.get(texture.index).and_then(|texture| root.samplers.get(texture.sampler?));
     match sampler.and_then(|sampler| sampler.mag_filter) {
@@ -112,7 +113,7 @@ fn filter(root: &json::Root, texture: &json::TextureUse) -> Filter {
     }
 }
 
-/// How a texture goes on beyond its borders.
+/// Wrapping of a texture.
 fn wrap(root: &json::Root, texture: &json::TextureUse) -> [Wrap; 2] {
     let sampler = root.textures.get(texture.index).and_then(|texture| root.samplers.get(texture.sampler?));
     sampler.map_or([Wrap::Repeat; 2], |sampler| {
@@ -124,8 +125,8 @@ fn wrap(root: &json::Root, texture: &json::TextureUse) -> [Wrap; 2] {
     })
 }
 
-/// The path of a texture that is a file, or its bytes if it is in the model's file; looks whether it is
-/// there and begins as images do.
+/// Path of a texture file, or the bytes of a texture inside the model's file. Checks that it exists and
+/// begins like an image.
 fn image(
     texture: &json::TextureUse,
     material: &json::Material,
@@ -183,12 +184,12 @@ fn image(
     Some((path, inside))
 }
 
-/// The material that a texture is of, if it has a name.
+/// Text that names the material of a texture, if it has a name.
 fn of(material: &json::Material) -> String {
     material.name.as_ref().map_or_else(String::new, |name| format!(" of material `{name}`"))
 }
 
-/// Whether bytes begin as PNG, JPEG, WebP, KTX2, DDS or AVIF images do.
+/// Whether bytes begin like a PNG, JPEG, WebP, KTX2, DDS or AVIF image.
 fn is_image(bytes: &[u8]) -> bool {
     let at = |start: usize, magic: &[u8]| bytes.get(start..).is_some_and(|rest| rest.starts_with(magic));
     (at(0, b"\x89PNG\r\n\x1a\n") && at(12, b"IHDR"))

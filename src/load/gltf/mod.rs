@@ -40,7 +40,7 @@ use crate::scene::extent::precision_warning;
 use crate::scene::model_folder::Neighbours;
 use crate::scene::{Scene, UpAxis, Warnings};
 
-/// Reads a `.gltf` or `.glb` file; buffers beside it are read too, if they lie in its folder.
+/// Reads a `.gltf` or `.glb` file, and buffers in its folder.
 ///
 /// # Errors
 /// Names the file, the place in it (chunk, accessor, mesh, node ...) and what is wrong.
@@ -48,7 +48,7 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
     Ok(read_file(path, false)?.scene)
 }
 
-/// Reads a `.gltf` or `.glb` file as [`read`] does, with its animations and what these move.
+/// Reads a `.gltf` or `.glb` file like [`read`], with its animations and the rig that they move.
 ///
 /// # Errors
 /// As [`read`].
@@ -67,8 +67,10 @@ fn read_file(path: &Path, rigged: bool) -> Result<Rigged, Error> {
     Ok(read)
 }
 
-/// Reads the bytes of a `.gltf` or `.glb` file; `fetch` gives the first so many bytes of a file
-/// named by a path relative to the model, which never leads out of its folder.
+/// Reads the bytes of a `.gltf` or `.glb` file.
+///
+/// `fetch` returns up to a number of bytes of a file, given its path relative to the model. The path never
+/// leads out of the model's folder.
 ///
 /// # Errors
 /// As [`read`], without the name of the file.
@@ -76,7 +78,7 @@ pub fn read_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Scene, Error> {
     Ok(read_all(bytes, Files { fetch, all: None }, false)?.scene)
 }
 
-/// Reads bytes as [`read_bytes`] does, with the animations and what these move.
+/// Reads bytes like [`read_bytes`], with the animations and the rig that they move.
 ///
 /// # Errors
 /// As [`read_bytes`].
@@ -84,7 +86,7 @@ pub fn read_rigged_bytes(bytes: &[u8], fetch: &Fetch) -> Result<Rigged, Error> {
     read_all(bytes, Files { fetch, all: None }, true)
 }
 
-/// The scene, and if `rigged`, what moves it.
+/// Reads the scene, and the rig if `rigged`.
 fn read_all(bytes: &[u8], files: Files, rigged: bool) -> Result<Rigged, Error> {
     let mut warnings = Warnings::default();
     let container = storage::container::split(bytes, &mut warnings)?;

@@ -1,8 +1,8 @@
-//! Which extensions a file may require.
+//! Extensions that a file may require.
 
 use crate::error::{Error, ErrorKind};
 
-/// Extensions that are read.
+/// Supported extensions.
 const READ: [&str; 11] = [
     "KHR_mesh_quantization",
     "EXT_mesh_gpu_instancing",
@@ -17,7 +17,7 @@ const READ: [&str; 11] = [
     "KHR_texture_transform",
 ];
 
-/// Extensions that change no shape and no place; a trailing `*` stands for any ending.
+/// Extensions that do not affect shape or position; a trailing `*` matches any ending.
 const HARMLESS: [&str; 14] = [
     "KHR_materials_*",
     "KHR_texture_*",
@@ -35,7 +35,7 @@ const HARMLESS: [&str; 14] = [
     "BENTLEY_materials_*",
 ];
 
-/// Refuses a file that requires what ligne cannot do, naming it.
+/// Returns an error for a file that requires an unsupported extension, naming it.
 pub fn check(required: &[String]) -> Result<(), Error> {
     let harmless = |name: &str| {
         HARMLESS.iter().any(|known| match known.strip_suffix('*') {

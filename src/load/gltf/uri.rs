@@ -1,4 +1,4 @@
-//! URIs of buffers and images: data URIs, and relative paths that stay in the model's folder.
+//! URIs of buffers and images: data URIs, and relative paths inside the model's folder.
 
 use std::borrow::Cow;
 
@@ -13,7 +13,7 @@ const LENIENT: GeneralPurpose = GeneralPurpose::new(
         .with_decode_allow_trailing_bits(true),
 );
 
-/// Bytes of a `data:` URI, or `None` if it is not one; the error says what is wrong with it.
+/// Bytes of a `data:` URI; `None` for other URIs. The error describes what is wrong.
 pub fn data(uri: &str) -> Option<Result<Vec<u8>, String>> {
     let rest = uri.get(..5).filter(|head| head.eq_ignore_ascii_case("data:")).and(uri.get(5..))?;
     let Some((head, body)) = rest.split_once(',') else {
@@ -24,15 +24,15 @@ pub fn data(uri: &str) -> Option<Result<Vec<u8>, String>> {
         return Some(Ok(body.into_owned()));
     }
     let decoded = LENIENT.decode(&body).or_else(|error| {
-        // Line breaks inside are common in files made by hand.
+        // Hand-made files often have line breaks inside.
         let packed: Vec<u8> = body.iter().copied().filter(|b| !b.is_ascii_whitespace()).collect();
         if packed.len() < body.len() { LENIENT.decode(packed) } else { Err(error) }
     });
     Some(decoded.map_err(|error| format!("the data URI is not valid base64 ({error})")))
 }
 
-/// The path a relative URI names, with `/` between its parts and without `.` and `..`; an error
-/// if it leads out of the model's folder or elsewhere.
+/// Path of a relative URI, with `/` as separator and without `.` and `..`. Returns an error if it leads out
+/// of the model's folder.
 pub fn inside_folder(uri: &str) -> Result<String, String> {
     let decoded = percent_decoded(uri);
     let Ok(path) = std::str::from_utf8(&decoded) else {
@@ -59,12 +59,12 @@ pub fn inside_folder(uri: &str) -> Result<String, String> {
     Ok(parts.join("/"))
 }
 
-/// The text of a URI without its escapes.
+/// Text of a URI with escapes decoded.
 pub fn decoded(uri: &str) -> String {
     String::from_utf8_lossy(&percent_decoded(uri)).into_owned()
 }
 
-/// A URI short enough for a message.
+/// A URI shortened for messages.
 pub fn shown(uri: &str) -> Cow<'_, str> {
     match uri.char_indices().nth(80) {
         Some((end, _)) => Cow::Owned(format!("{}...", uri.get(..end).unwrap_or_default())),

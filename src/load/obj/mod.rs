@@ -21,10 +21,10 @@ use crate::scene::Scene;
 use crate::scene::extent::precision_warning;
 use crate::scene::model_folder::{Neighbours, read_beside};
 
-/// Reads an OBJ file and the libraries beside it.
+/// Reads an OBJ file and the libraries next to it.
 ///
 /// # Errors
-/// Names the file and the line if an index points nowhere, or says that nothing can be drawn.
+/// Names the file and the line if an index is out of range, or reports that nothing can be drawn.
 pub fn read(path: &Path) -> Result<Scene, Error> {
     let files = Neighbours::of(path);
     super::read_with(path, |bytes, stem| {
@@ -32,8 +32,10 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
     })
 }
 
-/// Reads the text of an OBJ file, in UTF-8, Latin-1 or (with its mark) UTF-16; `stem` names faces outside objects,
-/// `library` gives the text of an MTL file by the name the model calls it.
+/// Reads the text of an OBJ file, in UTF-8, Latin-1, or UTF-16 with a byte-order mark.
+///
+/// `stem` names faces outside objects. `library` returns the text of an MTL file by the name that the model
+/// uses.
 ///
 /// # Errors
 /// As [`read`].

@@ -1,4 +1,4 @@
-//! MTL libraries: materials by name.
+//! Reads MTL libraries: materials by name.
 
 use crate::colour::srgb::Colour;
 use crate::load::text_cursor::{Cursor, decode, utf8};
@@ -8,24 +8,24 @@ use crate::scene::material::{Gloss, Placing};
 use crate::scene::model_folder::{Neighbours, stays_inside};
 use crate::scene::warnings::Warnings;
 
-/// The exponent of a material that says how strongly it shines, but no more.
+/// Gloss exponent of a material that has `Ks` but no `Ns`.
 const DEFAULT_EXPONENT: f32 = 40.0;
 
-/// Where a library lies, and what lies there.
+/// Location of a library, and the files around it.
 #[derive(Clone, Copy)]
 pub(crate) struct Place<'a> {
-    /// Its folder as seen from the model, empty or with a slash at the end.
+    /// Folder relative to the model, empty or ending with a slash.
     pub folder: &'a str,
-    /// The files in the model's folder; none if the model is not in a file.
+    /// Files in the model's folder; `None` if the model is not a file.
     pub files: Option<&'a Neighbours>,
 }
 
-/// Adds the materials of a library. Colours are taken as sRGB, as most programs do.
+/// Adds the materials of a library. Colours are interpreted as sRGB, as most programs do.
 pub(crate) fn parse(bytes: &[u8], place: Place, materials: &mut Vec<Material>, warnings: &mut Warnings) {
     let text = utf8(bytes);
     let mut cursor = Cursor::new(&text);
     let mut current: Option<Material> = None;
-    // `d` tells the truth where `Tr` does not.
+    // `d` takes precedence: `Tr` is inverted in some files.
     let mut has_dissolve = false;
     while !cursor.at_end() {
         cursor.skip_space();
@@ -117,10 +117,11 @@ fn byte(channel: f64) -> u8 {
     (channel.clamp(0.0, 1.0) * 255.0).round() as u8
 }
 
-/// Where the file of a texture statement lies as seen from the model; none, with a warning, if outside of its folder.
+/// Path of a texture statement's file, relative to the model; `None`, with a warning, if it is outside the
+/// model's folder.
 ///
-/// Many libraries hold the paths of the machine that wrote them, or names in another letter case: then the file of that
-/// name next to the model is taken.
+/// Many libraries contain absolute paths of another machine, or names in another letter case. A file of that
+/// name next to the model is used instead.
 fn texture_path(statement: &[u8], place: Place, material: &str, warnings: &mut Warnings) -> Option<String> {
     let name = texture(statement).name;
     if name.is_empty() {
@@ -145,13 +146,13 @@ fn texture_path(statement: &[u8], place: Place, material: &str, warnings: &mut W
 
 /// A texture statement.
 struct Texture {
-    /// The file name, which may hold blanks.
+    /// File name, which may contain blanks.
     name: String,
     placing: Placing,
     wrap: [Wrap; 2],
 }
 
-/// Reads the options of a texture statement and the file name after them.
+/// Parses the options of a texture statement and the file name after them.
 fn texture(statement: &[u8]) -> Texture {
     let text = decode(statement);
     let mut rest = text.trim();
@@ -170,7 +171,7 @@ fn texture(statement: &[u8]) -> Texture {
         let mut values = Vec::new();
         for i in 0..words + numbers {
             let Some((word, after)) = rest.split_once(char::is_whitespace) else { break };
-            // Options take as many numbers as there are, up to three.
+            // Options take up to three numbers.
             let value = word.parse::<f32>().ok().filter(|value| value.is_finite());
             if i < words || value.is_some() {
                 own.wrap = if option == "-clamp" && word == "on" { [Wrap::Clamp; 2] } else { own.wrap };

@@ -1,4 +1,4 @@
-//! Parts and materials out of the statements of an OBJ file.
+//! Makes parts and materials from the statements of an OBJ file.
 
 use glam::DAffine3;
 use rustc_hash::FxHashMap;
@@ -11,9 +11,9 @@ use crate::mesh::EdgeMark;
 use crate::scene::model_folder::{Neighbours, stays_inside};
 use crate::scene::{Geometry, Material, Part, Scene, UpAxis, Warnings};
 
-/// One geometry a part, each with just the vertices it uses.
+/// Makes one geometry per part, with only the vertices that it uses.
 ///
-/// `library` reads a library by its path as seen from the model, `files` are those in the model's folder.
+/// `library` reads a library by its path relative to the model; `files` are the files in the model's folder.
 pub(crate) fn scene(
     mut statements: Statements,
     stem: &str,
@@ -25,7 +25,7 @@ pub(crate) fn scene(
     let mut scene = Scene { format: "OBJ", up: UpAxis::Y, materials, warnings, ..Scene::default() };
 
     let mut runs: Vec<Vec<FaceGroup>> = vec![Vec::new(); statements.objects.len()];
-    // Parts come in the order of their first face.
+    // Parts are in the order of their first face.
     let mut order = Vec::new();
     for run in std::mem::take(&mut statements.runs) {
         if let Some(own) = runs.get_mut(run.object) {
@@ -43,7 +43,7 @@ pub(crate) fn scene(
         };
         scene.parts.push(Part { name, geometry, world_from_part: DAffine3::IDENTITY });
     }
-    // Triangles before the first `usemtl` have a material of their own if others have one.
+    // Triangles before the first `usemtl` get a default material if others have one.
     let unnamed = scene.materials.len() as u32;
     let all_runs = || order.iter().filter_map(|&o| runs.get(o)).flatten();
     if all_runs().any(|run| run.material.is_none()) && all_runs().any(|run| run.material.is_some()) {
@@ -68,7 +68,7 @@ pub(crate) fn scene(
     scene
 }
 
-/// The materials used, from the libraries or else grey.
+/// Materials that are used, from the libraries, or grey if undefined.
 fn materials(
     statements: &Statements,
     mut library: impl FnMut(&str) -> Option<Vec<u8>>,
@@ -102,7 +102,7 @@ fn materials(
         if name.is_empty() || load(&name, warnings) {
             continue;
         }
-        // Several libraries may stand on one line; a name with blanks was tried before.
+        // A line may list several libraries. A name with blanks was already tried as a whole.
         let words: Vec<&str> = name.split_whitespace().collect();
         for word in &words {
             if words.len() == 1 || !load(word, warnings) {
@@ -133,7 +133,7 @@ fn materials(
     used
 }
 
-/// Vertices after the last coloured one are white.
+/// Fills up vertex colours with white.
 fn fill_white(statements: &mut Statements) {
     if !statements.colours.is_empty() {
         statements.colours.resize(statements.positions.len(), [1.0; 3]);
@@ -157,7 +157,7 @@ fn assign_materials(geometry: &mut Geometry, runs: &[FaceGroup], unnamed: u32) {
     }
 }
 
-/// The geometry of a file of one part: nothing is copied.
+/// Geometry of a file with a single part, without copying.
 fn whole(statements: Statements) -> Geometry {
     let Statements { positions, triangles, wires, normals, uvs, colours, .. } = statements;
     let pad = |mut corners: Vec<[u32; 3]>, count: usize| {
@@ -190,7 +190,7 @@ fn whole(statements: Statements) -> Geometry {
     }
 }
 
-/// How many vertices no triangle and no wire uses.
+/// Number of vertices without a triangle or wire.
 fn unused(statements: &Statements) -> u64 {
     let mut unused = vec![true; statements.positions.len()];
     let corners = statements.triangles.as_flattened().iter().chain(statements.wires.as_flattened());
@@ -202,7 +202,7 @@ fn unused(statements: &Statements) -> u64 {
     unused.into_iter().filter(|unused| *unused).count() as u64
 }
 
-/// Cuts the arrays of a file into those of its parts.
+/// Splits the arrays of a file into those of its parts.
 struct Split<'a> {
     statements: &'a Statements<'a>,
     positions: Renumber,
@@ -255,7 +255,8 @@ impl<'a> Split<'a> {
     }
 }
 
-/// What the triangles of some runs have, `nothing` beyond the last of `all`; none where the file has none.
+/// Per-triangle data of some runs, filled up with `nothing` if `all` is too short; empty if the file has
+/// none.
 fn gather<T: Copy>(all: &[T], runs: &[FaceGroup], nothing: T) -> Vec<T> {
     let count = runs.iter().map(|run| run.triangles.len()).sum();
     let mut corners = Vec::with_capacity(if all.is_empty() { 0 } else { count });
@@ -275,9 +276,9 @@ fn pick<T: Copy>(from: &[T], kept: &[u32]) -> Vec<T> {
     kept.iter().filter_map(|&i| from.get(i as usize).copied()).collect()
 }
 
-/// Gives what a part uses new numbers from 0, in the order of the file.
+/// Renumbers the elements that a part uses from 0, in file order.
 struct Renumber {
-    /// New number of each old one; [`NONE`] outside the part at hand.
+    /// New number of each old one; [`NONE`] outside the present part.
     new_from_old: Vec<u32>,
 }
 
@@ -286,7 +287,7 @@ impl Renumber {
         Self { new_from_old: vec![NONE; count] }
     }
 
-    /// Changes the indices and gives the old ones that are used. Those that point nowhere become [`NONE`].
+    /// Renumbers indices and returns the old numbers in use. Indices out of range become [`NONE`].
     fn renumber(&mut self, indices: &mut [&mut [u32]]) -> Vec<u32> {
         let mut kept = Vec::new();
         for &old in indices.iter().flat_map(|part| part.iter()) {

@@ -181,7 +181,7 @@ fn what_needs_a_coordinate_that_cannot_be_read_is_left_out() {
     {
         for text in [
             format!("{TRIANGLE}v 7 {written} 9\nf 1 2 3\nf 1 2 4\nf 1 2 3 4\nl 1 2 4\np 4\n"),
-            // The vertices behind the faces.
+            // Vertices after the faces.
             format!("f 1 2 3\nf 1 2 4\nf 1 2 3 4\nl 1 2 4\np 4\n{TRIANGLE}v 7 {written} 9\n"),
         ] {
             let scene = read(&text);
@@ -217,7 +217,7 @@ fn a_drawing_in_the_plane_lies_at_z_0() {
         assert_eq!(scene.geometries[0].positions, [DVec3::ZERO, DVec3::X, DVec3::Y]);
         assert_eq!(scene.warnings.lines(), ["no vertex has a z coordinate; all are drawn at z = 0"]);
     }
-    // A coordinate that only some lack was lost.
+    // If only some vertices lack z, it was lost.
     let scene = read(format!("{TRIANGLE}v 1 1\nf 1 2 3\nf 2 3 4\n"));
     assert_eq!(scene.geometries[0].triangles, [[0, 1, 2]]);
     let told = "line 4: a coordinate is missing; 1 face left out, with such a corner";

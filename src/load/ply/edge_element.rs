@@ -1,4 +1,4 @@
-//! The edges of a PLY file, which become wires.
+//! Reads the edges of a PLY file, which become wires.
 
 use glam::DVec3;
 
@@ -9,15 +9,15 @@ use crate::error::Error;
 use crate::scene::Warnings;
 use crate::scene::extent::coordinate_limits::is_drawable;
 
-/// Names of the two ends: those of Turk's paper, and those that VCGlib and CGAL write.
+/// Property names of the two ends: those of Turk's paper, and those of VCGlib and CGAL.
 const ENDS: [[&str; 2]; 3] = [["vertex1", "vertex2"], ["v1", "v2"], ["v0", "v1"]];
 
-/// The content of the element `edge` holds.
+/// Content of the element `edge`.
 #[derive(Default)]
 pub(crate) struct Edges {
     /// Ends of each edge.
     pub wires: Vec<[u32; 2]>,
-    /// Edges left out for their coordinates.
+    /// Number of edges left out because of their coordinates.
     pub unusable: u64,
     pub warnings: Warnings,
 }

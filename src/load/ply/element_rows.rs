@@ -1,45 +1,46 @@
-//! The rows of a PLY body, in text or binary.
+//! Reads the rows of a PLY body, in text or binary.
 
 use super::header::{Element, Encoding};
 use crate::error::Error;
 use crate::load::shown;
 use crate::load::text_cursor::Cursor;
 
-/// The values of one row, property after property.
+/// Values of one row, property by property.
 #[derive(Default)]
 pub(crate) struct Row {
     values: Vec<f64>,
-    /// Where each property ends in `values`.
+    /// End of each property in `values`.
     ends: Vec<usize>,
 }
 
 impl Row {
-    /// The values of a property.
+    /// Values of a property.
     pub fn list(&self, property: usize) -> &[f64] {
         let start = property.checked_sub(1).and_then(|p| self.ends.get(p)).copied().unwrap_or(0);
         let end = self.ends.get(property).copied().unwrap_or(start);
         self.values.get(start..end).unwrap_or_default()
     }
 
-    /// The value of a property that is no list.
+    /// Value of a property that is not a list.
     pub fn value(&self, property: usize) -> f64 {
         self.list(property).first().copied().unwrap_or(0.0)
     }
 }
 
-/// Where the reading of a body stands.
+/// Reading position in a body.
 pub(crate) struct Body<'a> {
     pub cursor: Cursor<'a>,
     pub encoding: Encoding,
 }
 
 impl<'a> Body<'a> {
-    /// The bytes not yet read.
+    /// Bytes not yet read.
     pub fn rest(&self) -> &'a [u8] {
         self.cursor.bytes.get(self.cursor.at..).unwrap_or_default()
     }
 
-    /// Refuses more rows than the rest of the file can hold, so that memory may be asked for.
+    /// Returns an error if the rest of the file is too short for the announced rows. Call it before
+    /// allocating memory.
     pub fn check_count(&self, element: &Element) -> Result<usize, Error> {
         let least = element.least_size(self.encoding) as u64;
         let rest = self.rest().len() as u64 + u64::from(self.encoding == Encoding::Text);
@@ -49,11 +50,11 @@ impl<'a> Body<'a> {
                 format!("{count} rows of {name} do not fit into the {} bytes left", self.rest().len());
             return Err(Error::new(message).at(format!("element {name}")).remedy("the file is truncated"));
         }
-        // Rows without properties take no room.
+        // Rows without properties take no space.
         Ok(if least == 0 { 0 } else { element.count as usize })
     }
 
-    /// Reads the next row; `number` counts from 0 and is for errors.
+    /// Reads the next row; `number` counts from 0 and is used in errors.
     pub fn row(&mut self, element: &Element, number: usize, row: &mut Row) -> Result<(), Error> {
         row.values.clear();
         row.ends.clear();
@@ -70,7 +71,7 @@ impl<'a> Body<'a> {
             if let Some(kind) = property.list {
                 let bytes = self.take(kind.size()).ok_or_else(|| cut_off(element, number))?;
                 let stated = kind.read(bytes, self.encoding);
-                // A list that is longer than the file is not asked memory for.
+                // Memory is allocated only for lists that fit in the file.
                 length = stated as usize;
                 if stated < 0.0 || stated.fract() != 0.0 || length > self.rest().len() {
                     let message = format!("a list of {stated} does not fit into the file");
@@ -94,7 +95,7 @@ impl<'a> Body<'a> {
         Some(bytes)
     }
 
-    /// A row of text is a line; what stands after its values is passed over.
+    /// Reads a row of text, one line; the rest of the line is ignored.
     fn text_row(&mut self, element: &Element, number: usize, row: &mut Row) -> Result<(), Error> {
         self.cursor.skip_space();
         if self.cursor.at_end() {
@@ -137,12 +138,12 @@ impl<'a> Body<'a> {
     }
 }
 
-/// How a row is called in errors.
+/// Name of a row in errors.
 pub(crate) fn place(element: &Element, number: usize) -> String {
     format!("{} {number}", element.name)
 }
 
-/// The error for a file that ends in a row.
+/// Error for a file that ends within a row.
 pub(crate) fn cut_off(element: &Element, number: usize) -> Error {
     let message = format!("the file ends in row {number} of {}", element.count);
     Error::new(message).at(format!("element {}", element.name)).remedy("it is cut off")

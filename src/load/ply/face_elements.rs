@@ -1,4 +1,4 @@
-//! The faces of a PLY file: polygons, and strips of triangles.
+//! Reads the faces of a PLY file: polygons and triangle strips.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -14,7 +14,7 @@ use crate::mesh::EdgeMark;
 use crate::scene::extent::coordinate_limits::is_drawable;
 use crate::scene::warnings::Warnings;
 
-/// Rows that one task reads at least.
+/// Minimum rows per parallel task.
 const ROWS: usize = 1 << 13;
 
 const LISTS: [&str; 2] = ["vertex_indices", "vertex_index"];
@@ -27,19 +27,19 @@ pub(crate) struct Faces<'a> {
     points: Vec<DVec3>,
     cut: Vec<[u32; 3]>,
     diagonals: Diagonals,
-    /// The triangles so far.
+    /// Triangles read so far.
     pub triangles: Vec<[u32; 3]>,
-    /// Colour of each triangle; empty where faces have none.
+    /// Colour of each triangle; empty if faces have none.
     pub colours: Vec<Option<Colour>>,
-    /// The marks of their sides: as long as `triangles` or shorter, the rest is unmarked.
+    /// Marks of their sides; at most as long as `triangles`, the remaining ones are unmarked.
     pub edge_marks: Vec<[EdgeMark; 3]>,
-    /// Faces left out for their coordinates.
+    /// Number of faces left out because of their coordinates.
     pub unusable: u64,
     pub warnings: Warnings,
 }
 
 impl<'a> Faces<'a> {
-    /// No faces yet.
+    /// Starts without faces.
     pub fn new(positions: &'a [DVec3]) -> Self {
         Self {
             positions,
@@ -102,8 +102,8 @@ impl<'a> Faces<'a> {
         Ok(())
     }
 
-    /// Reads the triangles that the rows begin with, which in most files are all of them, by all threads: up to the first that is
-    /// something else they are of one size. Gives their number.
+    /// Reads the leading rows that are triangles, in parallel, and returns their number. In most files these
+    /// are all rows, and all have the same size.
     fn first_triangles(&mut self, packed: &Packed, body: &mut Body, count: usize) -> usize {
         if self.has_bad_positions {
             return 0;
@@ -132,7 +132,7 @@ impl<'a> Faces<'a> {
         first
     }
 
-    /// Reads the element `tristrips`: −1 starts a new strip.
+    /// Reads the element `tristrips`; −1 starts a new strip.
     pub fn strips(&mut self, body: &mut Body, element: &Element) -> Result<(), Error> {
         let count = body.check_count(element)?;
         let Some(list) = element.find(&LISTS).filter(|&p| is_list(element, p)) else {
@@ -151,7 +151,7 @@ impl<'a> Faces<'a> {
                 };
                 for (i, corners) in ids.windows(3).enumerate() {
                     let &[a, b, c] = corners else { continue };
-                    // Every other triangle runs the other way; repeated corners only steer the strip.
+                    // Every other triangle has reversed winding; repeated corners only steer the strip.
                     if a != b && b != c && c != a {
                         self.polygon(&if i % 2 == 0 { [a, b, c] } else { [b, a, c] });
                     }
@@ -182,21 +182,21 @@ impl<'a> Faces<'a> {
     }
 }
 
-/// The vertex that a number of the file points to.
+/// Vertex index for a number of the file.
 pub(crate) fn index_of(value: f64, positions: &[DVec3]) -> Option<u32> {
     let exists =
         value >= 0.0 && value < positions.len().min(u32::MAX as usize) as f64 && value.fract() == 0.0;
     exists.then_some(value as u32)
 }
 
-/// The error for a number that points to no vertex.
+/// Error for an index out of range.
 #[cold]
 pub(crate) fn no_vertex(index: f64, positions: &[DVec3]) -> Error {
     Error::new(format!("vertex {index} does not exist; the file has {}", positions.len()))
         .remedy("indices count from 0")
 }
 
-/// The properties of a face that hold its colour.
+/// Properties with the colour of a face.
 struct ColourColumns {
     channels: [(usize, Scalar); 3],
     alpha: Option<(usize, Scalar)>,
@@ -227,14 +227,15 @@ fn is_list(element: &Element, property: usize) -> bool {
     element.properties.get(property).is_some_and(|p| p.list.is_some())
 }
 
-/// Passes over an element.
+/// Skips an element.
 pub(crate) fn skip(body: &mut Body, element: &Element) -> Result<(), Error> {
     let count = body.check_count(element)?;
     let mut row = Row::default();
     (0..count).try_for_each(|number| body.row(element, number, &mut row))
 }
 
-/// The most frequent layout: a byte for the length, 32-bit indices, perhaps numbers around.
+/// The most frequent layout of rows: a byte for the length, 32-bit indices, and possibly numbers before and
+/// after.
 struct Packed {
     before: usize,
     after: usize,
@@ -251,13 +252,13 @@ impl Packed {
         usual.then_some(Self { before: element.offset(list)?, after: after? })
     }
 
-    /// How many bytes the row of a triangle takes.
+    /// Number of bytes of a triangle's row.
     fn size(&self) -> usize {
         self.before + 13 + self.after
     }
 
-    /// The triangle at the start of some bytes, and how many bytes its row takes; none if it is
-    /// another polygon, or cut off.
+    /// Triangle at the start of some bytes, and the size of its row; `None` if it is another polygon, or cut
+    /// off.
     #[inline]
     fn triangle(&self, bytes: &[u8]) -> Option<([u32; 3], usize)> {
         let row = bytes.get(self.before..)?.first_chunk::<13>()?;

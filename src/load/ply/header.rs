@@ -1,14 +1,14 @@
-//! The header of a PLY file: its encoding and what its body holds.
+//! Parses the header of a PLY file: its encoding and the elements of its body.
 
 use crate::error::Error;
 use crate::load::shown;
 use crate::load::text_cursor::{Cursor, decode};
 use crate::scene::warnings::{Spots, Warnings};
 
-/// A statement has fewer words; what follows them is not looked at.
+/// Maximum words of a statement that are read; further words are ignored.
 const MOST_WORDS: usize = 6;
 
-/// How the body is written.
+/// Encoding of the body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Encoding {
     Text,
@@ -16,7 +16,7 @@ pub(crate) enum Encoding {
     Big,
 }
 
-/// A kind of number.
+/// Type of a number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Scalar {
     I8,
@@ -54,7 +54,7 @@ impl Scalar {
         }
     }
 
-    /// The number that stands for 1 where a colour is stored.
+    /// Value that represents 1 in a colour.
     pub fn full(self) -> f64 {
         match self {
             Self::I8 => 127.0,
@@ -67,7 +67,7 @@ impl Scalar {
         }
     }
 
-    /// A number of this kind at the start of some bytes; 0 if they are too few.
+    /// Reads a number of this type at the start of some bytes; 0 if they are too few.
     #[inline]
     pub fn read(self, bytes: &[u8], encoding: Encoding) -> f64 {
         macro_rules! number {
@@ -94,16 +94,16 @@ impl Scalar {
     }
 }
 
-/// A number of an element, or a list of them.
+/// Property of an element: a number or a list of numbers.
 #[derive(Debug, Clone)]
 pub(crate) struct Property {
     pub name: String,
-    /// Kind of the length, if it is a list.
+    /// Type of the length, if it is a list.
     pub list: Option<Scalar>,
     pub kind: Scalar,
 }
 
-/// Rows of the same properties.
+/// Rows with the same properties.
 #[derive(Debug, Clone)]
 pub(crate) struct Element {
     pub name: String,
@@ -112,12 +112,12 @@ pub(crate) struct Element {
 }
 
 impl Element {
-    /// The first property of one of these names.
+    /// First property with one of these names.
     pub fn find(&self, names: &[&str]) -> Option<usize> {
         self.properties.iter().position(|p| names.contains(&p.name.as_str()))
     }
 
-    /// Fewest bytes of a row.
+    /// Minimum bytes of a row.
     pub fn least_size(&self, encoding: Encoding) -> usize {
         match encoding {
             // A digit and a blank.
@@ -126,25 +126,25 @@ impl Element {
         }
     }
 
-    /// Bytes from the start of a row to a property, if there is no list before it.
+    /// Byte offset of a property in a row, if no list comes before it.
     pub fn offset(&self, property: usize) -> Option<usize> {
         self.properties.iter().take(property).map(|p| p.list.is_none().then(|| p.kind.size())).sum()
     }
 }
 
-/// All that the header says.
+/// Content of the header.
 #[derive(Debug, Clone)]
 pub(crate) struct Header {
     pub encoding: Encoding,
     pub elements: Vec<Element>,
-    /// Where the body begins.
+    /// Byte index of the body.
     pub body: usize,
-    /// What was passed over.
+    /// Things that were ignored.
     pub warnings: Warnings,
 }
 
 impl Header {
-    /// Reads the header at the start of a file.
+    /// Parses the header at the start of a file.
     pub fn parse(bytes: &[u8]) -> Result<Self, Error> {
         let mut cursor = Cursor::new(bytes);
         if cursor.rest_of_line() != b"ply" {
@@ -152,7 +152,8 @@ impl Header {
                 .at("line 1")
                 .remedy("it is not a PLY file"));
         }
-        // A body may begin with the byte of a newline, so the first line says whether returns alone end lines.
+        // A binary body may begin with the byte of a newline, so the first line decides whether single
+        // carriage returns end lines.
         let returns_only = cursor.peek() == b'\r' && cursor.peek_on(1) != b'\n';
         let pass_line_end = |cursor: &mut Cursor| {
             let both = !returns_only && (cursor.peek(), cursor.peek_on(1)) == (b'\r', b'\n');
@@ -161,7 +162,7 @@ impl Header {
         let mut encoding = None;
         let mut elements: Vec<Element> = Vec::new();
         let mut strange = Spots::default();
-        // Set after a line that is an element if properties follow.
+        // Set after a line that is an element only if properties follow.
         let mut doubt: Option<(Cursor, &[u8])> = None;
         loop {
             pass_line_end(&mut cursor);
@@ -173,7 +174,7 @@ impl Header {
             let line = cursor.rest_of_line();
             let words = line.split(u8::is_ascii_whitespace).filter(|w| !w.is_empty());
             let words: Vec<&[u8]> = words.take(MOST_WORDS).collect();
-            // What stands after a statement says nothing of the data.
+            // Text after a statement does not describe the data.
             let (statement, remark) = words.split_at(words.len().min(length(&words)));
             if let [word, ..] = remark {
                 strange.add(|| format!("line {}: `{}` is ignored", place.line(), shown(word)));
@@ -226,7 +227,7 @@ impl Header {
                 }
                 [] | [b"comment" | b"obj_info", ..] => {}
                 _ if is_statement(&words) => return Err(does_not_belong(&place, line)),
-                // Other readers pass over what they do not know too.
+                // Other readers ignore unknown lines too.
                 _ => {
                     if is_like_element(&words) {
                         doubt = Some((place.clone(), line));
@@ -247,7 +248,7 @@ fn does_not_belong(place: &Cursor, line: &[u8]) -> Error {
     Error::new(format!("`{}` is not a header line", shown(line))).at(format!("line {}", place.line()))
 }
 
-/// How many words a statement has; all of a line that is none.
+/// Number of words of a statement; all words of any other line.
 fn length(words: &[&[u8]]) -> usize {
     match *words {
         [b"end_header", ..] => 1,
@@ -258,8 +259,8 @@ fn length(words: &[&[u8]]) -> usize {
     }
 }
 
-/// Whether a line is a statement about the data with something missing, or a property with another keyword: without
-/// it the body would be read wrong.
+/// Whether a line is an incomplete statement about the data, or a property with a misspelt keyword. The body
+/// could not be read without it.
 fn is_statement(words: &[&[u8]]) -> bool {
     match *words {
         [b"format" | b"element" | b"property", ..] | [_, b"list", _, _, _] => true,
@@ -268,7 +269,7 @@ fn is_statement(words: &[&[u8]]) -> bool {
     }
 }
 
-/// Whether a line may be an element with another keyword.
+/// Whether a line may be an element with a misspelt keyword.
 fn is_like_element(words: &[&[u8]]) -> bool {
     matches!(*words, [_, _, count] if count.iter().all(u8::is_ascii_digit))
 }

@@ -37,8 +37,8 @@ use crate::scene::{Geometry, Part, Scene, UpAxis, Warnings};
 /// Reads a PLY file.
 ///
 /// # Errors
-/// Names the file and the place if the header is wrong, rows are missing, an index points
-/// nowhere, or nothing can be drawn.
+/// Names the file and the place if the header is wrong, rows are missing, an index is out of range, or
+/// nothing can be drawn.
 pub fn read(path: &Path) -> Result<Scene, Error> {
     read_with(path, read_bytes)
 }
@@ -52,7 +52,7 @@ pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     let mut body = Body { cursor: Cursor { bytes, at: header.body }, encoding: header.encoding };
     let mut model = Model { warnings: header.warnings, ..Model::default() };
     let mut has_vertices = false;
-    // Elements that need the vertices, and where their rows begin.
+    // Elements that need the vertices, with the start of their rows.
     let mut waiting: Vec<(&Element, usize)> = Vec::new();
     for element in &header.elements {
         match element.name.as_str() {
@@ -80,19 +80,19 @@ pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     model.into_scene(stem)
 }
 
-/// The content of a file.
+/// Content of a file.
 #[derive(Default)]
 struct Model {
     geometry: Geometry,
-    /// Colours of the triangles; shorter than these or empty where elements have none.
+    /// Colours of the triangles; shorter than these, or empty, if elements have none.
     colours: Vec<Option<Colour>>,
     warnings: Warnings,
-    /// Faces and edges left out for their coordinates.
+    /// Number of faces and edges left out because of their coordinates.
     unusable: u64,
 }
 
 impl Model {
-    /// Reads the rows of an element that points to vertices.
+    /// Reads the rows of an element that refers to vertices.
     fn connect(&mut self, body: &mut Body, element: &Element) -> Result<(), Error> {
         if element.name == "edge" {
             let edges = edge_element::read(body, element, &self.geometry.positions)?;
@@ -126,7 +126,7 @@ impl Model {
         Ok(())
     }
 
-    /// The scene of one part.
+    /// Makes a scene of one part.
     fn into_scene(self, stem: &str) -> Result<Scene, Error> {
         let Self { mut geometry, colours, warnings, unusable } = self;
         let mut scene = Scene { format: "PLY", up: UpAxis::Y, warnings, ..Scene::default() };
@@ -134,7 +134,7 @@ impl Model {
         if !geometry.edge_marks.is_empty() {
             geometry.edge_marks.resize(geometry.triangles.len(), [EdgeMark::Unmarked; 3]);
         }
-        // No triangle uses these any more.
+        // No triangle uses these positions.
         for position in geometry.positions.iter_mut().filter(|p| !is_drawable(**p)) {
             *position = glam::DVec3::ZERO;
         }

@@ -35,7 +35,7 @@ fn text_with_all_sorts_of_properties() {
     assert!(!geometry.single_precision && scene.parts[0].name == "stem");
 }
 
-/// A triangle and a quad, with extra bytes around, in either order of bytes.
+/// A triangle and a quad, with extra bytes around, in either byte order.
 fn binary(big: bool, wide: bool) -> Vec<u8> {
     let order = if big { "big" } else { "little" };
     let (float, extra) = if wide { ("double", "property uchar extra\n") } else { ("float", "") };
@@ -108,7 +108,7 @@ fn huge_counts_ask_for_no_memory() {
             assert!(error(bytes).contains("do not fit"));
         }
     }
-    // Rows without properties cost nothing, however many there are.
+    // Rows without properties take no space, in any number.
     assert!(error(text("element nothing 99999999999\n", "")).contains("nothing to draw"));
     let mut bytes = binary(false, false);
     let header = memchr::memmem::find(&bytes, b"end_header\n").unwrap() + 11;
@@ -154,7 +154,7 @@ fn what_is_no_number_is_left_out() {
     assert_eq!(scene.warnings.lines().len(), 1);
 }
 
-/// Many triangles, one after the other, and other faces where `other` has them.
+/// Many triangles in sequence, with other faces where `other` returns one.
 fn many(count: usize, other: impl Fn(usize) -> Option<Vec<i32>>) -> (Vec<u8>, Vec<Vec<i32>>) {
     let head = format!(
         "ply\nformat binary_little_endian 1.0\nelement vertex 5\n{POSITIONS}element face {count}\n{LIST}end_header\n"
@@ -198,8 +198,7 @@ fn the_first_triangle_of_many_that_points_nowhere_is_named() {
 /// An element: its name, its properties, and rows of numbers.
 type Table<'a> = (&'a str, &'a [&'a str], &'a [&'a [f64]]);
 
-/// The rows of a table: names of elements, their properties, and rows of numbers, as text or binary. A property that is a list has its
-/// length in front.
+/// Encodes a table of elements as text or binary. The first number of a list property is its length.
 fn encoded(format: &str, elements: &[Table]) -> Vec<u8> {
     let mut head = format!("ply\nformat {format} 1.0\n");
     let mut body = Vec::new();
@@ -307,7 +306,7 @@ fn faces_have_their_colours() {
             assert!(scene.warnings.is_empty());
         }
     }
-    // Colours of vertices are finer, unless all of them are white.
+    // Vertex colours have precedence over face colours, unless all of them are white.
     let coloured = ["float x", "float y", "float z", "uchar red", "uchar green", "uchar blue"];
     for (green, materials) in [(0.0, 0), (255.0, 2)] {
         let vertices: Vec<Vec<f64>> =

@@ -1,4 +1,4 @@
-//! The vertices of a PLY file: positions, normals, colours, texture coordinates.
+//! Reads the vertices of a PLY file: positions, normals, colours, texture coordinates.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -9,10 +9,10 @@ use crate::colour::srgb::linear;
 use crate::error::Error;
 use crate::scene::Geometry;
 
-/// Rows that one task reads at least.
+/// Minimum rows per parallel task.
 const ROWS: usize = 1 << 13;
 
-/// Which properties hold what.
+/// Property indices of the vertex attributes.
 struct Columns {
     position: [usize; 3],
     normal: Option<[usize; 3]>,
@@ -25,7 +25,7 @@ struct Columns {
 pub(crate) const COLOURS: [[&str; 3]; 3] =
     [["red", "green", "blue"], ["diffuse_red", "diffuse_green", "diffuse_blue"], ["r", "g", "b"]];
 
-/// All of some properties, or none.
+/// Indices of a set of properties, if all are present.
 pub(crate) fn find<const N: usize>(element: &Element, names: [&str; N]) -> Option<[usize; N]> {
     let mut found = [0; N];
     for (slot, name) in found.iter_mut().zip(names) {
@@ -81,7 +81,7 @@ pub(crate) fn read(body: &mut Body, element: &Element) -> Result<Geometry, Error
         body.cursor.at += rows.len();
         return Ok(geometry);
     }
-    // Most colours are bytes, and decoding one takes long.
+    // Table for byte channels, which are the usual case; converting each channel would be slow.
     let bytes: Vec<f32> = (0..=255_u8).map(|c| linear(f32::from(c) / 255.0)).collect();
     let channel = |row: &Row, property: usize| match kind(property) {
         Scalar::U8 => bytes.get(row.value(property) as usize).copied().unwrap_or(1.0),
@@ -105,7 +105,7 @@ pub(crate) fn read(body: &mut Body, element: &Element) -> Result<Geometry, Error
     Ok(geometry)
 }
 
-/// Three little-endian floats somewhere in a row.
+/// Reads three little-endian floats at an offset of a row.
 #[inline]
 fn packed_position(row: &[u8], start: usize) -> DVec3 {
     let bytes = row.get(start..).and_then(|b| b.first_chunk::<12>()).copied().unwrap_or_default();

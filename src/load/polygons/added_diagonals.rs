@@ -1,21 +1,22 @@
-//! [`Diagonals`]: which sides of a polygon's triangles cutting it has added.
+//! [`Diagonals`]: which sides of a polygon's triangles are diagonals, added by the triangulation.
 
 use glam::DVec3;
 
 use crate::mesh::EdgeMark;
 
-/// Marks the sides of a polygon's triangles that are diagonals of it: those that join two corners which do not follow each other.
-/// Corners at the place of the one before count as that one. Of a triangle no side is a diagonal.
+/// Marks the sides of a polygon's triangles that are diagonals: those between corners that are not
+/// consecutive. Corners at the position of the previous one count as the same corner. A triangle has no
+/// diagonals.
 #[derive(Debug, Default)]
 pub struct Diagonals {
-    /// For each corner, how many corners at other places come before it.
+    /// For each corner, the number of distinct positions before it.
     numbers: Vec<u32>,
-    /// How many places the corners have.
+    /// Number of distinct consecutive positions.
     count: u32,
 }
 
 impl Diagonals {
-    /// Those of a polygon with these corners.
+    /// Prepares for a polygon with these corners.
     pub fn of(&mut self, points: &[DVec3]) {
         self.numbers.clear();
         self.count = 0;
@@ -40,7 +41,7 @@ impl Diagonals {
         }
     }
 
-    /// The marks of the sides of a triangle.
+    /// Marks of the sides of a triangle.
     pub fn marks(&self, triangle: [u32; 3]) -> [EdgeMark; 3] {
         let [a, b, c] = triangle.map(|corner| self.numbers.get(corner as usize).copied().unwrap_or_default());
         [(a, b), (b, c), (c, a)].map(|(from, to)| {
@@ -81,14 +82,14 @@ mod tests {
         assert!(marked(&square[..3]).is_empty());
         let pentagon = [(0.0, 0.0), (2.0, 0.0), (3.0, 1.0), (1.0, 2.0), (-1.0, 1.0)];
         assert_eq!(marked(&pentagon), [[0, 2], [0, 2], [0, 3], [0, 3]]);
-        // A triangle with a corner twice, wherever it stands, has no diagonal.
+        // A triangle with one corner doubled, at any index, has no diagonal.
         for twice in 0..3 {
             let mut corners = square[..3].to_vec();
             corners.insert(twice, corners[twice]);
             assert!(marked(&corners).is_empty(), "corner {twice}");
         }
         assert!(marked(&[square[0], square[1], square[2], square[0]]).is_empty());
-        // Of a quad whose first corner stands twice, the diagonal is one between any two of the same places.
+        // In a quad with its first corner doubled, the diagonal is between any copies of the same positions.
         let twice = [square[0], square[0], square[1], square[2], square[3]];
         assert_eq!(marked(&twice), [[1, 3], [1, 3]]);
     }

@@ -1,38 +1,42 @@
-//! Cutting polygons into triangles: quads by the better diagonal, others by a fan or by ears.
+//! Triangulates polygons: quads by the better diagonal, others by a fan or by ear clipping.
 //!
-//! Source: Eberly, *Triangulation by Ear Clipping*, sections 2 and 3. The ears are taken in the order of
-//! the corners, and what is known of a corner is kept until something it rests on changes.
+//! Source: Eberly, *Triangulation by Ear Clipping*, sections 2 and 3. Ears are clipped in the order of the
+//! corners. The state of a corner is cached until one of its inputs changes.
 
 use glam::{DVec2, DVec3};
 
-/// Concave polygons of more corners are fanned: their ears would take too long to find.
+/// Maximum corners of a concave polygon for ear clipping; larger ones are fanned.
 const MOST_CORNERS: usize = 4096;
 
-/// Corner tests after which the search for ears gives up.
+/// Maximum corner tests of ear clipping; then the rest of the polygon is fanned.
 const MOST_TESTS: usize = 100_000_000;
 
-/// Convex polygons of more corners are fanned from the first.
+/// Maximum corners of a convex polygon for the search for a good apex; larger ones are fanned from the first
+/// corner.
 const MOST_APEXES: usize = 512;
 
-/// Three points are in line if the sine of the angle at one of them is no larger: a hundred times what single precision leaves of a
+/// Maximum sine of the angle between collinear points: a hundred times the error of single precision on a
 /// straight side.
 const IN_LINE: f64 = 1e-5;
 
-/// Whether a polygon could be cut as it should.
+/// Quality of a triangulation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CutOutcome {
-    /// It was.
+    /// Complete.
     Sound,
-    /// It was fanned, or fanned from some corner on, because it has too many corners.
+    /// Fanned, at least in part, because the polygon has too many corners.
     TooLarge,
 }
 
-/// Cuts a polygon of three or more corners into triangles of corner numbers, in the polygon's sense.
+/// Triangulates a polygon of three or more corners; triangles are corner numbers, with the orientation of the
+/// polygon.
 ///
-/// Triangles stay as they are; a quad is cut along corners 0 and 2, unless a corner is reflex
-/// there or three corners are in line; a larger polygon is fanned from its first corner that gives only triangles with an area, where
-/// it is convex seen along its normal, and else loses its first ear until three corners are left. No cut runs along corners that are
-/// in line. A polygon of n corners gives n − 2 triangles. Very large ones lose corners that repeat the one before.
+/// A triangle is unchanged. A quad is split between corners 0 and 2, or between 1 and 3 if a corner is reflex
+/// there or three corners are collinear. A convex polygon is fanned from its first corner that gives only
+/// triangles with area. Other polygons are triangulated by ear clipping.
+///
+/// No diagonal runs along collinear corners. A polygon of n corners gives n − 2 triangles; very large ones
+/// lose repeated corners first.
 pub fn triangulate(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> CutOutcome {
     match *points {
         [] | [_] | [_, _] => CutOutcome::Sound,
@@ -48,11 +52,11 @@ pub fn triangulate(points: &[DVec3], triangles: &mut Vec<[u32; 3]>) -> CutOutcom
     }
 }
 
-/// The two triangles of a quad.
+/// Splits a quad into two triangles.
 #[must_use]
 pub fn quad(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> [[u32; 3]; 2] {
     let (u, v, w) = (b - a, c - a, d - a);
-    // The two halves face opposite ways where the cut 0-2 runs outside.
+    // The two halves face opposite ways if the diagonal 0-2 is outside.
     let runs_outside = u.cross(v).dot(v.cross(w)) < 0.0;
     let is_flat = |u: DVec3, v: DVec3| {
         u.cross(v).length_squared() <= IN_LINE * IN_LINE * u.length_squared() * v.length_squared()
@@ -105,11 +109,11 @@ fn fan(corners: impl IntoIterator<Item = u32>, triangles: &mut Vec<[u32; 3]>) {
     }
 }
 
-/// The polygon seen along the axis nearest to its normal, counter-clockwise; none if it has no normal.
+/// Projects the polygon along the axis nearest to its normal, counter-clockwise; `None` if it has no normal.
 fn flatten(points: &[DVec3]) -> Option<Vec<DVec2>> {
     let first = *points.first()?;
     let next = points.iter().cycle().skip(1);
-    // Newell's normal.
+    // Newell's method.
     let normal = points.iter().zip(next).fold(DVec3::ZERO, |n, (p, q)| {
         n + DVec3::new((p.y - q.y) * (p.z + q.z), (p.z - q.z) * (p.x + q.x), (p.x - q.x) * (p.y + q.y))
     });
@@ -130,13 +134,13 @@ fn flatten(points: &[DVec3]) -> Option<Vec<DVec2>> {
     Some(points.iter().map(|&p| project(p)).collect())
 }
 
-/// Twice the area of a triangle, positive if it runs counter-clockwise.
+/// Twice the signed area of a triangle, positive if counter-clockwise.
 #[inline]
 fn cross(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Whether all corners and all triangles of the fan turn left, or not at all.
+/// Whether no corner and no triangle of the fan turns right.
 fn is_convex(points: &[DVec2]) -> bool {
     let [first, rest @ ..] = points else { return true };
     let next = points.iter().cycle().skip(1);
@@ -145,14 +149,14 @@ fn is_convex(points: &[DVec2]) -> bool {
         && points.iter().zip(next).zip(after).all(|((a, b), c)| cross(*a, *b, *c) >= 0.0)
 }
 
-/// Whether a triangle runs counter-clockwise, and no corner of it is in line with the others.
+/// Whether a triangle is counter-clockwise and its corners are not collinear.
 #[inline]
 fn has_area(a: DVec2, b: DVec2, c: DVec2) -> bool {
     let longest = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
     cross(a, b, c) > IN_LINE * longest
 }
 
-/// The first corner of a convex polygon whose fan has triangles with an area only; corner 0 of a large polygon.
+/// First corner of a convex polygon whose fan has only triangles with area; corner 0 of a large polygon.
 fn apex(points: &[DVec2]) -> Option<u32> {
     let count = points.len();
     if count > MOST_APEXES {
@@ -167,13 +171,13 @@ fn apex(points: &[DVec2]) -> Option<u32> {
     (0..count).find(is_apex).map(|apex| apex as u32)
 }
 
-/// What is known of a corner.
+/// Cached state of a corner.
 #[derive(Clone, Copy, PartialEq)]
 enum Known {
     Nothing,
-    /// It is reflex or in line with its neighbours, so no ear while these stay.
+    /// Reflex, or collinear with its neighbours: no ear while the neighbours stay.
     Reflex,
-    /// That corner lies inside it, so no ear while that one and the neighbours stay.
+    /// The given corner is inside the ear: no ear while that corner and the neighbours stay.
     Blocked(u32),
 }
 
@@ -185,7 +189,7 @@ struct Corner {
     known: Known,
 }
 
-/// The corners left, as a ring in the order of the polygon.
+/// Remaining corners as a linked ring, in polygon order.
 struct Ears {
     corners: Vec<Corner>,
     first: u32,
@@ -225,7 +229,7 @@ impl Ears {
                 fan(rest, triangles);
                 return CutOutcome::TooLarge;
             }
-            // A polygon that crosses itself may have no ear: take anything.
+            // A self-intersecting polygon may have no ear; clip any corner.
             let ear = self.first_ear().unwrap_or(self.first);
             let Corner { before, after, .. } = self.corner(ear);
             triangles.push([before, ear, after]);
@@ -253,7 +257,7 @@ impl Ears {
         None
     }
 
-    /// What stands against an ear at a corner; nothing if it is one.
+    /// Tests a corner; `Nothing` means that it is an ear.
     fn look(&mut self, i: u32) -> Known {
         let ear = self.corner(i);
         let (a, b, c) = (self.corner(ear.before).point, ear.point, self.corner(ear.after).point);

@@ -1,38 +1,41 @@
-//! Colours of binary STL: two conventions that put 15 bits of colour into the "attribute byte count" of a triangle.
+//! Colours of binary STL: two conventions that put 15 bits of colour into the "attribute byte count" of a
+//! triangle.
 //!
 //! | convention | recognised by | bit 15 | bits 10-14 | bits 5-9 | bits 0-4 |
 //! | --- | --- | --- | --- | --- | --- |
 //! | VisCAM, SolidView | no `COLOR=` | 1: the triangle has this colour; 0: none | red | green | blue |
 //! | Materialise Magics | `COLOR=` in the header | 0: the triangle has this colour; 1: the part's | blue | green | red |
 //!
-//! In Magics `COLOR=` is followed by the red, green, blue and alpha of the part, a byte each. `MATERIAL=` after it is followed by three
-//! such colours, diffuse, specular and ambient; the diffuse one is then the part's.
+//! In Magics, `COLOR=` is followed by red, green, blue and alpha of the part, one byte each. A following
+//! `MATERIAL=` has three such colours: diffuse, specular and ambient. The diffuse one is then the part's
+//! colour.
 //!
-//! `MeshLab` writes the header of Magics with bit 15 set on triangles that have their own colour. Its header has grey colours and a blank in place of
-//! the comma; bit 15 then has the meaning of `VisCAM`.
+//! `MeshLab` writes the header of Magics, but sets bit 15 on triangles that have their own colour. Its header
+//! has grey colours and a blank in place of the comma; bit 15 then has the meaning of `VisCAM`.
 //!
-//! Source: "Colour STL file format", rapid prototyping mailing list, rp-ml 2001/0608 (M. Joppe, VisCAM) and 2003/1450, for both
-//! conventions; Wikipedia, "STL (file format)", section "Colour in binary STL", for `MATERIAL=`; VCGlib, `export_stl.h`, for `MeshLab`.
+//! Source: "Colour STL file format", rapid prototyping mailing list, rp-ml 2001/0608 (M. Joppe, VisCAM) and
+//! 2003/1450, for both conventions; Wikipedia, "STL (file format)", section "Colour in binary STL", for
+//! `MATERIAL=`; VCGlib, `export_stl.h`, for `MeshLab`.
 
 use crate::colour::srgb::Colour;
 use crate::load::triangle_colours;
 use crate::scene::{Geometry, Scene};
 
-/// The start of the header that `MeshLab` writes.
+/// Start of the header that `MeshLab` writes.
 const MESHLAB: &[u8] = b"COLOR=\x7f\x7f\x7f MATERIAL=\x7f\x7f\x7f \x7f\x7f\x7f \x7f\x7f\x7f";
 
 const BIT_15: u16 = 1 << 15;
 
-/// Whether a header holds the colour of the part.
+/// Whether a header contains the colour of the part.
 pub(crate) fn has_part_colour(header: &[u8]) -> bool {
     part_colour(header).is_some()
 }
 
-/// Gives the triangles of a binary file their colours; `attributes` holds the attribute of each of them.
+/// Colours the triangles of a binary file; `attributes` has one entry per triangle.
 pub(crate) fn paint(header: &[u8], attributes: &[u16], geometry: &mut Geometry, scene: &mut Scene) {
     let is_marked = |attribute: &u16| attribute & BIT_15 != 0;
     let own = |attribute: u16, [red, green, blue]: [u32; 3]| {
-        // Five bits to eight, so that 31 becomes 255.
+        // Scale five bits to eight, so that 31 becomes 255.
         let channel = |shift: u32| ((u32::from(attribute >> shift & 31) * 255 + 15) / 31) as u8;
         Colour::rgb(channel(red), channel(green), channel(blue))
     };
@@ -42,14 +45,14 @@ pub(crate) fn paint(header: &[u8], attributes: &[u16], geometry: &mut Geometry, 
         Some(part) if header.starts_with(MESHLAB) => {
             attributes.iter().map(|a| Some(if is_marked(a) { magics(*a) } else { part })).collect()
         }
-        // Other programs leave all attributes 0, which would make every triangle black.
+        // Some programs leave all attributes 0, which would make every triangle black.
         Some(part) if attributes.iter().all(|a| *a == 0) => vec![Some(part); attributes.len()],
         Some(part) => attributes.iter().map(|a| Some(if is_marked(a) { part } else { magics(*a) })).collect(),
         None => {
             if !attributes.iter().any(is_marked) {
                 return;
             }
-            // Neither a colour nor the 0 of a triangle without one: the attributes mean something else.
+            // Neither a colour nor 0: the attributes have another meaning.
             let strange = attributes.iter().filter(|a| !is_marked(a) && **a != 0).count();
             if strange > 0 {
                 scene.warnings.note(format!(
@@ -64,17 +67,17 @@ pub(crate) fn paint(header: &[u8], attributes: &[u16], geometry: &mut Geometry, 
     triangle_colours::paint(geometry, &colours, &mut scene.materials);
 }
 
-/// The colour of the part in a header of Magics.
+/// Colour of the part in a Magics header.
 fn part_colour(header: &[u8]) -> Option<Colour> {
     let after = |name: &[u8]| {
         let start = memchr::memmem::find(header, name)? + name.len();
         header.get(start..)
     };
     let [r, g, b, a] = *after(b"COLOR=")?.first_chunk::<4>()?;
-    // Programs that know no transparency write 0, and MeshLab a blank.
+    // Programs without transparency write 0, and MeshLab a blank.
     let a = if a == 0 || header.starts_with(MESHLAB) { 255 } else { a };
     let diffuse = after(b"MATERIAL=").and_then(|rest| rest.first_chunk::<12>());
-    // Twelve blanks or zeros fill up the header and are no material.
+    // Twelve blanks or zeros are padding of the header, not a material.
     match diffuse.filter(|colours| **colours != [b' '; 12] && **colours != [0; 12]) {
         Some(&[r, g, b, ..]) => Some(Colour { r, g, b, a }),
         None => Some(Colour { r, g, b, a }),
@@ -93,7 +96,7 @@ mod tests {
         header
     }
 
-    /// The colour of each triangle in a file with these attributes, and the number of warnings.
+    /// Colour of each triangle in a file with these attributes, and the number of warnings.
     fn colours(header: &[u8], attributes: &[u16]) -> (Vec<String>, usize) {
         let mut geometry = Geometry {
             positions: vec![DVec3::ZERO; 3],
@@ -128,7 +131,7 @@ mod tests {
     fn magics_has_red_in_the_low_bits_and_the_part_where_bit_15_is_set() {
         let magics = header(b"COLOR=\xff\x20\x20\xff,MATERIAL=");
         assert_eq!(colours(&magics, &[0xffff, 0x001f, 0x7c00]).0, ["#ff2020", "#ff0000", "#0000ff"]);
-        // All zeros are no colours of triangles.
+        // If all attributes are zero, they are not colours.
         assert_eq!(colours(&magics, &[0, 0]).0, ["#ff2020"; 2]);
         assert_eq!(colours(&magics, &[0, 0x8000]).0, ["#000000", "#ff2020"]);
         let anywhere = header(b"some part COLOR=\x01\x02\x03\x80");

@@ -50,12 +50,13 @@ pub fn read_bytes(bytes: &[u8], stem: &str) -> Result<Scene, Error> {
     drawable(scene).map(precision_warning::checked)
 }
 
-/// How many triangles a binary file says it has.
+/// Number of triangles in the header of a binary file.
 fn binary_count(bytes: &[u8]) -> Option<u32> {
     bytes.get(80..HEADER).and_then(|count| <[u8; 4]>::try_from(count).ok()).map(u32::from_le_bytes)
 }
 
-/// Binary files may begin with `solid` too, so their length decides.
+/// Whether a file is text. Binary files may begin with `solid` too, so their length and zero bytes are tested
+/// as well.
 fn is_text(bytes: &[u8]) -> bool {
     let fits = binary_count(bytes)
         .is_some_and(|n| HEADER as u64 + RECORD as u64 * u64::from(n) == bytes.len() as u64);
@@ -116,7 +117,7 @@ fn read_binary(bytes: &[u8], stem: &str, scene: &mut Scene) -> Result<(), Error>
     Ok(())
 }
 
-/// The "attribute byte count" of a triangle, where colours stand.
+/// The "attribute byte count" of a triangle, which may contain a colour.
 fn attribute(record: &[u8]) -> u16 {
     record.get(48..).and_then(|rest| rest.first_chunk()).copied().map_or(0, u16::from_le_bytes)
 }
@@ -131,7 +132,7 @@ fn corner_bits(record: &[u8]) -> [[u32; 3]; 3] {
     corners
 }
 
-/// Whether a coordinate is no number: its exponent is all ones.
+/// Whether a coordinate is infinite or NaN: its exponent bits are all ones.
 fn is_odd(corners: &[[u32; 3]; 3]) -> bool {
     corners.as_flattened().iter().any(|bits| bits & 0x7f80_0000 == 0x7f80_0000)
 }
@@ -140,10 +141,10 @@ fn has_odd_corner(record: &[u8]) -> bool {
     is_odd(&corner_bits(record))
 }
 
-/// The vertices met last, by the bits of their coordinates.
+/// Direct-mapped cache of recent vertices, by the bits of their coordinates.
 ///
-/// Neighbouring triangles mostly stand near one another in the file, so that a small table that
-/// forgets finds most shared vertices; the weld finds the others.
+/// Adjacent triangles are mostly close to each other in the file, so a small cache finds most shared
+/// vertices. Welding finds the others.
 struct Recent {
     slots: Vec<([u32; 3], u32)>,
 }
@@ -242,7 +243,8 @@ impl<'a> Text<'a> {
         Error::new(format!("`{}` stands where {wanted} should", super::shown(found))).at(place)
     }
 
-    /// The facets up to `endsolid`. A file that ends between two facets, or a next `solid` there, ends it too, with a warning.
+    /// Reads the facets up to `endsolid`. The end of the file or another `solid` between two facets ends the
+    /// solid too, with a warning.
     fn solid(&mut self, unusable: &mut u64) -> Result<Geometry, Error> {
         let mut geometry = Geometry::default();
         let mut ids: FxHashMap<[u64; 3], u32> = FxHashMap::default();
@@ -265,7 +267,7 @@ impl<'a> Text<'a> {
             }
             self.expect("normal")?;
             for _ in 0..3 {
-                // Some writers put `-nan` for the normal of a sliver.
+                // Some exporters write `-nan` for the normal of a sliver.
                 self.word();
             }
             self.expect("outer")?;

@@ -67,7 +67,7 @@ fn a_solid_without_an_end_is_drawn_with_a_warning() {
     let scene = read_bytes(two.as_bytes(), "stem").unwrap();
     let names: Vec<_> = scene.parts.iter().map(|p| p.name.as_str()).collect();
     assert_eq!((names, scene.warnings.lines().len()), (vec!["a", "b"], 1));
-    // A facet that is cut off is none, and what it was is lost.
+    // A facet that is cut off is an error, as its content is lost.
     for words in 1..FACET.split(' ').count() {
         let cut: Vec<&str> = FACET.split_inclusive(char::is_whitespace).take(words).collect();
         assert!(error(format!("solid x\n{FACET}{}", cut.concat()).as_bytes()).contains("line "), "{words}");

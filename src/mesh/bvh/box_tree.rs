@@ -1,14 +1,14 @@
-//! [`BoxTree`]: an implicit tree of bounding boxes that lists which triangles come near each other.
+//! [`BoxTree`]: implicit tree of bounding boxes that lists triangles with overlapping boxes.
 //!
-//! Every vertex is put on a grid of 2¹⁵ cells an axis. The map to cells is monotone, so boxes that
-//! overlap in space overlap on the grid: nothing is missed and no box need be widened. Boxes are
-//! kept by eights, the same side of four in one `u64` with a spare bit above each, so that
-//! a few subtractions compare one box with eight, after L. Lamport, "Multiple byte processing
-//! with full-word instructions", CACM 18(8), 1975. What few pairs that leaves of triangles without
-//! a common vertex is compared once more on a grid of 2²⁰ cells.
+//! 1. Vertices are quantized to a grid of 2²⁰ cells per axis. The mapping is monotone: boxes that overlap in
+//!    space also overlap on the grid, so no box needs a margin.
+//! 2. Triangles are sorted along a Morton curve by centre. Eight consecutive ones form a leaf, eight leaves a
+//!    group, and so on. The tree is one array of boxes per level.
+//! 3. Inner boxes use a coarse grid of 2¹⁵ cells per axis. The same side of four boxes is packed into one
+//!    `u64` with a guard bit above each, so that a few subtractions compare one box with eight.
+//! 4. Remaining pairs without a common vertex are compared on the fine grid.
 //!
-//! Triangles are sorted along a Morton curve by centre; eight neighbours on it make a leaf, eight
-//! leaves a group, and so on: the tree is nothing but one array of boxes a level.
+//! Source for step 3: L. Lamport, "Multiple byte processing with full-word instructions", CACM 18(8), 1975.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -17,21 +17,21 @@ use super::packed_boxes::{EightBoxes, GridBox, Places, Probe, WIDTH};
 use super::quantized_box::{FINE_FIELD, FineBox, LAST_FINE};
 use crate::mesh::PartId;
 
-/// Boxes of some triangles of a mesh, in an eight-fold tree.
+/// Eight-fold tree of bounding boxes over triangles of a mesh.
 #[derive(Debug, Clone)]
 pub struct BoxTree {
     cells: Cells,
-    /// Face of each rank along the curve.
+    /// Face at each rank along the Morton curve.
     faces: Vec<u32>,
     fine: Vec<FineBox>,
-    /// Level 0 holds the boxes of the triangles by rank, each level above the unions of eight, up to a level of
-    /// one block.
+    /// Level 0 holds the boxes of the triangles by rank. Each level above holds the unions of eight, up to a
+    /// level of one block.
     levels: Vec<Vec<EightBoxes>>,
 }
 
 impl BoxTree {
-    /// The tree of the triangles for which `active` holds (empty: all); `low` and `high` are the
-    /// corners of a box around them, for which the grid is made.
+    /// Builds the tree over the triangles for which `active` holds (empty: all). `low` and `high` are the
+    /// corners of a box around them; the grid covers this box.
     ///
     /// Every index of `triangles` must be one of `positions`.
     #[must_use]
@@ -63,7 +63,7 @@ impl BoxTree {
             .collect();
         sort_by_key(&mut entries);
 
-        // What is no longer needed goes before the next array comes, so that the peak stays low.
+        // Arrays are dropped as soon as possible, which lowers peak memory.
         let faces: Vec<u32> = entries.par_iter().map(|&entry| entry as u32).collect();
         drop(entries);
         let fine: Vec<FineBox> = faces.par_iter().map(|&face| box_of(triangles[face as usize])).collect();
@@ -76,7 +76,7 @@ impl BoxTree {
             let above: Vec<EightBoxes> = boxes.chunks(WIDTH).map(EightBoxes::new).collect();
             levels.push(level);
             level = above;
-            // Groups of 64 are the unit of the search, so their level is always there.
+            // The search works on groups of 64, so their level always exists.
             if levels.len() > 1 && level.len() <= 1 {
                 levels.push(level);
                 break;
@@ -85,10 +85,11 @@ impl BoxTree {
         Self { cells, faces, fine, levels }
     }
 
-    /// Calls `visit` for triangles with others whose boxes overlap theirs and that are no neighbours of theirs, every pair in one call,
-    /// and returns what the calls pushed. `faces` are those that the tree was made of.
+    /// Calls `visit` for each triangle with others whose boxes overlap its box, except neighbours, and
+    /// returns everything that the calls pushed. Each pair occurs in one call. `faces` must be those the tree
+    /// was built from.
     ///
-    /// Works in parallel; the order of the result does not depend on the number of threads.
+    /// Runs in parallel; the order of the result does not depend on the number of threads.
     pub fn overlaps<T, F>(&self, faces: Faces, visit: F) -> Vec<T>
     where
         T: Send,
@@ -113,13 +114,13 @@ impl BoxTree {
         all
     }
 
-    /// The box on the fine grid of a triangle, which need not be one of the tree's.
+    /// Box of a triangle on the fine grid. The triangle need not be in the tree.
     #[inline]
     pub(crate) fn box_of(&self, corners: [DVec3; 3]) -> FineBox {
         FineBox::of_cells(corners.map(|p| self.cells.of(p)))
     }
 
-    /// The place of each of so many faces along the curve; `u32::MAX` for those that the tree does not have.
+    /// Rank along the Morton curve of each of `faces` faces; `u32::MAX` for those that are not in the tree.
     pub(crate) fn ranks(&self, faces: usize) -> Vec<u32> {
         let mut ranks = vec![u32::MAX; faces];
         for (rank, face) in self.faces.iter().enumerate() {
@@ -128,7 +129,7 @@ impl BoxTree {
         ranks
     }
 
-    /// The tree with other boxes at some places along the curve, which ascend.
+    /// Copy of the tree with other boxes at some ranks, given in ascending order.
     pub(crate) fn with_boxes(&self, changed: &[(u32, FineBox)]) -> Self {
         let mut tree = self.clone();
         for (rank, fine) in changed {
@@ -176,7 +177,7 @@ impl BoxTree {
         }
     }
 
-    /// Visits the triangles of one group with all that overlap them and come later on the curve.
+    /// Visits the triangles of one group with all later triangles on the curve that overlap them.
     fn search_group<T>(
         &self,
         all: Faces,
@@ -199,7 +200,7 @@ impl BoxTree {
                     let of_other = &leaves[other_group].get(other - first).into();
                     for place in triangles[leaf].overlapping(of_other) {
                         let near = triangles[other].overlapping(&own[place]);
-                        // Within one leaf, those that come later.
+                        // Within the same leaf, only later triangles.
                         let near = if other == leaf { near.from(place + 1) } else { near };
                         self.add_strangers(all, leaf * WIDTH + place, other, near, &mut search.near[place]);
                     }
@@ -212,7 +213,7 @@ impl BoxTree {
         }
     }
 
-    /// Gathers the groups, from `group` on, whose boxes overlap its own.
+    /// Collects the groups, from `group` on, whose boxes overlap its own.
     fn overlapping_groups(&self, group: usize, search: &mut Search) {
         let wanted = &self.levels[2][group / WIDTH].get(group % WIDTH).into();
         search.stack.clear();
@@ -220,7 +221,7 @@ impl BoxTree {
         while let Some((level, block)) = search.stack.pop() {
             for node in self.levels[level][block].overlapping(wanted).map(|place| block * WIDTH + place) {
                 if level == 2 {
-                    // Earlier ones hold only pairs that were seen from the other side.
+                    // Pairs with earlier groups are found from the other group.
                     search.groups.extend((node >= group).then_some(node));
                 } else if ((node + 1) << (3 * (level - 2))) > group {
                     search.stack.push((level - 1, node));
@@ -229,8 +230,8 @@ impl BoxTree {
         }
     }
 
-    /// Adds the faces at some places of a leaf that are no neighbours of the triangle of a rank and overlap it
-    /// on the fine grid as well.
+    /// Adds the faces of a leaf, selected by `places`, that overlap the triangle at `rank` on the fine grid
+    /// and are not its neighbours.
     #[inline]
     fn add_strangers(&self, all: Faces, rank: usize, leaf: usize, places: Places, near: &mut Vec<u32>) {
         if places == Places(0) {
@@ -251,18 +252,18 @@ impl BoxTree {
     }
 }
 
-/// Triangles, and to which bodies they belong.
+/// Triangles, and their bodies.
 #[derive(Debug, Clone, Copy)]
 pub struct Faces<'a> {
-    /// Vertices of each.
+    /// Vertices of each triangle.
     pub triangles: &'a [[u32; 3]],
-    /// The body of each, or empty if there is only one.
+    /// Body of each triangle, or empty if there is only one.
     pub bodies: &'a [PartId],
 }
 
 impl Faces<'_> {
-    /// Whether two faces with a vertex in common are neighbours: of one body, or with an edge in common. Bodies may touch at a vertex
-    /// and pass through each other all the same.
+    /// Whether two faces with a common vertex are neighbours: in the same body, or with a common edge. Bodies
+    /// that touch at a vertex may still intersect.
     #[inline]
     pub(crate) fn are_joined(&self, a: u32, b: u32) -> bool {
         let (own, other) = (self.triangles[a as usize], self.triangles[b as usize]);
@@ -279,7 +280,7 @@ fn of_leaf(fine: &[FineBox]) -> EightBoxes {
     EightBoxes::new(&boxes)
 }
 
-/// The fine grid over a box. What lies outside counts as in its outermost cells.
+/// Fine grid over a box. Points outside are clamped to the outermost cells.
 #[derive(Debug, Clone, Copy)]
 struct Cells {
     low: DVec3,
@@ -293,7 +294,7 @@ impl Cells {
         Self { low, per_length: DVec3::new(cells_of(extent.x), cells_of(extent.y), cells_of(extent.z)) }
     }
 
-    /// The cell that a point lies in, packed.
+    /// The cell that contains a point, packed.
     #[inline]
     fn of(&self, p: DVec3) -> u64 {
         let c = (p - self.low) * self.per_length;
@@ -308,21 +309,21 @@ pub(crate) fn share_a_vertex(a: [u32; 3], b: [u32; 3]) -> bool {
     holds(a[0]) | holds(a[1]) | holds(a[2])
 }
 
-/// Faces handled by one task of the build.
+/// Number of faces per task of the build.
 const FACES_PER_TASK: usize = 1 << 13;
-/// Groups handled by one task of the search.
+/// Number of groups per task of the search.
 const GROUPS_PER_TASK: usize = 16;
 
-/// Lists of one task, kept between groups so that they are allocated once.
+/// Buffers of one task, reused between groups.
 #[derive(Default)]
 struct Search {
     stack: Vec<(usize, usize)>,
     groups: Vec<usize>,
-    /// What is near each triangle of a leaf.
+    /// Nearby faces of each triangle of a leaf.
     near: [Vec<u32>; WIDTH],
 }
 
-/// Sorts by the upper half of each entry, ten bits at a time, keeping the order of equals.
+/// Stable radix sort by the upper half of each entry, ten bits per pass.
 fn sort_by_key(entries: &mut Vec<u64>) {
     const DIGIT: u32 = 10;
     let mut sorted = vec![0; entries.len()];

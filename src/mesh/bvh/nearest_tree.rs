@@ -1,15 +1,15 @@
-//! [`NearestTree`]: which triangle is nearest to a point.
+//! [`NearestTree`]: bounding volume hierarchy that finds the triangle nearest to a point.
 
 use glam::DVec3;
 
-/// Triangles in a leaf.
+/// Maximum number of triangles in a leaf.
 const LEAF: usize = 4;
 
-/// A tree of boxes over triangles, for points on them or near them.
+/// Binary tree of bounding boxes over triangles, for nearest-point queries.
 #[derive(Debug, Clone, Default)]
 pub struct NearestTree {
     nodes: Vec<Node>,
-    /// The triangles in the order of the leaves, and the number of each.
+    /// Triangles in leaf order, and the original number of each.
     corners: Vec<[DVec3; 3]>,
     numbers: Vec<u32>,
 }
@@ -18,24 +18,24 @@ pub struct NearestTree {
 struct Node {
     low: DVec3,
     high: DVec3,
-    /// The triangles below it.
+    /// Range of the triangles in this node.
     from: u32,
     to: u32,
-    /// Its second child; the first is the next node. 0 for a leaf.
+    /// Index of the second child; the first child is the next node. 0 for a leaf.
     second: u32,
 }
 
-/// A place on a triangle.
+/// Point on a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Nearest {
-    /// The number of the triangle.
+    /// Number of the triangle.
     pub triangle: u32,
-    /// How much of each corner is in the place; the sum is 1.
+    /// Barycentric weights; the sum is 1.
     pub weights: DVec3,
 }
 
 impl NearestTree {
-    /// Of triangles whose corners are finite; others are never nearest.
+    /// Builds the tree. Triangles with corners that are not finite are ignored.
     #[must_use]
     pub fn new(triangles: &[[DVec3; 3]]) -> Self {
         let finite = |corners: &[DVec3; 3]| corners.iter().all(|corner| corner.is_finite());
@@ -51,7 +51,8 @@ impl NearestTree {
         tree
     }
 
-    /// The nearest place to a point; of several that are as near one of the lowest triangle. None without triangles.
+    /// The nearest point on any triangle; at equal distance, on the triangle of lowest number. `None` without
+    /// triangles.
     #[must_use]
     pub fn nearest(&self, point: DVec3) -> Option<Nearest> {
         let mut best = (f64::INFINITY, u32::MAX, DVec3::ZERO);
@@ -75,7 +76,7 @@ impl NearestTree {
             }
             let mut children = [at + 1, node.second as usize]
                 .map(|child| (self.nodes.get(child).map_or(f64::INFINITY, |node| node.away(point)), child));
-            // The nearer one is looked at first.
+            // The nearer child is processed first.
             if children[0].0 < children[1].0 {
                 children.swap(0, 1);
             }
@@ -84,7 +85,7 @@ impl NearestTree {
         (best.1 != u32::MAX).then_some(Nearest { triangle: best.1, weights: best.2 })
     }
 
-    /// Adds a node over some of the triangles, which it puts in order, and all nodes below.
+    /// Adds a node over some triangles, and all nodes below it. Reorders the triangles.
     fn split(&mut self, triangles: &[[DVec3; 3]], order: &mut [u32], from: u32) {
         let own = |number: &u32| triangles.get(*number as usize).copied().unwrap_or_default();
         let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -112,7 +113,7 @@ impl NearestTree {
 }
 
 impl Node {
-    /// The square of the way from a point to the box.
+    /// Squared distance from a point to the box.
     fn away(&self, point: DVec3) -> f64 {
         (point.clamp(self.low, self.high) - point).length_squared()
     }
@@ -122,7 +123,9 @@ fn on(corners: &[DVec3; 3], weights: DVec3) -> DVec3 {
     corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z
 }
 
-/// The weights of the nearest place of a triangle. Source: Ericson, Real-Time Collision Detection, 5.1.5: the regions of Voronoi.
+/// Barycentric weights of the nearest point on a triangle, by its Voronoi regions.
+///
+/// Source: Ericson, "Real-Time Collision Detection", 5.1.5.
 fn nearest_weights(point: DVec3, [a, b, c]: &[DVec3; 3]) -> DVec3 {
     let (ab, ac, ap) = (b - a, c - a, point - a);
     let (d1, d2) = (ab.dot(ap), ac.dot(ap));
@@ -185,7 +188,7 @@ mod tests {
             let best = triangles.iter().map(distance).fold(f64::INFINITY, f64::min);
             let own = &triangles[found.triangle as usize];
             assert_eq!((on(own, found.weights) - asked).length(), best);
-            // No corner, and no place between them, is nearer.
+            // Compared with the corners and with points on the sides.
             for step in 0..=20 {
                 let t = f64::from(step) / 20.0;
                 for (a, b) in [(0, 1), (1, 2), (2, 0)] {

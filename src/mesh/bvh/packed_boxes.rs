@@ -1,19 +1,20 @@
-//! [`EightBoxes`]: boxes on a coarse grid, kept by eights, of which a few subtractions tell which overlap another.
+//! [`EightBoxes`]: eight boxes on a coarse grid, packed so that a few subtractions compare all of them with
+//! another box.
 //!
-//! Source: L. Lamport, Multiple byte processing with full-word instructions, CACM 18(8), 1975.
+//! Source: L. Lamport, "Multiple byte processing with full-word instructions", CACM 18(8), 1975.
 
-/// Bits of a cell along one axis; the next bit is the spare one.
+/// Bits of a cell along one axis; the next bit is the guard bit.
 pub(crate) const CELL_BITS: u32 = 15;
-/// The lowest bit of each of the fields in a word.
+/// The lowest bit of each field in a word.
 const ONES: u64 = 0x0001_0001_0001_0001;
-/// The spare bit of each field.
+/// The guard bit of each field.
 const SPARE: u64 = ONES << CELL_BITS;
-/// The outermost cell stays free, so that the empty box overlaps nothing.
+/// Unused outermost cell, so that the empty box overlaps nothing.
 pub(crate) const OUTSIDE: u16 = (1 << CELL_BITS) - 1;
 /// Children of a node, and triangles of a leaf.
 pub(crate) const WIDTH: usize = 8;
 
-/// A box on the grid: its lowest and its highest cell along each axis.
+/// Box on the grid: lowest and highest cell along each axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct GridBox {
     pub(crate) low: [u16; 3],
@@ -21,7 +22,7 @@ pub(crate) struct GridBox {
 }
 
 impl GridBox {
-    /// Overlaps nothing, and adds nothing to a union.
+    /// Box that overlaps nothing and adds nothing to a union.
     pub(crate) const EMPTY: Self = Self { low: [OUTSIDE; 3], high: [0; 3] };
 
     #[inline]
@@ -34,11 +35,11 @@ impl GridBox {
     }
 }
 
-/// A box that is compared with many: its cells in every field of a word.
+/// Box replicated into every field of a word, for comparison with several boxes at once.
 #[derive(Clone, Copy)]
 pub(crate) struct Probe {
     pub(crate) low: [u64; 3],
-    /// With all spare bits set.
+    /// Highest cells, with all guard bits set.
     pub(crate) high: [u64; 3],
 }
 
@@ -54,11 +55,11 @@ impl From<GridBox> for Probe {
     }
 }
 
-/// Eight boxes: the even ones in the first of two words, the odd ones in the second.
+/// Eight boxes: even ones in the first of two words, odd ones in the second.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EightBoxes {
     low: [[u64; 2]; 3],
-    /// With all spare bits set.
+    /// Highest cells, with all guard bits set.
     high: [[u64; 2]; 3],
 }
 
@@ -91,13 +92,13 @@ impl EightBoxes {
         (0..WIDTH).fold(GridBox::EMPTY, |sum, place| sum.union(self.get(place)))
     }
 
-    /// Which of the boxes overlap another.
+    /// The boxes that overlap another box.
     #[inline]
     pub(crate) fn overlapping(&self, other: &Probe) -> Places {
         let mut both = [SPARE; 2];
         for axis in 0..3 {
             for (word, both) in both.iter_mut().enumerate() {
-                // A spare bit stays where its cell of `high` is at least that of `low`.
+                // A guard bit survives where the cell of `high` is at least that of `low`.
                 *both &=
                     (other.high[axis] - self.low[axis][word]) & (self.high[axis][word] - other.low[axis]);
             }
@@ -106,12 +107,12 @@ impl EightBoxes {
     }
 }
 
-/// Some of eight places, ascending: two bits at the bottom of each field.
+/// Subset of eight positions, iterated in ascending order: two bits at the bottom of each field.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Places(pub(crate) u64);
 
 impl Places {
-    /// Those from a place on.
+    /// The positions from `place` on.
     #[inline]
     pub(crate) fn from(self, place: usize) -> Self {
         if place >= WIDTH { Self(0) } else { Self(self.0 & (u64::MAX << Self::bit(place))) }

@@ -1,19 +1,20 @@
-//! [`FineBox`]: the box of a triangle on a fine grid, packed so that a few subtractions compare two of them.
+//! [`FineBox`]: bounding box of a triangle on a fine grid, packed so that a few subtractions compare two
+//! boxes.
 
 use super::packed_boxes::{CELL_BITS, GridBox, OUTSIDE};
 use crate::mesh::order::morton_curve::spread;
 
-/// Bits of a fine cell along one axis; the next bit is a spare one.
+/// Bits of a fine cell along one axis; the next bit is a guard bit.
 const FINE_BITS: u32 = 20;
-/// Distance between the three fields of a word of fine cells.
+/// Distance between the three fields of a word, in bits.
 pub(crate) const FINE_FIELD: u32 = FINE_BITS + 1;
-/// The spare bit of each field of fine cells.
+/// The guard bit of each field.
 const FINE_SPARE: u64 = (1 | 1 << FINE_FIELD | 1 << (2 * FINE_FIELD)) << FINE_BITS;
-/// The last of the fine cells.
+/// The last fine cell.
 pub(crate) const LAST_FINE: u32 = (1 << FINE_BITS) - 2;
 
-/// The box of a triangle on the fine grid: its lowest and its highest cell along each axis, packed, the latter with all
-/// spare bits set.
+/// Bounding box on the fine grid: packed lowest and highest cell along each axis. All guard bits of `high`
+/// are set.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct FineBox {
     low: u64,
@@ -35,11 +36,11 @@ impl FineBox {
 
     #[inline]
     pub(crate) fn overlaps(self, other: Self) -> bool {
-        // A spare bit stays where its cell of `high` is at least that of `low`.
+        // A guard bit survives where the cell of `high` is at least that of `low`.
         (self.high - other.low) & (other.high - self.low) & FINE_SPARE == FINE_SPARE
     }
 
-    /// The box on the grid around it.
+    /// The enclosing box on the coarse grid.
     #[inline]
     pub(crate) fn coarse(self) -> GridBox {
         let mut made = GridBox::EMPTY;
@@ -57,7 +58,7 @@ impl FineBox {
     /// Position of the centre along the Morton curve, 30 bits.
     #[inline]
     pub(crate) fn curve_key(self) -> u32 {
-        // The sum of two cells fills the spare bit, never the next field.
+        // The sum of two cells may reach the guard bit, but never the next field.
         let twice_centre = self.low + (self.high & !FINE_SPARE);
         let axis = |n: u32| {
             let top = (twice_centre >> (n * FINE_FIELD + FINE_FIELD - 10)) as u32 & 0x3ff;
@@ -67,7 +68,7 @@ impl FineBox {
     }
 }
 
-/// Value bits set where the fine cell of `a` is at least that of `b`.
+/// All value bits of the fields where the cell of `a` is at least that of `b`.
 #[inline]
 fn not_less_mask(a: u64, b: u64) -> u64 {
     let spare = ((a | FINE_SPARE) - b) & FINE_SPARE;

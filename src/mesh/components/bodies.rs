@@ -1,10 +1,12 @@
 //! Bodies: parts whose surfaces continue in each other.
 //!
-//! Files may put each face of one surface in a group of its own. What its shape is for must not depend on that, so shapes and
-//! tolerances are decided for bodies. Two parts are of one body if an edge has exactly two faces, one of each: then neither part
-//! has another face there in which its surface goes on. Parts that merely touch have faces of their own on both sides of an
-//! edge, and stay apart. Where other bodies touch the edge as well, of the parts with one face there those are of one body whose faces
-//! enclose material.
+//! Files may store each face of a surface as a separate part. Classification and tolerances must not depend
+//! on this, so they are computed per body.
+//!
+//! 1. Two parts belong to one body if some edge has exactly two faces, one of each part.
+//! 2. Where several bodies share an edge, the parts with one face there are paired if their faces enclose
+//!    material.
+//! 3. Parts that only touch have two faces each at the edge, and stay separate.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -13,10 +15,10 @@ use crate::geometry::numbers::portable_math::atan2;
 use crate::mesh::{EdgeFaces, Edges, Groups, Mesh, PartId, Soup};
 use crate::parallel::task_size::GRAIN;
 
-/// Faces at an edge at an angle of no more than this (radians) lie in one plane: what moving a model leaves of flat faces.
+/// Maximum angle at an edge between coplanar faces, radians. It covers the rounding of moved models.
 const IN_PLANE: f64 = 1e-6;
 
-/// For each part the first part of its body; empty if each part is a body of its own.
+/// For each part, the first part of its body; empty if every part is a separate body.
 pub(crate) fn bodies(soup: &Soup, edges: &Edges) -> Vec<PartId> {
     let parts = &soup.triangle_part;
     let count = parts.par_iter().with_min_len(GRAIN).map(|part| part.index() + 1).max().unwrap_or(0);
@@ -47,12 +49,13 @@ pub(crate) fn bodies(soup: &Soup, edges: &Edges) -> Vec<PartId> {
     (0..count as u32).map(|part| PartId(groups.of(part))).collect()
 }
 
-/// The pairs of faces round an edge that have material between them: a face that has it on the side to which angles grow, and the
-/// next one that has it on the other side.
+/// Pairs of faces around an edge with material between them: a face with material in the direction of growing
+/// angles, and the next face with material on the other side.
 fn wedges(soup: &Soup, [from, to]: [u32; 2], faces: &[u32]) -> Vec<[u32; 2]> {
     let at = |v: u32| soup.positions[v as usize];
     let Some(axis) = (at(to) - at(from)).try_normalize() else { return Vec::new() };
-    // Away from the edge, and whether the face runs from its first end to its second; nothing of faces without area.
+    // Direction away from the edge, and whether the face runs along the edge from its first end to its
+    // second. `None` for faces without area.
     let spoke = |face: u32| {
         let corners = soup.triangles[face as usize];
         let k = corners.iter().position(|v| *v != from && *v != to)?;
@@ -71,8 +74,8 @@ fn wedges(soup: &Soup, [from, to]: [u32; 2], faces: &[u32]) -> Vec<[u32; 2]> {
         round.push((if angle > half - IN_PLANE { angle - 2.0 * half } else { angle }, *up, *face));
     }
     round.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // In one plane, what is closed comes before what begins. Of faces that lie on each other, that of the first part is the nearest to
-    // what it encloses, at every edge.
+    // Among coplanar faces, wedges end before others begin. Of coincident faces, the one of the first part is
+    // the nearest to the enclosed material at every edge.
     let part = |face: u32| soup.triangle_part.get(face as usize).map_or(0, |part| part.0);
     for own in round.chunk_by_mut(|a, b| b.0 - a.0 <= IN_PLANE) {
         own.sort_by_key(|(_, up, face)| {
@@ -89,14 +92,14 @@ fn wedges(soup: &Soup, [from, to]: [u32; 2], faces: &[u32]) -> Vec<[u32; 2]> {
             (true, Some(_)) => pairs.extend(begun.pop().map(|first| [first, face])),
         }
     }
-    // Once round.
+    // Wedges that cross the start angle.
     for face in left {
         pairs.extend(begun.pop().map(|first| [first, face]));
     }
     pairs
 }
 
-/// The body of a part, by what [`bodies`] found.
+/// The body of a part, from the result of [`bodies`].
 #[inline]
 #[must_use]
 pub fn body_of(bodies: &[PartId], part: PartId) -> PartId {
@@ -104,14 +107,14 @@ pub fn body_of(bodies: &[PartId], part: PartId) -> PartId {
 }
 
 impl Mesh {
-    /// The body that a face belongs to, by its first part.
+    /// Body of a face, identified by its first part.
     #[inline]
     #[must_use]
     pub fn body(&self, face: u32) -> PartId {
         body_of(&self.bodies, self.face_part[face as usize])
     }
 
-    /// The body of each face; empty if all are of one.
+    /// Body of each face; empty if there is only one.
     #[must_use]
     pub fn face_bodies(&self) -> Vec<PartId> {
         let body = |part: &PartId| body_of(&self.bodies, *part);
@@ -132,11 +135,11 @@ mod tests {
     use super::*;
     use crate::mesh::Soup;
 
-    /// Six sides of a box of two triangles, with corners numbered by their coordinates.
+    /// Six sides of a box with two triangles each. Corner numbers are binary coordinates.
     const SIDES: [[u32; 4]; 6] =
         [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
 
-    /// Adds a box whose sides are of parts that `part` gives by their number.
+    /// Adds a box. `part` maps the side number to a part.
     fn add_box(soup: &mut Soup, low: DVec3, part: impl Fn(u32) -> u32) {
         let first = soup.positions.len() as u32;
         let corner = |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2));
@@ -152,9 +155,9 @@ mod tests {
     fn sides_of_one_box_are_one_body_and_boxes_that_touch_are_two() {
         let mut soup = Soup::default();
         add_box(&mut soup, DVec3::ZERO, |side| side);
-        // It lies on the first one, and shares no edge with it.
+        // Touches the first box without a common edge.
         add_box(&mut soup, DVec3::new(1.0, 0.25, 0.0), |side| 6 + side);
-        // These two share nothing but an edge.
+        // These two share only an edge.
         add_box(&mut soup, DVec3::new(5.0, 0.0, 0.0), |_| 12);
         add_box(&mut soup, DVec3::new(6.0, 1.0, 0.0), |_| 13);
         let mesh = Mesh::build(soup);
@@ -174,7 +177,8 @@ mod tests {
 
     #[test]
     fn of_sides_and_a_sheet_on_one_of_them_the_sides_are_one_body() {
-        // Corners of every side in another order, so that at each edge the sides come in another one, and the sheet before and after them.
+        // Rotates the corners of every side, so that the order of faces at each edge varies. The sheet comes
+        // before or after them.
         for sheet in [0, 1, 7] {
             for corner in 0..4 {
                 let mut soup = Soup::default();

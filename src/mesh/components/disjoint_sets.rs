@@ -1,9 +1,10 @@
-//! [`Groups`]: which faces hang together, by whatever joins them.
+//! [`Groups`]: concurrent union-find over faces.
 //!
-//! Pairs may be told from several threads at once: faces stand in trees, of which the least face is the root, and two trees
-//! are joined by hanging the root that is greater below the other. Whoever comes first, the least face of a group is its
-//! root in the end. Source: Jayanti and Tarjan, "Concurrent disjoint set union", 2021, with the order of faces in the place of
-//! a random one.
+//! Any thread may join pairs. Faces form trees, and a join links the greater root below the smaller one. The
+//! root of a set is therefore always its smallest face, in any order of joins.
+//!
+//! Source: Jayanti and Tarjan, "Concurrent disjoint set union", 2021. The order of faces replaces their
+//! random order.
 
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
@@ -12,33 +13,33 @@ use crate::geometry::lists::rank_bitset::Ranks;
 use crate::parallel::prelude::*;
 use crate::parallel::task_size::GRAIN;
 
-/// Faces in groups, each known by the least face in it.
+/// Disjoint sets of faces, each identified by its smallest face.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Groups {
     first: Vec<u32>,
 }
 
 impl Groups {
-    /// The groups of `count` faces of which `joins` tells pairs, on any threads and in any order.
+    /// The sets of `count` faces. `joins` calls its argument with pairs, on any threads and in any order.
     #[must_use]
     pub fn new(count: usize, joins: impl FnOnce(&(dyn Fn(u32, u32) + Sync))) -> Self {
         let parents: Vec<AtomicU32> =
             (0..count as u32).into_par_iter().with_min_len(GRAIN).map(AtomicU32::new).collect();
         joins(&|a, b| join(&parents, a, b));
-        // Into a list of its own: a thread that halves a way may write what it read before another found the root.
+        // A separate list, because path halving on another thread may overwrite an entry with an older value.
         let root = |face| root(&parents, face);
         Self { first: (0..count as u32).into_par_iter().with_min_len(GRAIN).map(root).collect() }
     }
 
-    /// The least face of the group that a face is in.
+    /// The smallest face in the set of a face.
     #[inline]
     #[must_use]
     pub fn of(&self, face: u32) -> u32 {
         self.first[face as usize]
     }
 
-    /// The groups numbered in the order of their first faces, but for those of which `instead` tells by the first face what stands
-    /// in the place of a number.
+    /// Numbers the sets in the order of their first faces. Where `instead` returns a value for the first face
+    /// of a set, that value is stored and the set gets no number.
     #[must_use]
     pub fn numbered(self, instead: impl Fn(u32) -> Option<u32> + Sync) -> Numbered {
         let Self { first: mut of_face } = self;
@@ -56,29 +57,29 @@ impl Groups {
     }
 }
 
-/// Groups with numbers in place of faces.
+/// Disjoint sets with consecutive numbers.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Numbered {
-    /// The number of the group of each face.
+    /// Set number of each face.
     pub of_face: Vec<u32>,
-    /// The least face of each group.
+    /// The smallest face of each set.
     pub first: Vec<u32>,
 }
 
-/// Makes one tree of those of two faces.
+/// Joins the trees of two faces.
 fn join(parents: &[AtomicU32], mut a: u32, mut b: u32) {
     loop {
         (a, b) = (root(parents, a), root(parents, b));
         let (least, most) = (a.min(b), a.max(b));
-        // Another thread may have hung it somewhere meanwhile.
+        // Another thread may have linked the root in the meantime.
         if a == b || parents[most as usize].compare_exchange(most, least, Relaxed, Relaxed).is_ok() {
             return;
         }
     }
 }
 
-/// The least face known of a group; the way there is halved for those who come after. Whatever other threads do meanwhile, above
-/// a face stand faces of its group alone, each less than the one below.
+/// The root of a face, with path halving. Concurrent changes keep the invariant: all ancestors of a face
+/// belong to its set, and each is smaller than its child.
 fn root(parents: &[AtomicU32], mut face: u32) -> u32 {
     let above = |face: u32| parents[face as usize].load(Relaxed);
     loop {
@@ -118,7 +119,7 @@ mod tests {
 
     #[test]
     fn threads_may_join_at_once() {
-        // Steps that meet all over; multiples of seven stay alone.
+        // Pairs that connect distant numbers; multiples of seven stay alone.
         let count = 100_000_u32;
         let pairs: Vec<[u32; 2]> = (0..count)
             .map(|k| if k % 2 == 0 { k } else { count - k })
@@ -128,7 +129,7 @@ mod tests {
         let pool = rayon_core::ThreadPoolBuilder::new().num_threads(4).build().expect("a pool");
         let groups = pool
             .install(|| Groups::new(count as usize, |join| pairs.par_iter().for_each(|[a, b]| join(*a, *b))));
-        // As slow and plain as can be: the least number is handed on until nothing changes.
+        // Reference: the smallest number is propagated until nothing changes.
         let mut plain: Vec<u32> = (0..count).collect();
         let mut before = Vec::new();
         while before != plain {
@@ -139,7 +140,7 @@ mod tests {
             }
         }
         assert_eq!(groups.first, plain);
-        // Their numbers are how many first faces come before theirs, but for multiples of 14.
+        // Set numbers count the first faces before theirs, except multiples of 14.
         let counts = |first: u32| !first.is_multiple_of(14);
         let numbered = groups.numbered(|first| (!counts(first)).then_some(9));
         let firsts: Vec<u32> = (0..count).filter(|k| plain[*k as usize] == *k && counts(*k)).collect();
@@ -150,12 +151,12 @@ mod tests {
 
     #[test]
     fn a_root_that_several_threads_hang_at_once_is_hung_below_all() {
-        // Whoever comes next has a lesser face for the group of the last one than all before.
+        // Every join links the last face to a smaller root than before.
         let (threads, each) = (4, 50_000_u32);
         let last = threads * each;
         let pool =
             rayon_core::ThreadPoolBuilder::new().num_threads(threads as usize).build().expect("a pool");
-        // Often enough that two of them surely meet.
+        // Enough repetitions for two joins to collide.
         for _ in 0..40 {
             let groups = pool.install(|| {
                 Groups::new(last as usize + 1, |join| {

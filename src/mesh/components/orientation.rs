@@ -1,12 +1,14 @@
-//! [`Surfaces`]: the connected surfaces of a mesh, and which faces must be turned so that each shows its outside.
+//! [`Surfaces`]: connected surfaces of a mesh, and the faces to turn so that each surface shows its outside.
 //!
-//! 1. Faces are connected where exactly two faces meet at an edge, of all parts or of one part.
-//! 2. Within a surface, windings are made to agree by union-find with parity. Surfaces with one side (Möbius strips) stay unchanged.
-//! 3. A closed surface encloses a positive volume. Each counts on its own, also inside another one.
-//! 4. An open surface is closed by a cone over its border. Where the volume has the same sign for every apex in the ball around the
-//!    surface, that sign counts, as for a box without lid. Otherwise, as in sheets, the winding of the larger area stays.
+//! 1. Faces are connected where exactly two faces meet at an edge, counted over all parts or within one part.
+//! 2. Windings within a surface are made consistent by union-find with parity. One-sided surfaces (Möbius
+//!    strips) stay unchanged.
+//! 3. A closed surface must enclose a positive volume. Each one counts separately, also inside another one.
+//! 4. An open surface is closed by a cone over its border. If the volume has the same sign for every apex in
+//!    the ball around the surface, that sign decides, as for a box without a lid. Otherwise, as for sheets,
+//!    the winding of the larger area is kept.
 //!
-//! All sums are taken in a fixed order, so that the number of threads changes nothing.
+//! All sums have a fixed order, so that the number of threads has no effect.
 
 use std::sync::atomic::AtomicBool;
 use std::sync::atomic::Ordering::Relaxed;
@@ -28,7 +30,7 @@ pub struct TurnedFaces {
     pub surfaces: u64,
 }
 
-/// Triangles with the edges that connect them.
+/// Triangles and their edges.
 pub(crate) struct Triangles<'a> {
     pub positions: &'a [DVec3],
     pub triangles: &'a [[u32; 3]],
@@ -40,9 +42,9 @@ pub(crate) struct Triangles<'a> {
 /// The connected surfaces of a mesh.
 #[derive(Debug, Default)]
 pub(crate) struct Surfaces {
-    /// The surface of each face.
+    /// Surface of each face.
     pub of_face: Numbered,
-    /// Whether each surface is closed and has two sides.
+    /// Whether each surface is closed and two-sided.
     pub is_closed: Vec<bool>,
     /// Whether each face must be turned; empty if none must.
     pub turned: Vec<bool>,
@@ -85,7 +87,8 @@ impl Surfaces {
         self.is_closed.contains(&false)
     }
 
-    /// Leaves open surfaces unchanged, and gives which of their faces would be turned; empty if none would.
+    /// Restricts the turns to closed surfaces. Returns the turns of faces of open surfaces; empty if there
+    /// are none.
     pub fn turn_closed_only(&mut self) -> Vec<bool> {
         let is_open = |surface: &u32| !self.is_closed[*surface as usize];
         let of_face = &self.of_face.of_face;
@@ -100,7 +103,7 @@ impl Surfaces {
         of_open
     }
 
-    /// Adds the faces that must be turned to the counts of their parts, which are in the order of parts.
+    /// Adds the turned faces to the counts per part, which are in part order.
     pub fn count(&self, parts: &[PartId], counts: &mut Vec<TurnedFaces>) {
         let part = |face: usize| parts.get(face).copied().unwrap_or_default();
         let faces = (0..self.turned.len()).filter(|face| self.turned[*face]);
@@ -121,7 +124,7 @@ impl Surfaces {
     }
 }
 
-/// Turns faces of a soup, with all that is stored for their corners and sides.
+/// Turns faces of a soup, with all attributes of their corners and sides.
 pub(crate) fn turn_faces(soup: &mut Soup, turned: &[bool]) {
     fn turn<T: Send>(list: &mut [[T; 3]], turned: &[bool], [one, other]: [usize; 2]) {
         let all = list.par_iter_mut().zip(turned).with_min_len(GRAIN);
@@ -135,28 +138,28 @@ pub(crate) fn turn_faces(soup: &mut Soup, turned: &[bool]) {
     turn(&mut soup.edge_marks, turned, [0, 2]);
 }
 
-/// Per surface, what its edges say.
+/// Properties of each surface, found at its edges.
 struct Joints {
-    /// Whether it ends somewhere.
+    /// Whether it has a border.
     open: Vec<bool>,
-    /// Whether neighbours are wound against each other.
+    /// Whether some neighbours have opposite windings.
     mixed: Vec<bool>,
 }
 
-/// The sums over the faces of a surface, as seen from one of its corners.
+/// Sums over the faces of a surface, relative to one of its corners.
 #[derive(Clone, Copy, Default)]
 struct Sums {
     faces: u32,
     area: f64,
-    /// Area of the faces that agreement with their neighbours turns.
+    /// Area of the faces turned for consistency with their neighbours.
     turned_area: f64,
-    /// Sum of the normals, each as long as its face is large.
+    /// Sum of the face normals, each with the length of the area.
     normal: DVec3,
     /// Volume of the cone from the corner over the surface.
     volume: f64,
     /// Largest distance from the corner.
     reach: f64,
-    /// Sum of the middles of the faces, each times its area.
+    /// Sum of the face centroids, weighted by area.
     moment: DVec3,
     /// Largest distance from the centroid; 0 for closed surfaces.
     radius: f64,
@@ -174,7 +177,7 @@ impl Sums {
         self.radius = self.radius.max(other.radius);
     }
 
-    /// The centroid of the surface, from the corner.
+    /// Centroid of the surface, relative to the corner.
     fn centroid(&self) -> DVec3 {
         if self.area > 0.0 { self.moment / self.area } else { DVec3::ZERO }
     }
@@ -184,14 +187,15 @@ impl Sums {
         // The error of a sum of n numbers is at most n units in the last place of the sum of their sizes.
         // Source: Higham, "Accuracy and stability of numerical algorithms", 2002, section 4.2.
         let rounding = f64::from(self.faces.saturating_add(8)) * f64::EPSILON * self.area * self.reach;
-        // The volume of the cone from another apex differs by how far that lies along the sum of normals.
+        // For another apex, the volume of the cone changes by the dot product of the offset and the sum of
+        // normals.
         let volume = self.volume - self.centroid().dot(self.normal) / 3.0;
         let most = self.normal.length() * self.radius / 3.0 + rounding;
         if volume.abs() > most { volume < 0.0 } else { self.turned_area > self.area - self.turned_area }
     }
 }
 
-/// Edges that one task looks at.
+/// Number of edges per task.
 const CHUNK: usize = 1 << 12;
 
 impl Triangles<'_> {
@@ -206,14 +210,15 @@ impl Triangles<'_> {
         [(a, b), (b, c), (c, a)].contains(&(lo, hi))
     }
 
-    /// Calls with the pairs of faces that an edge connects, and whether both run along it the same way.
+    /// Calls `call` with each pair of faces that an edge connects, and whether both run along it in the same
+    /// direction.
     #[inline]
     fn each_pair(&self, edge: usize, mut call: impl FnMut(u32, u32, bool)) {
         match self.edges.faces(edge) {
             EdgeFaces::One(_) => {}
             EdgeFaces::Two { faces: [a, b], same_way } => call(a, b, same_way),
             EdgeFaces::Many(faces) => {
-                // Parts that touch have pairs of their own.
+                // Parts that touch are paired separately.
                 let mut own: Vec<(PartId, u32)> =
                     faces.iter().map(|face| (self.part(*face), *face)).collect();
                 own.sort_unstable();
@@ -260,7 +265,8 @@ impl Triangles<'_> {
         Joints { open: values(open), mixed: values(mixed) }
     }
 
-    /// Which faces to turn so that neighbours agree; surfaces where this is impossible are `twisted` and stay unchanged.
+    /// The faces to turn for consistent windings. Surfaces where this is impossible are marked as `twisted`
+    /// and stay unchanged.
     fn agreeing(&self, surfaces: &Numbered, mixed: &[bool], twisted: &mut [bool]) -> Vec<bool> {
         let of = |face: u32| surfaces.of_face[face as usize] as usize;
         let mut parities = Parities::new(self.triangles.len());
@@ -298,7 +304,7 @@ impl Triangles<'_> {
         sums
     }
 
-    /// Adds how far open surfaces reach from their centroids.
+    /// Adds the radius of each open surface around its centroid.
     fn add_radii(&self, surfaces: &Numbered, is_closed: &[bool], sums: &mut [Sums]) {
         if !is_closed.contains(&false) {
             return;
@@ -314,7 +320,7 @@ impl Triangles<'_> {
         self.each_run(surfaces, of_face, |surface, own| sums[surface].add(&own));
     }
 
-    /// The corners of a face, as seen from the first corner of its surface.
+    /// Corners of a face, relative to the first corner of its surface.
     #[inline]
     fn corners_relative_to_first(&self, surfaces: &Numbered, surface: u32, face: usize) -> [DVec3; 3] {
         let first = self.triangles[surfaces.first[surface as usize] as usize][0];
@@ -322,7 +328,7 @@ impl Triangles<'_> {
         self.triangles[face].map(|v| self.positions[v as usize] - from)
     }
 
-    /// Sums what each face has over runs of faces of one surface, in parallel, and calls with the sums in the order of faces.
+    /// Sums values over runs of faces of one surface, in parallel. Calls `call` with the sums in face order.
     fn each_run(
         &self,
         surfaces: &Numbered,
@@ -346,9 +352,9 @@ impl Triangles<'_> {
     }
 }
 
-/// Union-find over faces that also knows whether a face must be turned to agree with the root of its set.
+/// Union-find over faces with parity: whether a face must be turned to match the root of its set.
 struct Parities {
-    /// The face above each, and whether the two disagree.
+    /// Parent of each face, and whether their windings disagree.
     above: Vec<(u32, bool)>,
 }
 
@@ -357,13 +363,13 @@ impl Parities {
         Self { above: (0..count as u32).map(|face| (face, false)).collect() }
     }
 
-    /// The root of a face, and whether the two disagree.
+    /// Root of a face, and whether their windings disagree.
     fn root(&mut self, face: u32) -> (u32, bool) {
         let (mut at, mut disagree) = (face, false);
         while self.above[at as usize].0 != at {
             let (next, odd) = self.above[at as usize];
             let (after, more) = self.above[next as usize];
-            // Halves the way for those who come after.
+            // Path halving.
             self.above[at as usize] = (after, odd ^ more);
             disagree ^= odd ^ more;
             at = after;
@@ -371,7 +377,7 @@ impl Parities {
         (at, disagree)
     }
 
-    /// Joins two faces that agree or not; false if they are known to be the other way.
+    /// Joins two faces. Returns false if the new relation contradicts the known one.
     fn join(&mut self, a: u32, b: u32, disagree: bool) -> bool {
         let ((a, odd_a), (b, odd_b)) = (self.root(a), self.root(b));
         let odd = odd_a ^ odd_b ^ disagree;

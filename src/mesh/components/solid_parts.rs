@@ -1,10 +1,10 @@
-//! Which parts belong to closed surfaces that are wound outward, so that nobody sees their inside.
+//! Parts of closed, outward-facing bodies, whose inside is never visible.
 
 use super::bodies::body_of;
 use crate::mesh::{EdgeFaces, FaceId, Mesh, PartId};
 
-/// For each part, whether all edges of its body have two faces that run against each other and the volume of the body is
-/// positive. A body with a hole, however small, is not closed.
+/// For each part, whether its body is closed and has a positive volume. In a closed body, all edges have two
+/// consistently wound faces. A hole of any size makes a body open.
 #[must_use]
 pub fn solid_parts(mesh: &Mesh) -> Vec<bool> {
     let parts = mesh.face_part.iter().map(|p| p.index() + 1).max().unwrap_or(0);

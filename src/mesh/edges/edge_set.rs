@@ -1,17 +1,17 @@
-//! [`EdgeSet`]: some edges of a mesh, one bit each.
+//! [`EdgeSet`]: set of edges of a mesh, as a bit set.
 
 use crate::parallel::prelude::*;
 use crate::parallel::task_size::GRAIN;
 
-/// A set of edges of one mesh.
+/// Set of edges of one mesh.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct EdgeSet {
-    /// Empty if the set is.
+    /// 64 edges per word; empty if the set is.
     words: Vec<u64>,
 }
 
 impl EdgeSet {
-    /// The edges below `count` with `holds`.
+    /// The edges below `count` that satisfy `holds`.
     #[must_use]
     pub fn collect(count: usize, holds: impl Fn(usize) -> bool + Sync) -> Self {
         let word = |k: usize| {
@@ -23,26 +23,26 @@ impl EdgeSet {
         if words.iter().all(|word| *word == 0) { Self::default() } else { Self { words } }
     }
 
-    /// Whether an edge is in it.
+    /// Whether the set contains an edge.
     #[inline]
     #[must_use]
     pub fn contains(&self, edge: usize) -> bool {
         self.words.get(edge / 64).is_some_and(|word| word >> (edge % 64) & 1 == 1)
     }
 
-    /// Whether it holds no edge.
+    /// Whether the set is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.words.is_empty()
     }
 
-    /// The bits of its edges, 64 a word; none if it is empty.
+    /// The bits of the set, 64 edges per word; empty if the set is.
     #[must_use]
     pub fn into_words(self) -> Vec<u64> {
         self.words
     }
 
-    /// Does something with each of its edges, on all threads.
+    /// Calls `does` with each edge, in parallel.
     pub fn par_for_each(&self, does: impl Fn(usize) + Sync) {
         self.words.par_iter().enumerate().with_min_len(GRAIN / 64).for_each(|(k, word)| {
             let mut word = *word;
@@ -53,14 +53,14 @@ impl EdgeSet {
         });
     }
 
-    /// Its edges, ascending.
+    /// The edges, ascending.
     pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
         self.words.iter().enumerate().filter(|(_, word)| **word != 0).flat_map(|(k, word)| {
             (0..64).filter(move |bit| word >> bit & 1 == 1).map(move |bit| 64 * k + bit)
         })
     }
 
-    /// These edges of `count` and those of the set.
+    /// The set with more edges added; the mesh has `count` edges.
     #[must_use]
     pub fn with(&self, more: &[usize], count: usize) -> Self {
         if more.is_empty() {
@@ -72,7 +72,8 @@ impl EdgeSet {
         Self { words }
     }
 
-    /// The edges of a mesh with `count` edges that these became, each the one that `ids` tells; `u32::MAX` is none.
+    /// The set in a derived mesh with `count` edges. `ids` maps the edges of this mesh to it, `u32::MAX` for
+    /// edges that are gone.
     #[must_use]
     pub fn carried(&self, ids: &[u32], count: usize) -> Self {
         let mut words = Vec::new();

@@ -1,5 +1,7 @@
-//! The edges of a mesh of which some faces were left out or cut into pieces: those of the whole, without what went, and
-//! those of the pieces, in the order that building them anew would give.
+//! Update of an edge table after faces were removed or cut into pieces.
+//!
+//! Edges of kept faces are copied, edges of pieces are built, and both are merged. The result equals a new
+//! table.
 
 use std::ops::Range;
 
@@ -8,20 +10,20 @@ use crate::parallel::prelude::*;
 use super::edge_table::{MANY, NONE, SAME_WAY};
 use crate::mesh::{EdgeFaces, Edges};
 
-/// No edge, no face.
+/// Marks a removed edge or face.
 const GONE: u32 = u32::MAX;
 
-/// Edges that one task looks at.
+/// Number of edges per task.
 const CHUNK: usize = 1 << 13;
-/// More edges than this are spliced by one, so that nothing is there twice.
+/// Above this number of edges, one task does everything, so that nothing is stored twice.
 const MANY_EDGES: usize = 1 << 20;
 
 impl Edges {
-    /// The edges after faces were cut: `renamed` are the new numbers of the faces, `u32::MAX` for those that were cut; the
-    /// others are the first `kept` ones and keep their order. `pieces` follow them, whose new vertices are numbered behind all
-    /// others. Each side of a face that was cut is a side of one piece, or is cut for all faces beside it.
+    /// The edges after faces were cut, with the new id of each old edge (`u32::MAX` for cut edges).
     ///
-    /// Also tells for each edge of before which it is now, `u32::MAX` for those that were cut.
+    /// `renamed` holds the new number of each face, `u32::MAX` for cut ones. The others are the first `kept`
+    /// faces and keep their order. The `pieces` follow; their new vertices are numbered after all others.
+    /// Each side of a cut face is a side of one piece, or is cut for all adjacent faces.
     pub(crate) fn spliced(
         &self,
         renamed: &[u32],
@@ -34,7 +36,7 @@ impl Edges {
         self.spliced_in_chunks(chunk, &own, renamed, kept)
     }
 
-    /// Does so with the edges of the pieces, and so many edges at a time.
+    /// Same, with the edges `own` of the pieces, and `chunk` edges per task.
     fn spliced_in_chunks(&self, chunk: usize, own: &Self, renamed: &[u32], kept: u32) -> (Self, Vec<u32>) {
         let place = |edge: usize| match self.vertices.get(edge) {
             Some(_) if edge == 0 => 0,
@@ -56,7 +58,8 @@ impl Edges {
         (Self::joined(parts), ids)
     }
 
-    /// Does so for some of the edges, and those of the pieces that stand before and among them. The ids begin with the first of these.
+    /// Same for a range of the edges, with the edges of the pieces that sort before and among them. Ids are
+    /// relative to this range.
     fn spliced_part(
         &self,
         edges: Range<usize>,
@@ -120,21 +123,21 @@ impl Edges {
         (all, ids)
     }
 
-    /// The edges after faces were left out: `renamed` are the new numbers of the faces, which keep their order, `u32::MAX` for
-    /// those that went; `triangles` are those that are left.
+    /// The edges after faces were removed. `renamed` holds the new number of each face, `u32::MAX` for
+    /// removed ones; the order is kept. `triangles` are the remaining ones.
     pub(crate) fn without(&self, renamed: &[u32], triangles: &[[u32; 3]]) -> Self {
         let chunk = if self.len() > MANY_EDGES { self.len() } else { CHUNK };
         self.without_in_chunks(chunk, renamed, triangles)
     }
 
-    /// Does so for so many edges at a time.
+    /// Same, with `chunk` edges per task.
     fn without_in_chunks(&self, chunk: usize, renamed: &[u32], triangles: &[[u32; 3]]) -> Self {
         let some =
             |k: usize| self.some_without(k * chunk..((k + 1) * chunk).min(self.len()), renamed, triangles);
         Self::joined((0..self.len().div_ceil(chunk)).into_par_iter().with_max_len(1).map(some).collect())
     }
 
-    /// Does so for some of the edges.
+    /// Same for a range of the edges.
     fn some_without(&self, edges: Range<usize>, renamed: &[u32], triangles: &[[u32; 3]]) -> Self {
         let mut all = Self::default();
         all.vertices.reserve_exact(edges.len());
@@ -162,7 +165,7 @@ impl Edges {
         all
     }
 
-    /// Adds an edge of others, whose faces have other numbers here.
+    /// Adds an edge of another table. `number` maps its face numbers.
     #[inline]
     pub(crate) fn add(&mut self, others: &Self, edge: usize, number: impl Fn(u32) -> u32) {
         let faces = others.faces(edge);
@@ -177,7 +180,7 @@ impl Edges {
         }
     }
 
-    /// Adds an edge behind all others.
+    /// Appends an edge.
     #[inline]
     pub(crate) fn push(&mut self, ends: [u32; 2], faces: &[u32], same_way: bool) {
         self.vertices.push(ends);
@@ -197,7 +200,7 @@ impl Edges {
 mod tests {
     use super::*;
 
-    /// A square of cells, each cut in two, with a fin on one of its edges and a face that runs against the others.
+    /// Square of cells, each cut in two. It has a fin at one edge, and one face with reversed winding.
     fn sheet(n: u32) -> Vec<[u32; 3]> {
         let at = |x: u32, y: u32| y * (n + 1) + x;
         let mut faces = Vec::new();
@@ -239,7 +242,7 @@ mod tests {
         let faces = sheet(n);
         let count = (n + 1) * (n + 1) + 1;
         let edges = Edges::build(count as usize, &faces);
-        // Some edges get a middle; faces with one or two of them are cut into fans round a corner.
+        // Some edges get a middle vertex. Faces with such edges are cut into fans.
         for every in [1, 2, 5, 200] {
             let middle = |a: u32, b: u32| {
                 let edge = edges.vertices.binary_search(&[a.min(b), a.max(b)]).unwrap();
@@ -256,7 +259,7 @@ mod tests {
                     renamed.push(kept.len() as u32);
                     kept.push(face);
                 } else {
-                    // Round a point of its own, so that no side runs along another.
+                    // Around a separate centre vertex, so that sides never overlap.
                     let own = count + edges.len() as u32 + renamed.len() as u32;
                     renamed.push(GONE);
                     pieces.extend((0..ring.len()).map(|k| [ring[k], ring[(k + 1) % ring.len()], own]));

@@ -1,27 +1,28 @@
-//! [`Edges`]: which faces meet at which edge, found by counting sort on the smaller vertex.
+//! [`Edges`]: edges of a mesh and the faces at each edge, by counting sort on the smaller vertex.
 //!
-//! Each worker owns a share of the vertices and takes the edges whose smaller vertex lies in it, so
-//! the result does not depend on how many workers there are.
+//! Each task handles a block of vertices and the edges whose smaller vertex is in it. The result does not
+//! depend on the number of threads.
 
 use crate::parallel::prelude::*;
 
-use super::vertex_blocks::{Share, share_count, shares};
+use super::vertex_ranges::{Share, share_count, shares};
 use crate::parallel::task_size::GRAIN;
 
 pub(crate) const NONE: u32 = u32::MAX;
 pub(crate) const MANY: u32 = u32::MAX - 1;
 pub(crate) const SAME_WAY: u32 = 1 << 31;
 
-/// The faces that meet at an edge.
+/// Faces that meet at an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum EdgeFaces<'a> {
     /// A border.
     One(u32),
-    /// The usual case.
+    /// Two faces, as almost everywhere.
     Two {
         /// The two faces, the one earlier in the mesh first.
         faces: [u32; 2],
-        /// Whether both run along the edge the same way, as no well-wound surface does.
+        /// Whether both run along the edge in the same direction, which does not occur on a consistently
+        /// wound surface.
         same_way: bool,
     },
     /// A non-manifold edge: three or more faces, in mesh order.
@@ -29,7 +30,7 @@ pub enum EdgeFaces<'a> {
 }
 
 impl<'a> EdgeFaces<'a> {
-    /// Each of them, in mesh order.
+    /// The faces in mesh order.
     pub fn each(self) -> impl Iterator<Item = u32> + use<'a> {
         let (few, many): ([Option<u32>; 2], &[u32]) = match self {
             Self::One(face) => ([Some(face), None], &[]),
@@ -39,7 +40,7 @@ impl<'a> EdgeFaces<'a> {
         few.into_iter().flatten().chain(many.iter().copied())
     }
 
-    /// All of them, in mesh order.
+    /// The faces in mesh order, as a slice.
     #[must_use]
     pub fn list(&self) -> &[u32] {
         match self {
@@ -50,7 +51,7 @@ impl<'a> EdgeFaces<'a> {
     }
 }
 
-/// All edges of a mesh, ordered by their smaller, then by their larger vertex.
+/// All edges of a mesh, sorted by smaller and then by larger vertex.
 #[derive(Debug, Clone, Default)]
 pub struct Edges {
     /// The two vertices of each edge, the smaller id first.
@@ -58,18 +59,18 @@ pub struct Edges {
     pub(crate) faces: Vec<[u32; 2]>,
     pub(crate) fans: Vec<u32>,
     pub(crate) fan_starts: Vec<u32>,
-    /// Edges (ids) near which faces with the same three vertices may be found.
+    /// Ids of edges near which duplicate faces may occur.
     pub(crate) suspects: Vec<u32>,
 }
 
-/// Vertices whose edges are found as one piece of work: their sides stay in the cache.
+/// Maximum number of vertices per block, so that their sides fit in the cache.
 const SHARE: usize = 1 << 14;
 
-/// A side of a triangle as seen from its smaller vertex.
+/// Side of a triangle, seen from its smaller vertex.
 #[derive(Clone, Copy)]
 struct Side {
     other: u32,
-    /// Face id shifted left by one; bit 0 says whether the face runs from the smaller vertex.
+    /// Face id shifted left by one; bit 0 is set if the face runs from the smaller vertex to the larger.
     face_way: u32,
 }
 
@@ -83,7 +84,7 @@ impl Edges {
         )
     }
 
-    /// The edges of several, one after the other.
+    /// Concatenates several tables.
     pub(crate) fn joined(mut parts: Vec<Self>) -> Self {
         if let [only] = parts.as_mut_slice() {
             return std::mem::take(only);
@@ -120,7 +121,7 @@ impl Edges {
         self.vertices.len()
     }
 
-    /// Whether there are none.
+    /// Whether there are no edges.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.vertices.is_empty()
@@ -144,7 +145,7 @@ impl Edges {
         }
     }
 
-    /// Updates which faces run along an edge the same way after some faces were turned.
+    /// Updates the direction flags after some faces were turned.
     pub(crate) fn turn(&mut self, turned: &[bool]) {
         let is_turned = |face: u32| turned.get(face as usize).copied().unwrap_or_default();
         self.faces.par_iter_mut().with_min_len(GRAIN).for_each(|[first, second]| {
@@ -184,7 +185,7 @@ fn edges_of_share(triangles: &[[u32; 3]], share: &Share) -> Edges {
         total += *start;
         *start = total;
     }
-    // Filled from behind, `starts` moves from the ends of the buckets to their beginnings.
+    // Filled from the back, so that `starts` moves from the ends of the buckets to their beginnings.
     let mut sides = vec![Side { other: 0, face_way: 0 }; total as usize];
     for run in share.faces.iter().rev() {
         for (face, &[a, b, c]) in run.clone().zip(&triangles[run.clone()]).rev() {
@@ -208,7 +209,7 @@ fn edges_of_share(triangles: &[[u32; 3]], share: &Share) -> Edges {
     own
 }
 
-/// A stable sort: buckets hold about six sides, but a hub of a fan may hold thousands.
+/// Stable sort. Buckets have about six sides, but the hub of a fan may have thousands.
 fn sort_by_other(sides: &mut [Side]) {
     if sides.len() > 24 {
         sides.sort_by_key(|s| s.other);
@@ -254,7 +255,7 @@ impl Edges {
             });
             i = end;
         }
-        // Two faces with the same three corners meet at both edges of their smallest one.
+        // Two faces with the same three corners share both edges at their smallest corner.
         let fresh = &self.faces[first_edge..];
         let twins = (1..fresh.len()).any(|k| {
             let pair = |f: &[u32; 2]| (f[0], f[1] & !SAME_WAY);
@@ -280,7 +281,7 @@ mod tests {
 
     #[test]
     fn borders_fins_and_flipped_neighbours_are_told_apart() {
-        // Two triangles wound against each other at 0-1, and a fin there.
+        // Two triangles with opposite windings at 0-1, then a fin there.
         let edges = Edges::build(5, &[[0, 1, 2], [0, 1, 3]]);
         assert_eq!(edges.faces(0), EdgeFaces::Two { faces: [0, 1], same_way: true });
         assert_eq!(edges.border_count(), 4);

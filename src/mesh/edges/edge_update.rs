@@ -1,18 +1,20 @@
-//! The edges of a mesh some of whose faces got other corners: those of the others as they were, and those of these faces
-//! found anew, in the order that building all of them would give.
+//! Update of an edge table after some faces got other corners.
+//!
+//! Edges of the other faces are copied, those of changed faces are built, and both are merged. The result
+//! equals a new table.
 
 use crate::mesh::Edges;
 
 impl Edges {
-    /// The edges of triangles of which some are `changed`, or new: faces, ascending. All others are those that these edges were
-    /// found of.
+    /// The edges of `triangles`, where the faces in `changed` (ascending) are changed or new. All other faces
+    /// are those of this table.
     pub(crate) fn with_changed(&self, vertex_count: usize, triangles: &[[u32; 3]], changed: &[u32]) -> Self {
         let mut is_changed = vec![false; triangles.len()];
         changed.iter().for_each(|face| is_changed[*face as usize] = true);
         let corners: Vec<[u32; 3]> = changed.iter().map(|face| triangles[*face as usize]).collect();
         let own = Self::build(vertex_count, &corners);
         let number = |k: u32| changed[k as usize];
-        // Whether a face runs along an edge from its smaller vertex.
+        // Whether a face runs along an edge from the smaller to the larger vertex.
         let up = |ends: &[u32; 2], face: u32| {
             let [a, b, c] = triangles[face as usize];
             [[a, b], [b, c], [c, a]].contains(ends)
@@ -65,7 +67,7 @@ mod tests {
             let c = (0..VERTICES as u32).map(|k| (b + 1 + k) % VERTICES as u32).find(|c| *c != a && *c != b);
             [a, b, c.unwrap_or(0)]
         };
-        // From a few faces to so many that most edges are of several.
+        // From a few faces to enough that most edges have several.
         for (round, count) in [5, 20, 60, 300].into_iter().enumerate() {
             let before: Vec<[u32; 3]> = (0..count).map(|n| face(1000 * round as u64 + n)).collect();
             let edges = Edges::build(VERTICES as usize, &before);
@@ -74,7 +76,7 @@ mod tests {
                 let mut changed: Vec<u32> = (0..before.len()).filter(is_changed).map(|n| n as u32).collect();
                 let mut triangles = before.clone();
                 changed.iter().for_each(|n| triangles[*n as usize] = face(u64::from(*n) + 77_777));
-                // Some are added behind all.
+                // Some faces are appended.
                 triangles.extend((0..3).map(|n| face(n + 99_999)));
                 changed.extend(before.len() as u32..triangles.len() as u32);
                 let found = edges.with_changed(VERTICES as usize, &triangles, &changed);

@@ -6,7 +6,7 @@
 //!
 //! The result does not depend on the number of threads.
 //!
-//! Files, in reading order: [`edge_table`] (`Edges`, `EdgeFaces`), [`vertex_blocks`] (step 1),
+//! Files, in reading order: [`edge_table`] (`Edges`, `EdgeFaces`), [`vertex_ranges`] (step 1),
 //! [`edge_splice`] and [`edge_update`] (step 3), [`vertex_edges`] (edge between two vertices), [`edge_set`]
 //! (bit set of edges).
 
@@ -14,5 +14,5 @@ pub mod edge_set;
 mod edge_splice;
 pub mod edge_table;
 mod edge_update;
-pub(crate) mod vertex_blocks;
 pub(crate) mod vertex_edges;
+pub(crate) mod vertex_ranges;

@@ -1,22 +1,23 @@
-//! [`FirstEdges`]: where the edges of each vertex begin, by which the edge between two vertices is found at once.
+//! [`FirstEdges`]: index of the edges by their smaller vertex, for fast lookup of the edge between two
+//! vertices.
 
 use crate::parallel::prelude::*;
 
 use super::edge_table::Edges;
 
-/// Vertices that are looked at as one piece of work.
+/// Number of vertices per task.
 const CHUNK: usize = 1 << 12;
 
-/// The first edge of each vertex of a mesh: of those to vertices with larger numbers, which stand in a row.
+/// Start of the edges of each vertex in the edge table. Edges are sorted by smaller vertex.
 #[derive(Debug, Clone)]
 pub(crate) struct FirstEdges<'a> {
     edges: &'a Edges,
-    /// One more than there are vertices.
+    /// One entry per vertex, and one at the end.
     first: Vec<u32>,
 }
 
 impl<'a> FirstEdges<'a> {
-    /// Those of the edges between so many vertices.
+    /// Indexes edges between `vertices` vertices.
     pub fn of(edges: &'a Edges, vertices: usize) -> Self {
         let mut first = vec![0; vertices + 1];
         first.par_chunks_mut(CHUNK).enumerate().for_each(|(k, first)| {
@@ -49,7 +50,7 @@ mod tests {
 
     #[test]
     fn edges_are_found_between_all_their_vertices_and_no_others() {
-        // Some vertices have no edges, among them the last ones.
+        // Some vertices have no edges, including the last ones.
         let vertices = 2 * CHUNK as u64 + 10;
         let corner = |n: u64| (hash(n % 3, &[n / 3]) % (vertices - 5)) as u32;
         let triangles: Vec<[u32; 3]> =

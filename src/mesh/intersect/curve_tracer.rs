@@ -1,8 +1,8 @@
-//! [`Tracer`]: follows intersection curves over the mesh, from one pair of triangles to the next.
+//! [`Tracer`]: follows intersection curves over a mesh, from one pair of triangles to the next.
 //!
-//! Each end of the common segment of two triangles is where an edge of one pierces the other, so
-//! the curve goes on in the face beyond that edge; where a vertex lies in the other plane, in one
-//! of the faces around it.
+//! At each end of the common segment of two triangles, an edge of one pierces the other. The curve continues
+//! in the face across that edge. At a vertex in the other plane, it continues in one of the faces around the
+//! vertex.
 
 use rustc_hash::FxHashSet;
 
@@ -23,7 +23,7 @@ impl<'a> Tracer<'a> {
         Self { mesh }
     }
 
-    /// The pairs among the active faces that pass through each other, the lesser face first.
+    /// The pairs among the active faces that pass through each other, lesser face first.
     #[must_use]
     pub fn pairs_among(&self, active: &[bool]) -> Vec<[u32; 2]> {
         let Mesh { positions, triangles, .. } = self.mesh;
@@ -35,8 +35,8 @@ impl<'a> Tracer<'a> {
         pairs.iter().map(|pair| pair.faces).collect()
     }
 
-    /// The whole curves to which the given pairs of faces belong, as far as triangles without
-    /// common vertices form them. The order of the pairs does not matter.
+    /// The complete curves through the given pairs of faces, as far as triangles without common vertices form
+    /// them. The order of the pairs has no effect.
     #[must_use]
     pub fn curves(&self, seeds: &[[u32; 2]]) -> IntersectionCurves {
         let mut tested: FxHashSet<[u32; 2]> = seeds.iter().copied().collect();
@@ -75,13 +75,13 @@ impl<'a> Tracer<'a> {
         common > 1 || common == 1 && self.mesh.body(a) == self.mesh.body(b)
     }
 
-    /// The face itself and those in which its surface goes on at one end of a segment.
+    /// Collects the face and the faces where its surface continues at one end of a segment.
     fn faces_at(&self, end: End, side: usize, face: u32, faces: &mut Vec<u32>) {
         faces.clear();
         faces.push(face);
         let Some(piercing) = end[side] else { return };
         let feature = piercing.feature;
-        // Faces without area are stepped over; around a vertex the step is repeated.
+        // Faces without area are skipped. Around a vertex the step is repeated.
         let is_of_vertex = feature[0] == feature[1];
         let mut next = 0;
         while let Some(&at) = faces.get(next) {
@@ -93,7 +93,7 @@ impl<'a> Tracer<'a> {
         faces.retain(|f| *f == face || !self.mesh.is_degenerate(FaceId(*f)));
     }
 
-    /// Adds the faces beyond those edges of `face` that lead on at a feature.
+    /// Adds the faces across those edges of `face` that contain the feature.
     fn step(&self, face: u32, [v, w]: Feature, faces: &mut Vec<u32>) {
         let [a, b, c] = self.mesh.triangles[face as usize];
         for (p, q) in [(a, b), (b, c), (c, a)] {

@@ -1,7 +1,8 @@
-//! [`PairSearch`]: where triangles of a mesh pass through each other, kept for meshes of which some of them are cut.
+//! [`PairSearch`]: intersecting triangles of a mesh, reused when some of its faces are cut.
 //!
-//! A view cuts faces near its contours and leaves the others as they are, so that of two that are left it is known whether they
-//! meet. Only the pieces are sought: in the tree of the mesh, with boxes around all the pieces of a face instead of the face.
+//! A view cuts faces near its contours and keeps the others. Pairs of kept faces are known. Only the pieces
+//! of cut faces are searched, in the tree of the original mesh, with the box of a cut face replaced by the
+//! box of its pieces.
 
 use crate::parallel::prelude::*;
 
@@ -13,30 +14,30 @@ use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
 use crate::mesh::bvh::box_tree::{BoxTree, Faces, share_a_vertex};
 use crate::mesh::bvh::quantized_box::FineBox;
 
-/// Faces that were cut, handled by one task.
+/// Number of cut faces per task.
 const FACES_PER_TASK: usize = 64;
 
-/// A mesh searched in full.
+/// Completed search over a mesh.
 #[derive(Debug, Clone)]
 pub struct PairSearch {
-    /// None without triangles.
+    /// `None` without triangles.
     tree: Option<BoxTree>,
-    /// Where the tree has each face.
+    /// Rank of each face in the tree.
     ranks: Vec<u32>,
     pairs: Vec<Pair>,
 }
 
-/// Which faces of a finer mesh are those of the mesh it was made of.
+/// Mapping from the faces of a finer mesh to the original mesh.
 #[derive(Debug, Clone, Copy)]
 pub struct Hosts<'a> {
-    /// The face of the given mesh that each face is, or is part of.
+    /// The original face that each face is or is part of.
     pub faces: &'a [u32],
-    /// The first so many are whole; their hosts ascend.
+    /// Number of kept faces, which come first; their hosts ascend.
     pub kept: usize,
 }
 
 impl PairSearch {
-    /// Searches a mesh of several parts; `tolerance` is that of the part of each face.
+    /// Searches a mesh of several parts. `tolerance` returns that of the part of a face.
     #[must_use]
     pub fn new(input: &IntersectionInput, tolerance: impl Fn(u32) -> PairTolerance + Sync) -> Self {
         let Some((low, high)) = bounds(input.positions, input.triangles) else {
@@ -53,8 +54,8 @@ impl PairSearch {
         join(&self.pairs)
     }
 
-    /// The curves of a mesh that was made of this one by cutting faces, as a search of it in full would find them. `tolerance` is of
-    /// its faces.
+    /// The curves of a finer mesh, made from this one by cutting faces. Equals a full search. `tolerance`
+    /// takes faces of the finer mesh.
     #[must_use]
     pub fn curves_of_finer(
         &self,
@@ -72,7 +73,7 @@ impl PairSearch {
             |pair: &Pair| Some(Pair { faces: [whole(pair.faces[0])?, whole(pair.faces[1])?], ..*pair });
         let mut pairs: Vec<Pair> = self.pairs.iter().filter_map(left).collect();
 
-        // Pieces of faces without area may have some.
+        // Pieces of faces without area may have an area.
         let is_active = |face: usize| finer.active.get(face).is_none_or(|active| *active);
         let is_known =
             |face: usize| self.ranks.get(hosts.faces[face] as usize).is_some_and(|r| *r != u32::MAX);
@@ -96,31 +97,31 @@ impl PairSearch {
     }
 }
 
-/// The faces that were cut, and a tree with boxes around their pieces.
+/// The cut faces, and a tree with boxes around their pieces.
 struct Cut<'a> {
     finer: &'a IntersectionInput<'a>,
     tree: BoxTree,
     kept: usize,
-    /// The ranks and numbers of the faces, by rank.
+    /// Rank and id of each cut face, by rank.
     faces: Vec<(u32, u32)>,
-    /// The pieces by the rank of their face.
+    /// Pieces by the rank of their face.
     pieces: Grouped<u32>,
-    /// By piece.
+    /// Box of each piece.
     boxes: Vec<FineBox>,
     ranks: &'a [u32],
 }
 
-/// What one task finds, kept so that it is allocated once.
+/// Buffers of one task.
 #[derive(Default)]
 struct Search {
     stack: Vec<(usize, usize)>,
-    /// What is near a face that was cut, then its own pieces.
+    /// Faces near a cut face, followed by its own pieces.
     near: Vec<Near>,
-    /// What may pass through one of them.
+    /// Faces that may pass through one of the pieces.
     others: Vec<u32>,
 }
 
-/// A face of the finer mesh near one that was cut, with its vertices and its box side by side.
+/// Face of the finer mesh near a cut face, with its vertices and box.
 #[derive(Clone, Copy)]
 struct Near {
     own_box: FineBox,
@@ -151,7 +152,8 @@ impl<'a> Cut<'a> {
         Self { finer, tree: tree.with_boxes(&changed), kept, faces, pieces, boxes, ranks }
     }
 
-    /// Calls `visit` for the pieces of a face with what may pass through them: of two faces that were cut, one finds the other.
+    /// Calls `visit` for the pieces of a face with the faces that may pass through them. Of two cut faces,
+    /// one finds the other.
     fn search_face(
         &self,
         rank: u32,
@@ -211,7 +213,7 @@ mod tests {
     use super::*;
     use crate::geometry::numbers::noise::{hash, unit};
 
-    /// `count` triangles, no two with a common vertex, each within reach of its middle.
+    /// One triangle around each point of `middles`, without common vertices.
     fn triangles(seed: u64, middles: &[DVec3]) -> (Vec<DVec3>, Vec<[u32; 3]>) {
         let number = |k: usize| unit(hash(seed, &[k as u64])) - 0.5;
         let corner = |(k, middle): (usize, &DVec3)| {
@@ -228,7 +230,7 @@ mod tests {
     fn pieces_meet_as_a_search_in_full_has_it() {
         let (mut among_own, mut among_cut, mut with_whole) = (0, 0, 0);
         for seed in 0..20 {
-            // A row of triangles, each of which meets the next few; two of three are cut into two to four pieces.
+            // A row of triangles that each meet the next few. Two of three are cut into two to four pieces.
             let middles: Vec<DVec3> = (0..40).map(|k| DVec3::X * 0.3 * f64::from(k)).collect();
             let (positions, triangles_before) = triangles(seed, &middles);
             let before = IntersectionInput {

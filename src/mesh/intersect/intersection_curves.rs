@@ -1,11 +1,11 @@
-//! [`IntersectionCurves`]: where triangles of a mesh pass through each other.
+//! [`IntersectionCurves`]: curves along which triangles of a mesh pass through each other.
 //!
-//! A tree of boxes proposes pairs, exact signs decide. Segments of neighbouring triangles meet
-//! because the same edge pierces the same triangle, not because two positions are near: every end
-//! carries the *names* of what it is, and ends with a name in common are one point. An end has
-//! more than one name where, within one pair of triangles, the borders of both are met at the same
-//! place: it is then "edge of one through face of the other", the same the other way round, and
-//! "border of one on border of the other", so that all triangles around the place agree.
+//! 1. A box tree proposes pairs of triangles; exact predicates decide.
+//! 2. Every end of a segment has *names* that describe it, such as "edge of one triangle through the interior
+//!    of the other". Ends with a common name are one point, so segments of neighbouring triangles join
+//!    without comparing positions.
+//! 3. Where the borders of both triangles meet, an end has three names: edge of one through face of the
+//!    other, the reverse, and border on border. All triangles around the point then agree.
 
 use std::cmp::Ordering;
 
@@ -17,46 +17,50 @@ use super::triangle_pair::{Along, Common, End, Feature, PairTolerance, Touch, Tr
 use crate::mesh::PartId;
 use crate::mesh::bvh::box_tree::{BoxTree, Faces};
 
-/// The triangles to look at.
+/// Triangles to intersect.
 #[derive(Debug, Clone, Copy)]
 pub struct IntersectionInput<'a> {
     /// World positions, finite.
     pub positions: &'a [DVec3],
-    /// Vertices of each triangle, all of them indices of `positions`.
+    /// Vertices of each triangle, as indices into `positions`.
     pub triangles: &'a [[u32; 3]],
-    /// Whether each triangle may take part; empty: all do.
+    /// Whether each triangle takes part; empty: all do.
     pub active: &'a [bool],
-    /// The body of each triangle, or empty if there is only one: those of one body that have a vertex in common are never compared.
+    /// Body of each triangle, or empty if there is only one. Triangles of one body with a common vertex are
+    /// never compared.
     pub bodies: &'a [PartId],
 }
 
 /// Curves along which triangles pass through each other.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct IntersectionCurves {
-    /// Ends of the segments in world space, each once.
+    /// End points of the segments in world space, each once.
     pub points: Vec<DVec3>,
     /// One segment per pair of triangles, sorted by faces.
     pub segments: Vec<IntersectionSegment>,
 }
 
-/// The common segment of two triangles.
+/// Common segment of two triangles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct IntersectionSegment {
-    /// Two different points of the curves. They follow each other along the cross product of the
-    /// normals of the two faces, so that consecutive segments of a surface oriented throughout
-    /// point the same way as long as the lesser face stays on the same surface.
+    /// Two different points. Their order follows the cross product of the two face normals. On a consistently
+    /// oriented surface, consecutive segments therefore have the same direction while the lesser face stays
+    /// on the same surface.
     pub ends: [u32; 2],
-    /// The two triangles, the lesser first.
+    /// The two triangles, lesser first.
     pub faces: [u32; 2],
 }
 
 /// Finds where triangles strictly pass through each other.
 ///
-/// Triangles of one body with a common vertex are neighbours and never reported; nor are overlaps in one
-/// plane, triangles that touch from one side, and contacts shorter than
-/// [`OVERLAP_OF_PART`](crate::geometry::numbers::tolerance::OVERLAP_OF_PART) of the diagonal of the box
-/// around all triangles, which count as one part. A vertex in the other plane is no obstacle where the other
-/// two corners lie on either side. The result does not depend on the number of threads.
+/// Not reported are
+/// - triangles of one body with a common vertex,
+/// - overlaps in one plane, and triangles that touch from one side,
+/// - contacts shorter than [`OVERLAP_OF_PART`](crate::geometry::numbers::tolerance::OVERLAP_OF_PART) of the diagonal of
+///   the box around all triangles, which count as one part.
+///
+/// A vertex in the plane of the other triangle does not matter if the other two corners are on opposite
+/// sides. The result does not depend on the number of threads.
 #[must_use]
 pub fn intersections(input: &IntersectionInput) -> IntersectionCurves {
     let Some((low, high)) = bounds(input.positions, input.triangles) else {
@@ -66,7 +70,8 @@ pub fn intersections(input: &IntersectionInput) -> IntersectionCurves {
     join(&find_pairs(input, low, high, |_| PairTolerance::of_exact(scale)))
 }
 
-/// Intersections of triangles of several parts; `tolerance` is that of the part of a face, and the larger of two counts.
+/// Intersections of triangles of several parts. `tolerance` returns that of the part of a face; the larger of
+/// two applies.
 #[must_use]
 pub fn intersections_of_parts(
     input: &IntersectionInput,
@@ -78,8 +83,8 @@ pub fn intersections_of_parts(
     join(&find_pairs(input, low, high, tolerance))
 }
 
-/// All pairs of triangles that are no neighbours and have something in common, sorted; `low`
-/// and `high` are the corners of a box around them.
+/// All pairs of triangles that intersect or touch and are not neighbours, sorted. `low` and `high` are the
+/// corners of a box around all triangles.
 pub(crate) fn find_pairs(
     input: &IntersectionInput,
     low: DVec3,
@@ -90,7 +95,7 @@ pub(crate) fn find_pairs(
     pairs_in(&BoxTree::new(positions, triangles, active, low, high), input, tolerance)
 }
 
-/// The pairs among the triangles that a tree was made of, sorted.
+/// The pairs among the triangles of a tree, sorted.
 pub(crate) fn pairs_in(
     tree: &BoxTree,
     input: &IntersectionInput,
@@ -103,7 +108,7 @@ pub(crate) fn pairs_in(
     pairs
 }
 
-/// Adds the pairs that a triangle makes with others.
+/// Adds the pairs that a triangle forms with others.
 pub(crate) fn pairs_of(
     input: &IntersectionInput,
     face: u32,
@@ -135,7 +140,7 @@ pub(crate) fn pairs_of(
     }
 }
 
-/// Two triangles that have something in common.
+/// Two triangles with their common part.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pair {
     pub(crate) faces: [u32; 2],
@@ -157,10 +162,10 @@ pub(crate) fn bounds(positions: &[DVec3], triangles: &[[u32; 3]]) -> Option<(DVe
     (!triangles.is_empty()).then_some((low, high))
 }
 
-/// What an end is: a feature, and the face it pierces (with [`FACE`]) or the feature it meets.
+/// Name of an end: a feature, and the face that it pierces (with [`FACE`]) or the feature that it meets.
 type Name = (Feature, [u32; 2]);
 
-/// Stands where a face and not a feature is named; no vertex has this id.
+/// Marks a name whose second entry is a face; no vertex has this id.
 const FACE: u32 = u32::MAX;
 
 /// One name of one end.
@@ -170,9 +175,9 @@ struct Naming {
     point: DVec3,
 }
 
-/// Makes ends that share a name one point. The pairs are sorted by faces.
+/// Joins ends with a common name to points. The pairs must be sorted by faces.
 pub(crate) fn join(pairs: &[Pair]) -> IntersectionCurves {
-    // Segments have two ends each; a point is one end that only lends its names.
+    // Segments have two ends. A point has one end, which contributes only its names.
     let mut namings = Vec::new();
     let mut end_count = 0;
     let mut segments = Vec::new();
@@ -225,8 +230,9 @@ pub(crate) fn join(pairs: &[Pair]) -> IntersectionCurves {
         }
     }
 
-    // Of several positions, apart by rounding, that of a vertex counts before those on edges, and then the least: vertices in one
-    // place and faces are numbered by the order of their parts, which must not matter.
+    // Positions of one point differ by rounding. Those of vertices take precedence over those on edges, and
+    // then the smallest one is taken. Vertex and face numbers depend on the order of parts and must have no
+    // effect.
     let order = |a: &&Naming, b: &&Naming| {
         let is_of_edge = |naming: &Naming| naming.name.0[0] != naming.name.0[1];
         is_of_edge(a).cmp(&is_of_edge(b)).then_with(|| compare_places(a.point, b.point))
@@ -254,7 +260,7 @@ pub(crate) fn join(pairs: &[Pair]) -> IntersectionCurves {
     IntersectionCurves { points, segments }
 }
 
-/// Two faces, one with an edge in the other: first the face that holds the edge, then the face with the edge.
+/// The face that contains the edge, and the face that the edge belongs to.
 fn pierced_and_own([a, b]: [u32; 2], touch: &Touch) -> (u32, u32) {
     if touch.is_of_second { (a, b) } else { (b, a) }
 }
@@ -263,8 +269,8 @@ fn pierced_and_edge(faces: [u32; 2], touch: &Touch) -> (u32, Feature) {
     (pierced_and_own(faces, touch).0, touch.edge)
 }
 
-/// The edges along which surfaces pass through a face that the edges lie in, with the first two faces on either side of it that have
-/// the edge, the lesser first.
+/// Edges that lie in a face where surfaces pass through it. Values are the first two faces with the edge on
+/// either side, lesser first.
 fn passing_edges(pairs: &[Pair]) -> FxHashMap<(u32, Feature), [u32; 2]> {
     let mut sides: FxHashMap<(u32, Feature), [Option<u32>; 2]> = FxHashMap::default();
     for Pair { faces, common } in pairs {
@@ -282,8 +288,8 @@ fn passing_edges(pairs: &[Pair]) -> FxHashMap<(u32, Feature), [u32; 2]> {
     sides.into_iter().filter_map(both).collect()
 }
 
-/// The pairs of edges that lie along each other where two surfaces pass through each other, with the four pairs of faces at them in
-/// their order.
+/// Pairs of collinear edges where two surfaces pass through each other, with their four pairs of faces in
+/// order.
 fn crossed_edges(pairs: &[Pair]) -> FxHashMap<[Feature; 2], Vec<Pair>> {
     let mut found: FxHashMap<[Feature; 2], Vec<Pair>> = FxHashMap::default();
     for pair in pairs {
@@ -295,14 +301,14 @@ fn crossed_edges(pairs: &[Pair]) -> FxHashMap<[Feature; 2], Vec<Pair>> {
     found
 }
 
-/// The edges of two faces that lie along each other, the lesser first.
+/// The collinear edges of two faces, lesser first.
 fn sorted(along: &Along) -> [Feature; 2] {
     let [a, b] = along.edges;
     [a.min(b), a.max(b)]
 }
 
-/// Whether two faces have each of two edges, and those of the one come by turns with those of the other round the line. No two of them lie
-/// in one plane: such pairs have nothing in common.
+/// Whether the faces at two collinear edges alternate around the line, with two faces per edge. Coplanar
+/// faces do not occur: such pairs have no common part.
 fn come_by_turns(pairs: &[Pair]) -> bool {
     let mut sides: [Vec<(u32, DVec3)>; 2] = Default::default();
     for Pair { faces, common } in pairs {
@@ -328,13 +334,13 @@ fn come_by_turns(pairs: &[Pair]) -> bool {
     is_between(&others[0].1) != is_between(&others[1].1)
 }
 
-/// How far two ends are apart.
+/// Distance between two ends.
 fn gap(one: &End, other: &End) -> f64 {
     let place = |end: &End| end.iter().flatten().next().map(|piercing| piercing.point);
     place(one).zip(place(other)).map_or(f64::INFINITY, |(a, b)| a.distance(b))
 }
 
-/// Adds all names of the end of the common part of two faces.
+/// Adds all names of one end of the common part of two faces.
 fn name_end([a, b]: End, faces: [u32; 2], end: u32, namings: &mut Vec<Naming>) {
     if let Some(a) = a {
         namings.push(Naming { name: (a.feature, [faces[1], FACE]), end, point: a.point });
@@ -343,8 +349,8 @@ fn name_end([a, b]: End, faces: [u32; 2], end: u32, namings: &mut Vec<Naming>) {
         namings.push(Naming { name: (b.feature, [faces[0], FACE]), end, point: b.point });
     }
     if let (Some(a), Some(b)) = (a, b) {
-        // A vertex on the other's border has its own position; two edges that meet have two, near
-        // to each other, of which the lesser edge gives one.
+        // A vertex on the border of the other triangle has its own position. Two edges that meet have two
+        // nearly equal positions; the lesser edge decides.
         let (first, second) = if a.feature < b.feature { (a, b) } else { (b, a) };
         namings.push(Naming { name: (first.feature, second.feature), end, point: first.point });
     }
@@ -354,7 +360,7 @@ fn compare_places(a: DVec3, b: DVec3) -> Ordering {
     a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
 }
 
-/// The least end that is the same point as `end`.
+/// The smallest end that is the same point as `end` (union-find).
 fn root(parent: &mut [u32], mut end: u32) -> u32 {
     while parent[end as usize] != end {
         parent[end as usize] = parent[parent[end as usize] as usize];

@@ -1,9 +1,11 @@
-//! [`cross`]: where two triangles pass through each other, decided by exact signs.
+//! [`cross`]: intersection of two triangles, decided by exact predicates.
 //!
-//! Source: T. Möller, "A fast triangle-triangle intersection test", Journal of Graphics Tools
-//! 2(2), 1997: the overlap of two intervals on the line common to both planes. Here the signs
-//! come from exact predicates, and each end says which edge pierces which triangle, so that
-//! neighbouring segments meet by identity.
+//! 1. Each triangle is clipped to the intersection line of both planes, which gives two intervals.
+//! 2. Their overlap is the common segment.
+//! 3. Each end stores which edge pierces which triangle, so that neighbouring segments join by identity.
+//!
+//! Source: T. Möller, "A fast triangle-triangle intersection test", Journal of Graphics Tools 2(2), 1997. The
+//! signs here come from exact predicates.
 
 use glam::DVec3;
 use robust::{Coord3D, orient3d};
@@ -13,29 +15,29 @@ use crate::geometry::numbers::tolerance::{
 };
 use crate::mesh::Extent;
 
-/// Two corners that are nearer to a plane than this share of the third one's distance may lie in it.
+/// Two corners may lie in a plane if their distances from it are below this share of the third one's.
 const NEAR_OF_FAR: f64 = 1e-4;
 
-/// Lengths below which a pair of triangles merely touches, in world units.
+/// Tolerances for the intersection of two triangles, world units.
 #[derive(Debug, Clone, Copy)]
 pub struct PairTolerance {
-    /// A vertex this near to the other plane lies in it.
+    /// Maximum distance of a vertex that counts as in the plane.
     pub plane: f64,
-    /// An overlap up to this long is a point.
+    /// Maximum length of an overlap that counts as a point.
     pub overlap: f64,
-    /// How far rounding may have moved each vertex.
+    /// Maximum displacement of each vertex by rounding.
     pub rounding: f64,
 }
 
 impl PairTolerance {
-    /// The tolerance for triangles of a part that is this large and whose coordinates are exact.
+    /// Tolerance for triangles with exact coordinates of a part with this scale.
     #[inline]
     #[must_use]
     pub fn of_exact(scale: f64) -> Self {
         Self { plane: PLANE_OF_PART * scale, overlap: OVERLAP_OF_PART * scale, rounding: 0.0 }
     }
 
-    /// The tolerance for triangles of a part.
+    /// Tolerance for triangles of a part.
     #[inline]
     #[must_use]
     pub fn of_part(part: &Extent) -> Self {
@@ -44,7 +46,7 @@ impl PairTolerance {
         Self { overlap, rounding: part.rounding, ..exact }
     }
 
-    /// The tolerance for triangles of two parts.
+    /// Tolerance for triangles of two parts: the larger of both.
     #[inline]
     #[must_use]
     pub fn and(self, other: Self) -> Self {
@@ -56,16 +58,16 @@ impl PairTolerance {
     }
 }
 
-/// A triangle with its corners in the order of the mesh.
+/// Triangle with its corners in mesh order.
 #[derive(Debug, Clone, Copy)]
 pub struct Triangle {
     /// Vertices of the mesh.
     pub vertices: [u32; 3],
     /// Their positions.
     pub corners: [DVec3; 3],
-    /// Twice the area, along the normal.
+    /// Normal with the length of twice the area.
     pub normal: DVec3,
-    /// Whether the normal is accurate enough to reject by sides without exact arithmetic.
+    /// Whether the normal is accurate enough for a rejection without exact arithmetic.
     trusted: bool,
 }
 
@@ -77,14 +79,15 @@ impl Triangle {
         let corners = vertices.map(|v| positions[v as usize]);
         let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
         let normal = e1.cross(e2);
-        // The rounding error of normal·(q − corner) is below 12 ε |e1||e2| times the way to q. Where
-        // the corner's sine is above 1/100 that is less than 3e-13 of this way in distance, well
-        // inside the tolerance within which a vertex lies in the plane anyway.
+        // The rounding error of normal·(q − corner) is below 12 ε |e1||e2| times the distance to q. If the
+        // sine of the corner is above 1/100, this is less than 3e-13 of that distance, well inside the plane
+        // tolerance.
         let trusted = normal.length_squared() > 1e-4 * e1.length_squared() * e2.length_squared();
         Self { vertices, corners, normal, trusted }
     }
 
-    /// Whether the points certainly lie all on one side of the plane, or in it, and no two of them alone in it.
+    /// Whether all points are certainly on one side of the plane or in it. False if exactly two of them may
+    /// be in the plane.
     #[inline]
     #[must_use]
     pub fn has_on_one_side(&self, points: &[DVec3; 3]) -> bool {
@@ -95,8 +98,8 @@ impl Triangle {
         self.trusted & is_on_one & (middle > NEAR_OF_FAR * x.max(y).max(z))
     }
 
-    /// Distances of points from the plane, right in sign; zero within the tolerance. None where they are surely not on both sides, and
-    /// not two of them in it.
+    /// Signed distances of points from the plane; zero within the tolerance. `None` if the points are
+    /// certainly not on both sides, unless exactly two of them are in the plane.
     #[inline]
     fn distances(
         &self,
@@ -111,11 +114,12 @@ impl Triangle {
         for (is_zero, point) in is_zero.iter_mut().zip(points) {
             let way = *point - a;
             let about = self.normal.dot(way);
-            // More than any determinant of these points is off by, so that what is below comes to zero either way.
+            // Exceeds the error of every determinant of these points, so that smaller values count as zero
+            // either way.
             let far = size + reach(way);
             let error = 48.0 * f64::EPSILON * (far * far * far);
-            // Where surfaces lie on each other most corners are in the other plane, and exact signs take long to
-            // say so; most others are all on one side of it.
+            // Where surfaces coincide, most corners are in the other plane, and exact predicates would be
+            // slow. Most other corners are on one side.
             *is_zero = about.abs() + error < far_tolerance(far, normal_length, tolerance) && {
                 let least = self.plane_tolerance(*point, normal_length, tolerance) * normal_length;
                 about.abs() + error < (1.0 - 1e-6) * least
@@ -143,10 +147,11 @@ impl Triangle {
         if distance.abs() < within { 0.0 } else { distance }
     }
 
-    /// How near to the plane of the triangle a point must lie to count as lying in it.
+    /// Maximum distance from the plane of the triangle for a point that counts as in it.
     ///
-    /// Rounding moves the point by as much as each corner. Where it moves the plane is the sum of what it moves the corners by, each
-    /// times the barycentric weight of the point: far from a narrow triangle the plane is unknown.
+    /// Rounding moves the point like each corner. It moves the plane at the point by the sum over the
+    /// corners, weighted by the barycentric coordinates of the point. Far from a narrow triangle the plane is
+    /// therefore unknown.
     #[inline]
     fn plane_tolerance(&self, point: DVec3, normal_length: f64, tolerance: PairTolerance) -> f64 {
         if tolerance.rounding == 0.0 {
@@ -159,8 +164,8 @@ impl Triangle {
     }
 }
 
-/// A number that [`Triangle::plane_tolerance`] times the length of the normal never exceeds, if no corner is farther than `far` from the
-/// point: then none of the three weights is more than the square of that.
+/// Upper bound for [`Triangle::plane_tolerance`] times the length of the normal, if no corner is farther than
+/// `far` from the point. Each of the three weights is then at most the square of `far`.
 #[inline]
 fn far_tolerance(far: f64, normal_length: f64, tolerance: PairTolerance) -> f64 {
     let of_rounding = tolerance.rounding * (normal_length + 3.0 * far * far);
@@ -171,40 +176,39 @@ fn coordinates(p: DVec3) -> Coord3D<f64> {
     Coord3D { x: p.x, y: p.y, z: p.z }
 }
 
-/// The part of a triangle that lies in the other plane: an edge (lesser vertex first) that goes
-/// through it, or a vertex (twice) in it.
+/// Part of a triangle that meets the other plane: an edge (lesser vertex first), or a vertex (twice).
 pub type Feature = [u32; 2];
 
-/// Where the border of one triangle meets the other.
+/// Point where the border of one triangle meets the other triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piercing {
-    /// What pierces.
+    /// The edge or vertex that pierces.
     pub feature: Feature,
-    /// Where; the same to the last bit for every triangle that has the feature.
+    /// The point, bit-identical for every triangle with the feature.
     pub point: DVec3,
 }
 
-/// One end of the common part of two triangles: where the border of the first, of the second, or
-/// (within the tolerance) of both is met.
+/// End of the common part of two triangles: a piercing by the border of the first, of the second, or (within
+/// the tolerance) of both.
 pub type End = [Option<Piercing>; 2];
 
-/// What two triangles have in common, from its first to its last end along the cross product of
-/// their normals.
+/// Common part of two triangles. Its ends are ordered along the cross product of their normals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Common {
     /// A segment.
     Segment([End; 2]),
-    /// A segment too short to count, whose ends are one: segments of neighbours may end there.
+    /// A segment that is too short to count; both ends are one point. Segments of neighbours may end there.
     Point([End; 2]),
-    /// An edge of one triangle that lies in the other. The surfaces cross there if the next triangle at the edge lies on the other side.
+    /// An edge of one triangle that lies in the other. The surfaces cross there if the next triangle at the
+    /// edge is on the other side.
     Touch(Touch),
-    /// An edge of one triangle that lies along one of the other. The surfaces cross there if their triangles at these edges come by turns
-    /// round the line.
+    /// Collinear edges of both triangles. The surfaces cross there if their triangles alternate around the
+    /// line.
     Along(Along),
 }
 
 impl Common {
-    /// Where it begins and ends.
+    /// First and last end.
     #[must_use]
     pub fn ends(&self) -> [End; 2] {
         match self {
@@ -215,33 +219,34 @@ impl Common {
     }
 }
 
-/// An edge of one triangle that lies in the plane of the other, as far as it lies in the triangle.
+/// Edge of one triangle in the plane of the other, clipped to the other triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Touch {
-    /// From its first to its last end along the cross product of the normals.
+    /// First and last end along the cross product of the normals.
     pub ends: [End; 2],
     /// The edge, lesser vertex first.
     pub edge: Feature,
-    /// Whether it is an edge of the second triangle.
+    /// Whether the edge belongs to the second triangle.
     pub is_of_second: bool,
-    /// Whether the triangle with the edge lies on the side of the other one's normal.
+    /// Whether the triangle with the edge is on the side of the other one's normal.
     pub is_above: bool,
 }
 
-/// The common part of an edge of each of two triangles.
+/// Overlap of two collinear edges, one of each triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Along {
-    /// From its first to its last end along the cross product of the normals.
+    /// First and last end along the cross product of the normals.
     pub ends: [End; 2],
-    /// The edges of both, lesser vertex first.
+    /// The edges of both triangles, lesser vertex first.
     pub edges: [Feature; 2],
-    /// Which way each triangle lies from the line, square to it: unit vectors.
+    /// Unit vectors from the line into each triangle, perpendicular to the line.
     pub away: [DVec3; 2],
 }
 
-/// Where two triangles without common vertices strictly pass through each other, if they do.
+/// Common part of two triangles without common vertices that strictly pass through each other.
 ///
-/// Triangles in one plane have nothing in common, nor have triangles that touch the other's plane with a vertex.
+/// Coplanar triangles have no common part; neither have triangles that touch the other plane with a vertex
+/// only.
 #[must_use]
 pub fn cross(a: &Triangle, b: &Triangle, tolerance: PairTolerance) -> Option<Common> {
     if a.has_on_one_side(&b.corners) || b.has_on_one_side(&a.corners) {
@@ -250,7 +255,7 @@ pub fn cross(a: &Triangle, b: &Triangle, tolerance: PairTolerance) -> Option<Com
     cross_beyond(a, b, tolerance)
 }
 
-/// The same for triangles of which neither is seen at once to lie on one side of the other.
+/// Same, for triangles that [`Triangle::has_on_one_side`] does not reject.
 pub(crate) fn cross_beyond(a: &Triangle, b: &Triangle, tolerance: PairTolerance) -> Option<Common> {
     let (a_length, b_length) = (a.normal.length(), b.normal.length());
     if !(a_length > 0.0 && b_length > 0.0) {
@@ -311,15 +316,17 @@ pub(crate) fn cross_beyond(a: &Triangle, b: &Triangle, tolerance: PairTolerance)
     }
 }
 
-/// The corner opposite the edge that lies in a plane, given the distances of the corners from it; none if no edge does, or all.
+/// The corner opposite the edge that lies in a plane, from the distances of the corners; `None` if not
+/// exactly two are zero.
 fn edge_in_plane(distances: [f64; 3]) -> Option<usize> {
     let third = distances.iter().position(|d| *d != 0.0)?;
     (distances.iter().filter(|d| **d == 0.0).count() == 2).then_some(third)
 }
 
-/// The two places where the border of a triangle goes through a plane, given the distances of its
-/// corners from it; the ends of the edge opposite the corner `third` if that lies in the plane, else none unless there are corners on
-/// both sides.
+/// The two points where the border of a triangle crosses a plane, from the distances of its corners.
+///
+/// If `third` is given, the opposite edge lies in the plane and its ends are returned. Otherwise `None`,
+/// unless corners are on both sides.
 fn crossings(triangle: &Triangle, distances: [f64; 3], third: Option<usize>) -> Option<[Piercing; 2]> {
     if let Some(third) = third {
         let at = |k: usize| Piercing { feature: [triangle.vertices[k]; 2], point: triangle.corners[k] };
@@ -330,7 +337,7 @@ fn crossings(triangle: &Triangle, distances: [f64; 3], third: Option<usize>) -> 
     if !(below && above) {
         return None;
     }
-    // With corners on both sides there are two crossed edges, or a crossed edge and a vertex.
+    // With corners on both sides, two edges are crossed, or one edge and a vertex.
     let mut found = [None; 2];
     let mut slots = found.iter_mut();
     for i in 0..3 {

@@ -1,8 +1,11 @@
-//! [`Hinge`]: two faces and the edge between them, and by how much the surface bends there.
+//! [`Hinge`]: bending energy at an edge with two faces.
 //!
-//! Source: Bergou, Wardetzky, Harmon, Zorin and Grinspun, "A quadratic bending model for inextensible surfaces", SGP 2006: bending
-//! is a sum of squares of linear functions of the places of four vertices. Here the function is the gap between the edge and the
-//! line between the far corners, where they cross when both faces are laid flat: nothing where the faces are in one plane.
+//! The energy is the square of a linear function of four vertex positions. The function is the gap between
+//! the edge and the line between the opposite corners, at their crossing when both faces are unfolded into
+//! one plane. It is zero for coplanar faces.
+//!
+//! Source: Bergou, Wardetzky, Harmon, Zorin and Grinspun, "A quadratic bending model for inextensible
+//! surfaces", SGP 2006.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -12,31 +15,33 @@ use glam::{DVec3, Vec3};
 use crate::mesh::{EdgeFaces, Edges};
 use crate::parallel::task_size::GRAIN;
 
-/// The tangent (4 degrees) of what a face may lean by rounding without doubt about it.
+/// Maximum tilt of a face by rounding, as a tangent (4 degrees), for its vertices to stay fixed.
 const SURE: f64 = 0.07;
-/// An edge that turns by so much of what rounding can make it turn at worst counts a quarter, and less the more it turns: it is meant
-/// to. That is three times the standard deviation of what rounding makes.
+/// Turn of an edge that halves its influence (a quarter of the energy), as a share of the largest turn that
+/// rounding can cause. It is three standard deviations of the rounding. Larger turns are features and count
+/// less.
 const MEANT: f64 = 0.7;
-/// The cosine (10 degrees) below which normals part the surface.
+/// Minimum cosine (10 degrees) between normals of a continuous surface.
 const PARTED: f32 = 0.985;
 
-/// By how much each face may lean from the surface that was rounded.
+/// Maximum tilt of each face by rounding.
 pub(crate) struct Doubts {
-    /// Tangents of angles, world units over world units; infinite where the corners lie in a line.
+    /// Tangents of the tilt angles; infinite where the corners are collinear.
     tangents: Vec<f64>,
     half_step: f64,
 }
 
 impl Doubts {
-    /// One corner may be half a step off to one side along each axis, and the side beyond it as far to the other.
+    /// Bounds the tilt: one corner may be off by half a step in one direction along each axis, and the
+    /// opposite side by half a step in the other.
     pub fn of(places: &[DVec3], faces: &[[u32; 3]], half_step: f64) -> Self {
         let tangent = |face: &[u32; 3]| {
             let at = |corner: usize| places[face[corner] as usize];
             let (a, b, c) = (at(0), at(1), at(2));
             let normal = (b - a).cross(c - a);
             let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
-            // The height is twice the area over the longest side; the sum of coordinates of a unit normal is how
-            // far a box reaches along it.
+            // The height is twice the area over the longest side. The coordinates of a unit normal add up to
+            // the reach of a unit box along it.
             let reach = normal.abs().element_sum() * longest.sqrt();
             2.0 * half_step * reach / normal.length_squared()
         };
@@ -45,7 +50,7 @@ impl Doubts {
         Self { tangents, half_step }
     }
 
-    /// Whether each place is at no face but such as may lean by more than rounding should: what is sure is not to be moved.
+    /// Whether each position is free to move: all its faces may tilt by more than the limit.
     pub fn doubted(&self, faces: &[[u32; 3]], places: usize) -> Vec<bool> {
         let mut doubted = vec![false; places];
         for is_doubted in [true, false] {
@@ -56,35 +61,37 @@ impl Doubts {
         doubted
     }
 
-    /// By how much two faces may turn to each other by rounding, radians; small angles are their tangents.
+    /// Bound for the turn between two faces by rounding, radians. Small angles equal their tangents.
     fn turn(&self, [a, b]: [u32; 2]) -> f64 {
         let of = |face: u32| self.tangents[face as usize].min(FRAC_PI_2);
         (of(a) * of(a) + of(b) * of(b)).sqrt()
     }
 }
 
-/// An edge, the far corners of its two faces, and the gap between them as a linear function of how far all four are moved.
+/// Edge with the opposite corners of its two faces. The gap between them is a linear function of the
+/// displacements of all four.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Hinge {
-    /// Both ends of the edge, then both far corners.
+    /// Both ends of the edge, then both opposite corners.
     pub corners: [u32; 4],
-    /// What the second end and the first far corner count in the gap; see [`Self::shares`].
+    /// Coefficients of the second end and of the first opposite corner; see [`Self::shares`].
     pub halves: [f32; 2],
-    /// The gap where nothing is moved, in half steps.
+    /// Gap without displacements, in half steps.
     pub gap: Vec3,
-    /// What the square of the gap counts: that of the turn over the area that turns, by the square of the edge.
+    /// Weight of the squared gap: turn² · edge² / area of the two faces, for a unit gap.
     pub weight: f32,
 }
 
 impl Hinge {
-    /// What each corner counts in the gap: both ends lessen it, both far corners add to it.
+    /// Coefficients of the four corners in the gap. Both ends count negatively, both opposite corners
+    /// positively.
     #[inline]
     pub fn shares(&self) -> [f32; 4] {
         let [end, far] = self.halves;
         [end - 1.0, -end, far, 1.0 - far]
     }
 
-    /// The gap where the corners are moved by so much, all in half steps.
+    /// Gap after displacements, in half steps.
     #[inline]
     pub fn gap_at(&self, moved: &[Vec3]) -> Vec3 {
         let ([a, b, c, d], [of_a, of_b, of_c, of_d]) = (self.corners, self.shares());
@@ -92,7 +99,8 @@ impl Hinge {
         self.gap + at(a) * of_a + at(b) * of_b + at(c) * of_c + at(d) * of_d
     }
 
-    /// How steep the slope of its bending can be along the way of a corner that counts so much, wherever the others go.
+    /// Bound for the slope of the energy along the displacement of a corner with coefficient `share`, for any
+    /// displacements of the others.
     #[inline]
     pub fn steepest(&self, share: f32) -> f32 {
         let [a, b, c, d] = self.shares();
@@ -100,9 +108,9 @@ impl Hinge {
     }
 }
 
-/// The hinges at which a free place takes part.
+/// Hinges with at least one free position.
 ///
-/// `corners` are the vertices of the faces, and `normals` those of vertices or empty.
+/// `corners` are the vertices of the faces; `normals` are those of the vertices, or empty.
 pub(crate) fn hinges(
     places: &[DVec3],
     (faces, edges): (&[[u32; 3]], &Edges),
@@ -133,7 +141,7 @@ pub(crate) fn hinges(
         let (along_c, along_d) = ((c - a).dot(along), (d - a).dot(along));
         let height = |p: DVec3, at: f64| p.distance(a + along * at).max(doubts.half_step);
         let (high_c, high_d) = (height(c, along_c), height(d, along_d));
-        // Where the line between the far corners, laid flat, crosses the edge.
+        // Crossing of the edge with the line between the opposite corners, unfolded.
         let of_c = high_d / (high_c + high_d);
         let crossing = ((of_c * along_c + (1.0 - of_c) * along_d) / length).clamp(-1.0, 2.0);
         let shares = [crossing - 1.0, -crossing, of_c, 1.0 - of_c];
@@ -150,12 +158,12 @@ pub(crate) fn hinges(
     (0..edges.len()).into_par_iter().with_min_len(GRAIN).filter_map(hinge).collect()
 }
 
-/// The corner of a face that is none of two.
+/// The corner of a face that is not one of two vertices.
 fn far_corner(face: [u32; 3], ends: [u32; 2]) -> u32 {
     face.into_iter().find(|v| !ends.contains(v)).unwrap_or(face[0])
 }
 
-/// Whether two vertices have normals that lean apart.
+/// Whether the normals of two vertices separate the surface.
 fn is_parted(normals: &[[f32; 3]], a: u32, b: u32) -> bool {
     if a == b {
         return false;

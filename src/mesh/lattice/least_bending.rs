@@ -1,7 +1,8 @@
-//! [`least_bending`]: where in the box around each vertex a surface bends least.
+//! [`least_bending`]: minimises the bending energy, with each vertex confined to a box.
 //!
-//! Source: Beck and Teboulle, "A fast iterative shrinkage-thresholding algorithm for linear inverse problems", SIAM J. Imaging
-//! Sciences 2(1), 2009, equations 4.1 to 4.3, with a step for each vertex: each goes against the slope of what it bends, and back into its box.
+//! Source: Beck and Teboulle, "A fast iterative shrinkage-thresholding algorithm for linear inverse problems"
+//! (FISTA), SIAM J. Imaging Sciences 2(1), 2009, equations 4.1 to 4.3. Here each vertex has a separate step
+//! size: it moves against the gradient and is projected back into its box.
 
 use crate::parallel::prelude::*;
 use glam::Vec3;
@@ -10,15 +11,16 @@ use super::hinges::Hinge;
 use crate::geometry::lists::csr_lists::grouped_pairs;
 use crate::parallel::task_size::GRAIN;
 
-/// By then five sixths and more of the bending that can go are gone, and later steps change what is sharp at few edges.
+/// Maximum number of descent steps. They remove at least 5/6 of the removable bending; further steps affect
+/// few sharp edges.
 pub(crate) const STEPS: usize = 16;
-/// A step in which nothing moves by more than this share of half a box is the last.
+/// Minimum displacement in a step, in half steps of the lattice. Descent stops below it.
 const STILL: f32 = 4e-3;
 
-/// How far each place is moved in so many steps of descent, in half steps of the lattice: along each axis from -1 to 1, and not
-/// at all those that are not `free`.
+/// Displacement of each position after at most `steps` steps of descent, in half steps of the lattice: -1 to
+/// 1 along each axis, zero for positions that are not `free`.
 pub(crate) fn least_bending(hinges: &[Hinge], free: &[bool], steps: usize) -> Vec<Vec3> {
-    // For each place the hinges it takes part in, and what it counts there.
+    // For each position its hinges, with its coefficients there.
     let parts = hinges.iter().zip(0u32..).flat_map(|(hinge, k)| {
         hinge.corners.into_iter().zip(hinge.shares()).map(move |(v, share)| (v as usize, (k, share)))
     });

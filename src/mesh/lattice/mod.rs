@@ -23,22 +23,23 @@ use self::least_bending::{STEPS, least_bending};
 use super::{EdgeFaces, Edges};
 use crate::parallel::task_size::GRAIN;
 
-/// So many bits a lattice may have. Files have 8 to 16; with fewer the same numbers may be chance.
+/// Range of the number of bits of a lattice. Files have 8 to 16; below 7 the match may be random.
 const BITS: std::ops::RangeInclusive<u32> = 7..=16;
-/// A vertex on the lattice is off it by no more than this share of a step: decoding goes in single precision.
+/// Maximum distance of a vertex from its lattice point, as a share of a step. It covers decoding in single
+/// precision.
 const OFF: f64 = 0.02;
 
-/// A lattice over the box of a set of vertices: 2ᵇ − 1 steps over its longest side, b a whole number.
+/// Lattice over the box of some vertices, with 2ᵇ − 1 steps along its longest side, for a whole number b.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Lattice {
-    /// The least coordinates, which are on it.
+    /// Lower corner of the box, a point of the lattice.
     low: DVec3,
-    /// The length of a step, the same along all axes, in the unit of the vertices.
+    /// Length of a step, the same on all axes, in the unit of the vertices.
     step: f64,
 }
 
 impl Lattice {
-    /// The coarsest lattice on which all of these vertices lie; `None` if there is none.
+    /// The coarsest lattice that contains all of these vertices; `None` if there is none.
     ///
     /// ```
     /// use glam::DVec3;
@@ -62,7 +63,7 @@ impl Lattice {
         lattices.into_iter().find(|lattice| vertices.iter().all(|p| lattice.has(*p)))
     }
 
-    /// The length of a step, in the unit of the vertices.
+    /// Length of a step, in the unit of the vertices.
     #[must_use]
     pub fn step(&self) -> f64 {
         self.step
@@ -73,18 +74,19 @@ impl Lattice {
         (steps - steps.round()).abs().max_element() <= OFF
     }
 
-    /// The place of a vertex as one number: 16 bits for each axis.
+    /// Lattice point of a vertex as one number, 16 bits per axis.
     fn key(&self, p: DVec3) -> u64 {
         let steps = ((p - self.low) / self.step).round().to_array();
         steps.iter().fold(0, |key, steps| key << 16 | (*steps as u64 & 0xffff))
     }
 }
 
-/// Moves vertices on a lattice by no more than half a step along each axis, so that the surface bends as little as it can.
+/// Moves vertices on a lattice by at most half a step along each axis, so that the surface bends as little as
+/// possible.
 ///
-/// Vertices at the same place stay at the same place. `normals` are those of the vertices, or empty: where faces on both sides of an
-/// edge have normals of their own, the surface is meant to be creased and may bend for nothing. Vertices on no lattice, and those of
-/// any face wide enough, keep their bits.
+/// Vertices at the same position stay together. `normals` are those of the vertices, or empty. An edge whose
+/// faces have different normals is a crease and may bend freely. Vertices on no lattice, and those of wide
+/// faces, stay unchanged.
 pub fn loosen(vertices: &mut [DVec3], triangles: &[[u32; 3]], normals: &[[f32; 3]]) {
     let Some(lattice) = Lattice::of(vertices) else { return };
     if triangles.as_flattened().iter().any(|v| *v as usize >= vertices.len()) {
@@ -118,13 +120,13 @@ pub fn loosen(vertices: &mut [DVec3], triangles: &[[u32; 3]], normals: &[[f32; 3
     });
 }
 
-/// Which place each vertex stands at, and the places, in the order of the first vertex of each: a file's neighbours are
-/// near each other in memory.
+/// Position index of each vertex, and the positions in the order of their first vertices, which keeps
+/// neighbours close in memory.
 fn places(lattice: &Lattice, vertices: &[DVec3]) -> (Vec<u32>, Vec<DVec3>) {
     let keys = vertices.par_iter().with_min_len(GRAIN).enumerate();
     let mut keys: Vec<(u64, u32)> = keys.map(|(v, p)| (lattice.key(*p), v as u32)).collect();
     keys.par_sort_unstable();
-    // Of each vertex the first one at its place, then the number of that place.
+    // First the smallest vertex at the same position, then the index of the position.
     let mut place_of = vec![0; vertices.len()];
     for same in keys.chunk_by(|a, b| a.0 == b.0) {
         same.iter().for_each(|(_, v)| place_of[*v as usize] = same[0].1);

@@ -2,7 +2,7 @@ use super::*;
 use crate::geometry::numbers::portable_math::{acos, cos, sin};
 use crate::mesh::{Mesh, Soup, Turns};
 
-/// A torus of so many quads around and along, each cut in two.
+/// Torus with `around` times `along` quads, each cut in two.
 fn torus(around: u32, along: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let turn = |k: u32, n: u32| std::f64::consts::TAU * f64::from(k) / f64::from(n);
     let point = |i: u32, j: u32| {
@@ -14,7 +14,8 @@ fn torus(around: u32, along: u32) -> (Vec<DVec3>, Vec<[u32; 3]>) {
     (vertices, grid(around, along, true))
 }
 
-/// The triangles of a grid of vertices; closed: the last row goes on in the first, and the last column too.
+/// Triangles of a grid of vertices. If `closed`, the last row continues in the first, and the last column as
+/// well.
 fn grid(rows: u32, columns: u32, closed: bool) -> Vec<[u32; 3]> {
     let open = u32::from(!closed);
     let at = |i: u32, j: u32| i % rows * columns + j % columns;
@@ -27,7 +28,7 @@ fn grid(rows: u32, columns: u32, closed: bool) -> Vec<[u32; 3]> {
         .collect()
 }
 
-/// Vertices rounded as compression does it, and the length of a step.
+/// Vertices rounded as by compression, and the length of a step.
 fn rounded(vertices: &[DVec3], bits: u32) -> (Vec<DVec3>, f64) {
     let low = vertices.iter().fold(DVec3::INFINITY, |low, p| low.min(*p));
     let high = vertices.iter().fold(DVec3::NEG_INFINITY, |high, p| high.max(*p));
@@ -35,7 +36,7 @@ fn rounded(vertices: &[DVec3], bits: u32) -> (Vec<DVec3>, f64) {
     (vertices.iter().map(|p| low + ((*p - low) / step).round() * step).collect(), step)
 }
 
-/// How many edges turn by more than so many degrees.
+/// Number of edges that turn by more than an angle.
 fn sharp(vertices: &[DVec3], triangles: &[[u32; 3]], degrees: f64) -> usize {
     let soup = Soup { positions: vertices.to_vec(), triangles: triangles.to_vec(), ..Soup::default() };
     let mesh = Mesh::build(soup);
@@ -59,7 +60,7 @@ fn what_rounding_made_sharp_is_smooth_again_within_half_a_step() {
     assert!(farthest(&loose, &on_lattice) <= 0.5 * step * 1.000_001);
     assert_eq!(sharp(&loose, &triangles, 30.0), 0);
     assert!(sharp(&loose, &triangles, 10.0) * 10 < sharp(&on_lattice, &triangles, 10.0));
-    // And it is nearer to what was rounded than the places are.
+    // The result is nearer to the original shape than the rounded positions are.
     let off = |of: &[DVec3]| {
         let from = |p: &DVec3| {
             let out = p.truncate().length() - 1.0;
@@ -77,7 +78,7 @@ fn faces_wide_enough_and_the_ends_of_a_surface_keep_their_bits() {
     let mut loose = on_lattice.clone();
     loosen(&mut loose, &triangles, &[]);
     assert_eq!(loose, on_lattice);
-    // A fine wave with an end all around.
+    // A fine wave with a border all around.
     let wave = |k: u32| {
         let (x, y) = (f64::from(k / 60), f64::from(k % 60));
         DVec3::new(x, y, 4.0 * sin(0.1 * x + 0.05 * y))
@@ -89,13 +90,14 @@ fn faces_wide_enough_and_the_ends_of_a_surface_keep_their_bits() {
     let is_end = |k: usize| [k / 60, k % 60].iter().any(|i| *i == 0 || *i == 59);
     assert!((0..3600).filter(|k| is_end(*k)).all(|k| loose[k] == on_lattice[k]));
     assert!((0..3600).any(|k| loose[k] != on_lattice[k]));
-    // What lies on no lattice is left as it is.
+    // Vertices on no lattice stay unchanged.
     let mut free = truth.clone();
     loosen(&mut free, &grid(60, 60, false), &[]);
     assert_eq!(free, truth);
 }
 
-/// A ridge of 60 degrees of fine faces, askew in space; each slope has vertices of its own along it.
+/// Ridge of 60 degrees made of fine faces, not aligned with the axes. Each slope has separate vertices along
+/// it.
 fn ridge() -> (Vec<DVec3>, Vec<[u32; 3]>, Vec<[f32; 3]>) {
     const COLUMNS: u32 = 40;
     const ROWS: u32 = 20;
@@ -125,14 +127,15 @@ fn a_crease_that_normals_tell_stays_and_the_faces_beside_it_are_flat() {
     let (on_lattice, _) = rounded(&truth, 7);
     let mut loose = on_lattice.clone();
     loosen(&mut loose, &triangles, &normals);
-    // All 39 edges of the crease turn by about what they should.
+    // All 39 edges of the crease keep most of their turn.
     let turned = |of: &[DVec3], least: f64| sharp(of, &triangles, least);
     assert_eq!([turned(&truth, 59.9), turned(&truth, 1.0)], [39, 39]);
     assert!(turned(&loose, 45.0) >= 37, "{}", turned(&loose, 45.0));
     assert!(turned(&on_lattice, 20.0) > 400 && turned(&loose, 20.0) < 120);
 }
 
-/// A bar whose corner is a bevel of two strips, six steps wide each, that turn by 45 degrees to each other, askew in space.
+/// Bar with a bevelled corner: two strips, six steps wide each, that turn by 45 degrees, not aligned with the
+/// axes.
 fn bevel() -> (Vec<DVec3>, Vec<[u32; 3]>) {
     let (along, up) = (DVec3::new(0.8, 0.53, 0.28).normalize(), DVec3::new(-0.2, -0.22, 0.95));
     let up = (up - along * along.dot(up)).normalize();
@@ -165,7 +168,7 @@ fn a_bevel_of_a_few_steps_keeps_the_edge_in_its_middle() {
 #[test]
 fn vertices_at_one_place_stay_at_one_place() {
     let (truth, triangles) = torus(120, 40);
-    // Each face has corners of its own, some moved twice in the list.
+    // Each face has separate corners.
     let (on_lattice, _) = rounded(&truth, 7);
     let corners: Vec<DVec3> = triangles.as_flattened().iter().map(|v| on_lattice[*v as usize]).collect();
     let own: Vec<[u32; 3]> = (0..triangles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
@@ -174,7 +177,7 @@ fn vertices_at_one_place_stay_at_one_place() {
     let mut shared = on_lattice;
     loosen(&mut shared, &triangles, &[]);
     let same = triangles.as_flattened().iter().zip(&apart).all(|(v, p)| {
-        // The order of places is another one, and with it that of sums.
+        // The order of positions differs, and with it the rounding of sums.
         shared[*v as usize].abs_diff_eq(*p, 1e-5)
     });
     assert!(same);
@@ -183,7 +186,7 @@ fn vertices_at_one_place_stay_at_one_place() {
     assert!(one, "corners of one place came apart");
 }
 
-/// Slow and obvious: one vertex after the other goes to where it bends least, till all rest.
+/// Reference: moves one vertex after the other to its minimum, repeatedly.
 fn by_one_and_one(hinges: &[super::hinges::Hinge], free: &[bool]) -> Vec<glam::DVec3> {
     let mut moved = vec![DVec3::ZERO; free.len()];
     let gap = |hinge: &super::hinges::Hinge, moved: &[DVec3]| {

@@ -1,32 +1,32 @@
-//! Needles: faces without area, across which two real faces meet.
+//! Needles: faces without area between two real faces.
 //!
-//! A triangle whose corners lie on one line has no normal and hides nothing, but meshes use it to
-//! stitch a long edge to two short ones. The faces on its far side are looked up *through* it: its
-//! short edges see the face beyond its long edge, and its long edge draws nothing itself. Where needles lie side by
-//! side, of the edges over any point of their line one at least is the long edge of none: that one speaks there.
+//! A triangle with collinear corners has no normal and hides nothing, but meshes use it to connect a long
+//! edge to two short ones. Lookups go *through* it: across a short edge they find the face behind the long
+//! edge, and the long edge itself draws nothing. Needles may be adjacent. Over any point of their line, at
+//! least one edge is not the long edge of a needle, and this edge represents the line there.
 
 use glam::DVec3;
 
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
-/// What lies across an edge when a needle is looked through.
+/// Result of a lookup across an edge, through needles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Beyond {
     /// A face with area.
     Face(u32),
-    /// The edge is the needle's long one, or there are others on the same line: shorter edges speak for it.
+    /// The edge is the long one of a needle, or collinear with others: shorter edges represent it.
     LongEdge,
-    /// Nothing: the edge is a border.
+    /// No face: the edge is a border.
     Nothing,
 }
 
-/// Looks from an edge (`lo` < `hi`) at one of its faces, and through it if it is a needle.
+/// The face at an edge (`lo` < `hi`) on the side of `face`, looking through needles.
 #[must_use]
 pub fn seen_from(mesh: &Mesh, face: u32, [lo, hi]: [u32; 2]) -> Beyond {
     if mesh.is_degenerate(FaceId(face)) { beyond(mesh, face, lo, hi) } else { Beyond::Face(face) }
 }
 
-/// Looks from an edge (`lo` < `hi`) through `needle`.
+/// The face across `needle` from an edge (`lo` < `hi`).
 #[must_use]
 fn beyond(mesh: &Mesh, needle: u32, lo: u32, hi: u32) -> Beyond {
     let (mut needle, mut edge) = (needle, [lo, hi]);
@@ -36,7 +36,7 @@ fn beyond(mesh: &Mesh, needle: u32, lo: u32, hi: u32) -> Beyond {
     }
     let middle = (mesh.positions[lo as usize] + mesh.positions[hi as usize]) / 2.0;
     let mut rises = true;
-    // Needles may lie side by side; a ring of them must not hold us up for ever.
+    // Needles may be adjacent. The limit stops at a ring of them.
     for _ in 0..16 {
         let side = if long == edge { short_edge(mesh, needle, edge, middle) } else { long };
         let Ok(id) = mesh.edges.vertices.binary_search(&side) else { return Beyond::Nothing };
@@ -47,7 +47,7 @@ fn beyond(mesh: &Mesh, needle: u32, lo: u32, hi: u32) -> Beyond {
         }
         long = long_edge(mesh, next);
         if rises && long == side {
-            // Short edges lie on both sides of this one: those on one of them speak for it.
+            // Short edges are on both sides of this one; those on one side represent it.
             rises = false;
             if third_corner(mesh, needle, side) > third_corner(mesh, next, side) {
                 return Beyond::LongEdge;
@@ -58,7 +58,7 @@ fn beyond(mesh: &Mesh, needle: u32, lo: u32, hi: u32) -> Beyond {
     Beyond::Nothing
 }
 
-/// Of the short edges of a needle, beside its long one, that on which a point of this is.
+/// The short edge of a needle next to a point of its long edge.
 fn short_edge(mesh: &Mesh, needle: u32, long: [u32; 2], point: DVec3) -> [u32; 2] {
     let at = |v: u32| mesh.positions[v as usize];
     let third = third_corner(mesh, needle, long);
@@ -67,7 +67,7 @@ fn short_edge(mesh: &Mesh, needle: u32, long: [u32; 2], point: DVec3) -> [u32; 2
     [end.min(third), end.max(third)]
 }
 
-/// The corner of a face that is no end of an edge.
+/// The corner of a face that is not on an edge.
 fn third_corner(mesh: &Mesh, face: u32, edge: [u32; 2]) -> u32 {
     mesh.triangles[face as usize].into_iter().find(|v| !edge.contains(v)).unwrap_or(edge[0])
 }
@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn faces_across_a_needle_are_neighbours() {
-        // One long side below, two short ones above; the needle 0 1 2 lies between.
+        // One long side below, two short ones above, and the needle 0 1 2 between them.
         let points = [[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [1.0, -1.0], [1.0, 1.0]];
         let mesh = Mesh::build(Soup {
             positions: points.map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec(),
@@ -124,8 +124,8 @@ mod tests {
         assert_eq!(beyond(&mesh, needle, at(0.0), at(1.0)), Beyond::Nothing);
     }
 
-    /// Two walls that meet in one line, as those of a roof, and needles between them. Of the vertices on that line, at these
-    /// places, each wall has its own: the ends of its faces.
+    /// Two walls that meet in one line, as in a roof, with needles between them. Each wall has separate
+    /// vertices on the line, at the given positions: the ends of its faces.
     fn roof(places: &[f64], left: &[[u32; 2]], right: &[[u32; 2]], needles: &[[u32; 3]]) -> Mesh {
         let mut positions: Vec<DVec3> = places.iter().map(|x| DVec3::X * *x).collect();
         let far = positions.len() as u32;
@@ -136,7 +136,7 @@ mod tests {
         Mesh::build(Soup { positions, triangles, ..Soup::default() })
     }
 
-    /// From where to where on the line of a roof two walls are seen to meet, in order.
+    /// Intervals on the line of a roof where two walls meet, in order.
     fn met(mesh: &Mesh) -> Vec<[f64; 2]> {
         let on_line = |edge: &usize| mesh.edges.vertices[*edge].iter().all(|v| place(mesh, *v).z == 0.0);
         let turns = |edge: &usize| Dihedral::at(mesh, *edge).is_some_and(|d| (d.turn() - 90.0).abs() < 1e-3);
@@ -162,7 +162,7 @@ mod tests {
     #[test]
     fn walls_meet_over_needles_that_share_their_long_edge() {
         let mesh = roof(&[0.0, 1.0, 1.8, 3.0], &[[0, 2], [2, 3]], &[[0, 1], [1, 3]], &[[0, 3, 1], [0, 2, 3]]);
-        // As one of the walls is parted, and not twice.
+        // Divided like one of the walls, and covered once.
         let found = met(&mesh);
         assert!(found == [[0.0, 1.0], [1.0, 3.0]] || found == [[0.0, 1.8], [1.8, 3.0]], "{found:?}");
     }

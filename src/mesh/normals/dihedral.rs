@@ -1,7 +1,7 @@
-//! [`Dihedral`]: the two faces that meet at an edge, and by how much the surface turns there.
+//! [`Dihedral`]: two faces that meet at an edge, and the angle between them.
 //!
-//! Told from geometry, not from winding alone, so that meshes of mixed winding are judged right;
-//! faces without area are looked through.
+//! The angle takes the direction of both faces along the edge into account, so that it is correct for mixed
+//! winding. Faces without area are skipped.
 
 use glam::DVec3;
 
@@ -16,16 +16,16 @@ use crate::mesh::{EdgeFaces, EdgeMark, FaceId, Mesh};
 pub struct Dihedral {
     /// The two faces.
     pub faces: [u32; 2],
-    /// Whether both run along the edge the same way, as no well-wound surface does.
+    /// Whether both run along the edge in the same direction, which does not occur on a consistently wound
+    /// surface.
     pub same_way: bool,
-    /// Cosine of the angle by which the surface turns from one face to the other: 1 where it is
-    /// flat.
+    /// Cosine of the turn from one face to the other: 1 where the surface is flat.
     pub cosine: f32,
 }
 
 impl Dihedral {
-    /// The two faces of an edge; `None` at borders, where three or more faces with area meet, and
-    /// at the long edge of a needle, whose short edges speak for it.
+    /// The two faces at an edge. `None` at borders, where three or more faces with area meet, and at the long
+    /// edge of a needle, which shorter edges represent.
     #[inline]
     #[must_use]
     pub fn at(mesh: &Mesh, edge: usize) -> Option<Self> {
@@ -46,7 +46,7 @@ impl Dihedral {
         }
     }
 
-    /// Two faces that are known to meet.
+    /// Two faces known to be adjacent.
     #[inline]
     #[must_use]
     pub fn of(mesh: &Mesh, faces: [u32; 2], same_way: bool) -> Self {
@@ -55,26 +55,26 @@ impl Dihedral {
         Self { faces, same_way, cosine: if same_way { -dot } else { dot } }
     }
 
-    /// Degrees by which the surface turns: 0 where it is flat, 180 where it folds back on itself.
+    /// Turn of the surface, degrees: 0 where it is flat, 180 where it folds back on itself.
     #[must_use]
     pub fn turn(&self) -> f32 {
         turn_of(self.cosine)
     }
 
-    /// Degrees by which the surface turns for sure: the rest may come from the rounding of the corners. Limits of angles are
-    /// compared with this, so that what turns by the limit itself is never above it, however it is written.
+    /// Turn of the surface minus its error bound, degrees. Compare angle limits with this value, so that a
+    /// turn equal to the limit never exceeds it because of rounding.
     #[must_use]
     pub fn sure_turn(&self, mesh: &Mesh) -> f32 {
         self.turn() - self.doubt(mesh)
     }
 
-    /// Degrees by which the angle may be off.
+    /// Error bound of the angle, degrees.
     fn doubt(&self, mesh: &Mesh) -> f32 {
         let [a, b] = self.faces.map(|face| Self::doubt_of(mesh, face));
         (a + b) as f32
     }
 
-    /// Degrees by which rounding may have turned the normal of a face.
+    /// Error bound of a face normal due to rounding, degrees.
     #[must_use]
     pub fn doubt_of(mesh: &Mesh, face: u32) -> f64 {
         let least = tolerance::ANGLE_DEG / 2.0;
@@ -88,12 +88,12 @@ impl Dihedral {
         {
             height = normal_carriers::height(&mesh.corners(FaceId(mesh.carriers[at][1])));
         }
-        // Doubts are small, and an arc is as long as its sine there.
+        // The error is small, so the angle equals its sine.
         least + (2.0 * rounding / height).min(1.0).to_degrees()
     }
 
-    /// Whether the surface is flat at an edge of the mesh, within the rounding of the file: the corners of both faces that
-    /// are not on the edge lie within `contact` of a plane through it.
+    /// Whether the surface is flat at an edge, within the rounding of the file. The opposite corners of both
+    /// faces must lie within `contact` of a plane through the edge.
     #[must_use]
     pub fn is_flat(&self, mesh: &Mesh, edge: usize) -> bool {
         let [first, second] = self.faces;
@@ -103,8 +103,9 @@ impl Dihedral {
             let corner = mesh.triangles[face as usize].iter().find(|v| !ends.contains(v));
             corner.map_or(a, |v| mesh.positions[*v as usize])
         };
-        // Twice the areas of both faces are their heights over the edge, and the volume is how far the second corner lies from the plane of
-        // the first face, times the area of that: each times the length of the edge.
+        // Twice the areas of both faces are their heights over the edge, times the length of the edge. The
+        // volume is the distance of the second corner from the plane of the first face, times the area of
+        // that face.
         let (across, over) = ((b - a).cross(third(first) - a), third(second) - a);
         let contact = [first, second].map(|face| mesh.extent(FaceId(face)).contact);
         let contact = contact[0].max(contact[1]);
@@ -113,7 +114,7 @@ impl Dihedral {
         self.cosine > 0.0 && is_near
     }
 
-    /// The normals of the two faces, both on the side that the first one calls outside.
+    /// The normals of the two faces, both on the front side of the first.
     #[must_use]
     pub fn normals(&self, mesh: &Mesh) -> [DVec3; 2] {
         let [a, b] = self.faces.map(|f| DVec3::from(mesh.face_normals[f as usize].map(f64::from)));
@@ -121,13 +122,13 @@ impl Dihedral {
     }
 }
 
-/// Degrees of the angle with a cosine.
+/// Angle with a cosine, degrees.
 #[must_use]
 pub fn turn_of(cosine: f32) -> f32 {
     acos(f64::from(cosine)).to_degrees() as f32
 }
 
-/// Out of line: needles are rare.
+/// Kept out of line, because needles are rare.
 #[cold]
 fn beside_needle(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<Dihedral> {
     let seen = |face: u32| match seen_from(mesh, face, mesh.edges.vertices[edge]) {
@@ -138,7 +139,7 @@ fn beside_needle(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<Dihedral> 
     (first != second).then(|| Dihedral::of(mesh, [first, second], false))
 }
 
-/// Whether an edge is a diagonal of a polygon of the file that turns there, by so many degrees, too little to be folded.
+/// Whether an edge is a diagonal of a polygon of the file whose turn (degrees) is too small for a fold.
 #[must_use]
 pub fn is_unfolded_diagonal(mark: EdgeMark, turn: f32) -> bool {
     mark == EdgeMark::Diagonal && f64::from(turn) <= tolerance::FOLDED_POLYGON_DEG
@@ -152,8 +153,8 @@ pub fn runs_up(mesh: &Mesh, edge: usize, face: u32) -> bool {
     [(a, b), (b, c), (c, a)].contains(&(lo, hi))
 }
 
-/// The mark that the file gives an edge through some of its faces; the strongest mark counts. It is a diagonal only if all of these faces
-/// that have it as a side say so: a diagonal of one polygon may be a side of another.
+/// The strongest mark that the file gives an edge through some of its faces. It is a diagonal only if all of
+/// these faces say so, because the diagonal of one polygon may be a side of another.
 #[must_use]
 pub fn mark(mesh: &Mesh, edge: usize, faces: impl IntoIterator<Item = u32>) -> EdgeMark {
     if mesh.edge_marks.is_empty() {

@@ -1,19 +1,19 @@
-//! [`Turns`]: by how much the surface turns at every edge, found once for all who ask.
+//! [`Turns`]: cosine of the dihedral angle at every edge, computed once.
 
 use crate::parallel::prelude::*;
 
 use crate::mesh::{Dihedral, EdgeFaces, Mesh};
 use crate::parallel::task_size::GRAIN;
 
-/// The cosines of the angles by which the surface of a mesh turns at its edges.
+/// Cosines of the turns of the surface at the edges of a mesh.
 #[derive(Debug, Clone, Default)]
 pub struct Turns {
-    /// Between the two faces of each edge, NaN where there are not two; 0 beside faces without area as well.
+    /// Cosine between the two faces of each edge; NaN where there are not two, 0 next to faces without area.
     cosines: Vec<f32>,
 }
 
 impl Turns {
-    /// Those of a mesh.
+    /// Computes the cosines of a mesh.
     #[must_use]
     pub fn of(mesh: &Mesh) -> Self {
         let cosine = |edge: usize| match mesh.edges.faces(edge) {
@@ -23,14 +23,14 @@ impl Turns {
         Self { cosines: (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN).map(cosine).collect() }
     }
 
-    /// The cosine at an edge where just two faces meet, NaN elsewhere. Meaningless beside faces without area.
+    /// Cosine at an edge with exactly two faces, NaN elsewhere. Not meaningful next to faces without area.
     #[inline]
     #[must_use]
     pub fn of_two(&self, edge: usize) -> f32 {
         self.cosines[edge]
     }
 
-    /// The cosine of [`Dihedral::at`], which looks through faces without area; NaN where that finds none.
+    /// Cosine of [`Dihedral::at`], which skips faces without area; NaN where that is `None`.
     #[inline]
     #[must_use]
     pub fn at(&self, mesh: &Mesh, edge: usize) -> f32 {
@@ -38,7 +38,7 @@ impl Turns {
         if cosine.abs() > 0.0 { cosine } else { looked_through(mesh, edge) }
     }
 
-    /// [`Dihedral::at`], mostly without a look at the faces.
+    /// Same as [`Dihedral::at`], but in most cases without access to the faces.
     #[inline]
     #[must_use]
     pub fn dihedral(&self, mesh: &Mesh, edge: usize) -> Option<Dihedral> {
@@ -52,7 +52,7 @@ impl Turns {
     }
 }
 
-/// Out of line: borders, faces without area and right angles are rare.
+/// Kept out of line, because borders, faces without area and right angles are rare.
 #[cold]
 fn looked_through(mesh: &Mesh, edge: usize) -> f32 {
     Dihedral::at(mesh, edge).map_or(f32::NAN, |dihedral| dihedral.cosine)

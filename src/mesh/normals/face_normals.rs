@@ -1,4 +1,4 @@
-//! The normals of triangles, and which have none.
+//! Face normals, and detection of faces without area and of narrow faces.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -7,7 +7,7 @@ use super::normal_carriers::{height, is_narrow};
 use super::triangle_area::area_vector;
 use crate::parallel::task_size::GRAIN;
 
-/// Unit normals; zero where the triangle has no area, by the scale of its part.
+/// Unit normals; zero where a triangle has no area at the scale of its part.
 pub(crate) fn face_normals(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
@@ -16,8 +16,8 @@ pub(crate) fn face_normals(
     normals_and_narrow(positions, triangles, |face| (scale(face), 0.0)).0
 }
 
-/// The same, and the faces, ascending, that have an area and are so narrow that rounding may turn their normals; `measure` gives the scale of
-/// the part of a face, and how far rounding may have moved its corners.
+/// Same, with the narrow faces, ascending: they have an area, but rounding may turn their normals. `measure`
+/// returns the scale of the part of a face, and the rounding of its corners.
 pub(crate) fn normals_and_narrow(
     positions: &[DVec3],
     triangles: &[[u32; 3]],

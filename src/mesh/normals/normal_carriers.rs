@@ -1,16 +1,16 @@
-//! Narrow faces that lie in the plane of a wider neighbour, within the rounding of the file.
+//! Narrow faces that are coplanar with a wider neighbour, within the rounding of the file.
 //!
-//! Programs cut flat polygons into triangles, and some of these are narrow. Once the coordinates are rounded, a narrow triangle leans
-//! by any angle: its normal is as uncertain as the rounding divided by its height. Its wider neighbour in the same plane knows the
-//! normal better. So each narrow face gets a *carrier*:
+//! Flat polygons are often cut into narrow triangles. After rounding, a narrow triangle may tilt by any
+//! angle: the error of its normal is the rounding divided by its height. A wider neighbour in the same plane
+//! has a more accurate normal. Each narrow face therefore gets a *carrier*:
 //!
 //! 1. A face is unsure if rounding may turn its normal by more than [`UNSURE_SINE`](tolerance::UNSURE_SINE).
-//! 2. The search goes on beyond its longest edge, to a neighbour of the same part whose plane holds all its corners, within the rounding.
-//!    A face that is little more than a line lies in the planes on both sides of it: at its short edges, which part of it each of the
-//!    faces there meets is known, so that the long edge is the one that vanishes.
-//! 3. From a neighbour that is unsure itself, the search goes on in the same way.
+//! 2. The search crosses the longest edge to a neighbour of the same part whose plane contains all corners of
+//!    the face, within the rounding. A face that is almost a line fits the planes on both sides. Its short
+//!    edges show which part of it each neighbour meets, so the long edge is the one that vanishes.
+//! 3. From an unsure neighbour, the search continues in the same way.
 //!
-//! The face takes over the normal of its carrier, and turns to the eye when its carrier does.
+//! The face takes the normal of its carrier, and is front-facing when its carrier is.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -20,10 +20,10 @@ use crate::geometry::numbers::portable_math::cos;
 use crate::geometry::numbers::tolerance;
 use crate::mesh::{EdgeFaces, Edges, Extents, Mesh, PartId};
 
-/// The search for a carrier ends after this many faces.
+/// Maximum number of faces in the search for a carrier.
 const MAX_STEPS: usize = 16;
 
-/// What is needed to find carriers.
+/// Data for the search for carriers.
 pub(crate) struct Faces<'a> {
     pub(crate) positions: &'a [DVec3],
     pub(crate) triangles: &'a [[u32; 3]],
@@ -33,13 +33,13 @@ pub(crate) struct Faces<'a> {
 }
 
 impl<'a> Faces<'a> {
-    /// The faces of a mesh.
+    /// Uses the faces of a mesh.
     pub(crate) fn of(mesh: &'a Mesh) -> Self {
         let Mesh { positions, triangles, face_part: parts, edges, extents, .. } = mesh;
         Self { positions, triangles, parts, edges, extents }
     }
 
-    /// The neighbours of a face whose planes hold it, or that lie in its own plane.
+    /// The neighbours whose planes contain a face, or that lie in its plane.
     pub(crate) fn neighbours_in_plane(&self, face: u32) -> Vec<u32> {
         let corners = self.corners(face);
         let is_in_plane =
@@ -47,7 +47,7 @@ impl<'a> Faces<'a> {
         self.neighbours(face).filter(is_in_plane).collect()
     }
 
-    /// Whether a face is one of those of a bent surface: whether it has neighbours on all sides, which turn by less than
+    /// Whether a face belongs to a curved surface: it has neighbours on all sides that turn by less than
     /// [`MAX_FACET_DEG`](tolerance::MAX_FACET_DEG).
     pub(crate) fn is_facet(&self, face: u32) -> bool {
         let normal = |face: u32| {
@@ -58,12 +58,12 @@ impl<'a> Faces<'a> {
         self.neighbours(face).filter(|other| normal(*other).dot(own) > least).count() == 3
     }
 
-    /// The least height of a face.
+    /// Smallest height of a face, world units.
     pub(crate) fn height_of(&self, face: u32) -> f64 {
         height(&self.corners(face))
     }
 
-    /// Each of the unsure faces, ascending, with its carrier, where it has one.
+    /// Pairs of the unsure faces (ascending) and their carriers. Faces without a carrier are left out.
     pub(crate) fn carriers(&self, unsure: &[u32]) -> Vec<[u32; 2]> {
         let carrier = |face: &u32| Some([*face, self.carrier(*face)?]);
         unsure.par_iter().with_min_len(64).filter_map(carrier).collect()
@@ -80,13 +80,13 @@ impl<'a> Faces<'a> {
     fn is_unsure(&self, face: u32) -> bool {
         let rounding = self.rounding(face);
         let corners = self.corners(face);
-        // Faces without area are looked through.
+        // Faces without area are skipped.
         rounding > 0.0
             && is_narrow(height(&corners), rounding)
             && has_area(corners, self.extents.of(self.parts[face as usize]).scale)
     }
 
-    /// The first face that is sure on the way over longest edges, through planes that hold the face.
+    /// The first sure face on a path across longest edges, through planes that contain the face.
     fn carrier(&self, face: u32) -> Option<u32> {
         let corners = self.corners(face);
         let mut way = vec![face];
@@ -101,7 +101,7 @@ impl<'a> Faces<'a> {
         None
     }
 
-    /// The faces of the same part beyond the edges of a face, that beyond the longest edge first.
+    /// The neighbours of a face in the same part, starting across the longest edge.
     fn neighbours(&self, face: u32) -> impl Iterator<Item = u32> {
         let [a, b, c] = self.triangles[face as usize];
         let length =
@@ -126,9 +126,11 @@ impl<'a> Faces<'a> {
     }
 }
 
-/// Whether a point may lie in the plane of a triangle, if rounding has moved it and each corner by up to `rounding`.
+/// Whether a point may lie in the plane of a triangle, if rounding has moved the point and each corner by up
+/// to `rounding`.
 ///
-/// The plane moves by the sum of what its corners move by, each times the barycentric weight of the point.
+/// At the point, the plane moves by the displacements of its corners, weighted by the barycentric coordinates
+/// of the point.
 #[must_use]
 pub fn is_in_plane([a, b, c]: &[DVec3; 3], point: DVec3, rounding: f64) -> bool {
     let normal = (*b - *a).cross(*c - *a);
@@ -139,20 +141,21 @@ pub fn is_in_plane([a, b, c]: &[DVec3; 3], point: DVec3, rounding: f64) -> bool 
     distance * area <= rounding * (area + weights) * area.sqrt()
 }
 
-/// The least height of a triangle: its distance to being a line.
+/// Smallest height of a triangle: its distance from a line.
 #[must_use]
 pub fn height(&[a, b, c]: &[DVec3; 3]) -> f64 {
     let longest = (b - a).length_squared().max((c - a).length_squared()).max((c - b).length_squared());
     if longest > 0.0 { (b - a).cross(c - a).length() / longest.sqrt() } else { 0.0 }
 }
 
-/// Whether rounding may turn the normal of a face of this height by more than [`UNSURE_SINE`](tolerance::UNSURE_SINE).
+/// Whether rounding may turn the normal of a face with this height by more than
+/// [`UNSURE_SINE`](tolerance::UNSURE_SINE).
 #[inline]
 pub(crate) fn is_narrow(height: f64, rounding: f64) -> bool {
     height * tolerance::UNSURE_SINE < 2.0 * rounding
 }
 
-/// Gives each face the normal of its carrier.
+/// Copies the normal of each carrier to its face.
 pub(crate) fn take_over(carriers: &[[u32; 2]], normals: &mut [[f32; 3]]) {
     for [face, carrier] in carriers {
         normals[*face as usize] = normals[*carrier as usize];
@@ -164,7 +167,7 @@ mod tests {
     use super::*;
     use crate::mesh::{FaceId, Mesh, Soup};
 
-    /// Two wide triangles and a narrow one between them, whose middle corner is off by `up` and `aside`.
+    /// Two wide triangles with a narrow one between them, whose middle corner is offset by `up` and `aside`.
     fn mesh(up: f64, aside: f64) -> Mesh {
         let points = [[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [1.0, aside, up], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0]];
         Mesh::build(Soup {
@@ -177,13 +180,13 @@ mod tests {
 
     #[test]
     fn a_narrow_face_takes_over_the_normal_of_its_plane() {
-        // Within the rounding the narrow face may lean by any angle.
+        // Within the rounding, the narrow face may tilt by any angle.
         let leaning = mesh(1e-6, 1e-6);
         let across = (0..4).map(FaceId).filter(|f| !leaning.is_degenerate(*f));
         assert_eq!(across.clone().count(), 4);
         assert!(across.into_iter().all(|f| leaning.face_normals[f.index()][2] > 0.999_99));
         assert_eq!(leaning.carriers.len(), 1);
-        // A real fold stays one.
+        // A real fold is kept.
         let folded = mesh(0.1, 0.1);
         assert!(folded.carriers.is_empty());
         assert!(folded.face_normals.iter().any(|n| n[2] < 0.9));

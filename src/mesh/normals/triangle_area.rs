@@ -1,4 +1,5 @@
-//! Which triangles have an area, by the scale of their part: the others hide nothing and do not count in its size.
+//! Decides which triangles have an area, relative to the scale of their part. Others hide nothing and do not
+//! count for its size.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -6,37 +7,39 @@ use glam::DVec3;
 use crate::geometry::numbers::tolerance;
 use crate::parallel::task_size::GRAIN;
 
-/// Coordinates are known to some sixteen digits: no part is measured by less than this share of its largest
-/// coordinate.
+/// Minimum scale of a part, as a share of its largest coordinate: double precision resolves about sixteen
+/// digits.
 const SCALE_OF_LARGEST: f64 = 1.0 / 256.0;
 
-/// The length that the tolerances of a part are fractions of, by its box.
+/// Reference length for the tolerances of a part, from its box.
 pub(crate) fn scale_of(low: DVec3, high: DVec3) -> f64 {
     let largest = low.abs().max(high.abs()).max_element();
     low.distance(high).max(SCALE_OF_LARGEST * largest)
 }
 
-/// Whether a triangle has an area: whether it is higher than rounding, by the scale of its part.
+/// Whether the height of a triangle exceeds rounding at the scale of its part.
 #[inline]
 pub(crate) fn has_area(corners: [DVec3; 3], scale: f64) -> bool {
     area_vector(corners, scale).is_some()
 }
 
-/// Whether a triangle has an area by its own scale alone: those without do not count in the scale of their part.
+/// Whether a triangle has an area at its own scale. Others do not count for the scale of their part.
 #[inline]
 pub(crate) fn has_own_area(corners: [DVec3; 3]) -> bool {
     has_area(corners, 0.0)
 }
 
-/// Twice the area of a triangle along its normal; none where it has no area.
+/// Normal of a triangle, with the length of twice its area; `None` if it has no area.
 ///
-/// What does not count in the scale of its part may be larger than that, or farther away: its own scale counts as well.
+/// A triangle that does not count for the scale of its part may be larger or farther away, so its own scale
+/// is used as well.
 #[inline]
 pub(crate) fn area_vector([a, b, c]: [DVec3; 3], scale: f64) -> Option<DVec3> {
     let (u, v, w) = (b - a, c - a, c - b);
     let cross = u.cross(v);
     let longest_squared = u.length_squared().max(v.length_squared()).max(w.length_squared());
-    // Most triangles are so high that neither a root nor their own scale, whose square is at most this, need be known.
+    // Fast acceptance for most triangles, without a square root and without their exact scale. The square of
+    // that scale is at most `own_squared`.
     let largest = a.abs().max(b.abs()).max(c.abs()).max_element();
     let own_squared = (3.0 * longest_squared).max(SCALE_OF_LARGEST * SCALE_OF_LARGEST * largest * largest);
     let share = tolerance::DEGENERATE_HEIGHT_OF_PART * tolerance::DEGENERATE_HEIGHT_OF_PART;
@@ -49,10 +52,10 @@ pub(crate) fn area_vector([a, b, c]: [DVec3; 3], scale: f64) -> Option<DVec3> {
     (cross.length() > tolerance::DEGENERATE_HEIGHT_OF_PART * scale * longest).then_some(cross)
 }
 
-/// Whether a face may have no area, whichever part it is of: the box is that of all faces and wires.
+/// Whether any face may have no area, for any assignment to parts. The box is that of all faces and wires.
 ///
-/// A part is measured by at most twice the scale of the whole: by its size, or by its coordinates relative to the origin of
-/// the mesh.
+/// The scale of a part is at most twice that of the whole, from its size or from its coordinates relative to
+/// the origin.
 pub(crate) fn may_have_flat_faces(
     positions: &[DVec3],
     triangles: &[[u32; 3]],
@@ -63,7 +66,7 @@ pub(crate) fn may_have_flat_faces(
     triangles.par_iter().with_min_len(GRAIN).any(is_flat)
 }
 
-/// A scale that no part exceeds, by the box of all.
+/// Upper bound for the scale of every part, from the box of everything.
 pub(crate) fn largest_scale(low: DVec3, high: DVec3) -> f64 {
     2.0 * scale_of(low, high)
 }

@@ -1,13 +1,15 @@
-//! The order of vertices and faces: by their places, never by the order of the file, and each place once.
+//! Canonical order of vertices and faces, which depends on positions and not on the file.
 //!
-//! A model may be numbered in any way and is the same model, so its drawing must not show how: which of two
-//! coincident lines stays, the last bit of a sum over the faces round a vertex, where a closed line begins.
-//! Vertices stand along a space-filling curve, so that neighbours in space are neighbours in memory. Faces
-//! go by part and material, which stay as the file has them, and then by their corners; each begins with its
-//! first corner. Lines without faces follow the same rule.
+//! 1. Vertices are sorted along a Morton curve, so that neighbours in space are neighbours in memory. Equal
+//!    positions become one vertex.
+//! 2. Faces are sorted by part and material, in the order of the file, and then by their vertices. Each face
+//!    begins with its smallest vertex. Wires follow the same rule.
 //!
-//! The curve is that of the whole space, not of the model's box: which of two places comes first depends on
-//! nothing but these two, so that parts that come and go leave all others in their order.
+//! The numbering of a model must not affect its drawing. Without a canonical order it would decide which of
+//! two coincident lines remains, the last bit of sums over faces, and where a closed line begins.
+//!
+//! The curve covers all of space, not the box of the model. The order of two positions therefore depends on
+//! nothing else, and other parts can be added or removed without changing it.
 
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
@@ -21,17 +23,17 @@ use crate::geometry::numbers::powers_of_two::power_of_two_above;
 use crate::mesh::{MaterialId, PartId, Soup};
 use crate::parallel::task_size::GRAIN;
 
-/// How many vertices or faces, and then up to where a run ends, one task sorts.
+/// Minimum number of vertices or faces per task. A task ends at the end of a run.
 const PIECE: usize = 1 << 11;
 
-/// No normal or texture coordinate.
+/// Index of a missing normal or texture coordinate.
 const NONE: u32 = u32::MAX;
 
-/// A face with its first corner in front.
+/// Face rotated to begin with its smallest vertex.
 #[derive(Clone, Copy, Default)]
 struct Entry {
     corners: [u32; 3],
-    /// Where the face stood, shifted left by two; the lowest bits say which of its corners came first.
+    /// Original face index, shifted left by two. The lowest two bits are the corner that now comes first.
     face_turn: u32,
 }
 
@@ -51,7 +53,7 @@ impl Entry {
         (self.face_turn >> 2) as usize
     }
 
-    /// The corners after the first, as one number.
+    /// The second and third corner, as one number.
     fn others(&self) -> u64 {
         u64::from(self.corners[1]) << 32 | u64::from(self.corners[2])
     }
@@ -61,8 +63,8 @@ impl Entry {
     }
 }
 
-/// Orders all of a soup with coordinates up to `largest`. Vertices at one place become one; returns how many
-/// went that way.
+/// Sorts a soup with coordinates up to `largest`, and joins vertices at equal positions. Returns the number
+/// of vertices that were removed.
 pub(crate) fn by_place(soup: &mut Soup, largest: f64) -> u64 {
     let before = soup.positions.len();
     let new_id = order_vertices(&mut soup.positions, largest);
@@ -75,15 +77,15 @@ pub(crate) fn by_place(soup: &mut Soup, largest: f64) -> u64 {
     (before - soup.positions.len()) as u64
 }
 
-/// Orders the faces of a soup again, after some of them were turned.
+/// Sorts the faces of a soup again, after some of them were turned.
 pub(crate) fn faces_by_place(soup: &mut Soup) {
     let same: Vec<u32> = (0..soup.positions.len() as u32).collect();
     order_faces(soup, &same);
 }
 
-/// Sorts the places and leaves each once; returns the new id of each old vertex.
+/// Sorts positions and removes duplicates. Returns the new id of each old vertex.
 fn order_vertices(positions: &mut Vec<DVec3>, largest: f64) -> Vec<u32> {
-    // A power of two, so that the cells of a larger model are made of those of a smaller one.
+    // A power of two, so that the cells of a larger model consist of cells of a smaller one.
     let cell = power_of_two_above(largest) / CELLS;
     let keyed: Vec<(u64, u32)> = positions
         .par_iter()
@@ -91,8 +93,8 @@ fn order_vertices(positions: &mut Vec<DVec3>, largest: f64) -> Vec<u32> {
         .with_min_len(GRAIN)
         .map(|(id, p)| (along_curve(*p, cell), id as u32))
         .collect();
-    // Most of the work is done by large cells, of which a surface meets one for every few vertices. What all
-    // keys begin with says nothing.
+    // The first sort is by large cells; a surface meets one for every few vertices. Bits that are equal in
+    // all keys are skipped.
     let first = keyed.first().map_or(0, |(key, _)| *key);
     let different =
         keyed.par_iter().with_min_len(GRAIN).map(|(key, _)| key ^ first).reduce(|| 0, |a, b| a | b);
@@ -110,7 +112,7 @@ fn order_vertices(positions: &mut Vec<DVec3>, largest: f64) -> Vec<u32> {
     numbered(positions, &keyed)
 }
 
-/// Leaves each place once, in the order of `keyed`; returns the new id of each old vertex.
+/// Keeps each position once, in the order of `keyed`. Returns the new id of each old vertex.
 fn numbered(positions: &mut Vec<DVec3>, keyed: &[(u64, u32)]) -> Vec<u32> {
     let place = |k: usize| positions[keyed[k].1 as usize];
     let is_new = |k: usize| k == 0 || place(k - 1) != place(k);
@@ -137,7 +139,7 @@ fn numbered(positions: &mut Vec<DVec3>, keyed: &[(u64, u32)]) -> Vec<u32> {
                 own[count] = place(k);
                 count += 1;
             }
-            // What a chunk begins with may stand at the last place of the one before.
+            // A chunk may begin with the last position of the previous chunk.
             new_id[keyed[k].1 as usize].store(before + count as u32 - 1, Relaxed);
         }
     });
@@ -145,7 +147,7 @@ fn numbered(positions: &mut Vec<DVec3>, keyed: &[(u64, u32)]) -> Vec<u32> {
     new_id.into_iter().map(AtomicU32::into_inner).collect()
 }
 
-/// Gives the faces their new vertices and order.
+/// Renumbers the vertices of the faces, and sorts the faces.
 fn order_faces(soup: &mut Soup, new_id: &[u32]) {
     let renamed = |t: &[u32; 3]| t.map(|v| new_id[v as usize]);
     let entry = |(face, t): (usize, &[u32; 3])| Entry::new(face, renamed(t));
@@ -175,7 +177,7 @@ fn order_faces(soup: &mut Soup, new_id: &[u32]) {
     reorder(&mut soup.edge_marks, &entries, turned);
 }
 
-/// What belongs to the corners of a face, or to the sides that begin there, from another corner on.
+/// Rotates the values of corners, or of sides, to begin at another corner.
 fn turned<T: Copy>([a, b, c]: [T; 3], turn: u32) -> [T; 3] {
     match turn {
         0 => [a, b, c],
@@ -184,13 +186,14 @@ fn turned<T: Copy>([a, b, c]: [T; 3], turn: u32) -> [T; 3] {
     }
 }
 
-/// Changes each run of neighbours that belong together.
+/// Applies `change` to each run of equivalent neighbours.
 fn for_each_run<T: Send>(
     items: &mut [T],
     together: impl Fn(&T, &T) -> bool + Sync,
     change: impl Fn(&mut [T]) + Sync,
 ) {
-    // Pieces that end where a run does, all of about a size: left to split as it likes, a thread keeps what another would wait for.
+    // Tasks are split at the ends of runs and have similar sizes. An automatic split leaves some threads
+    // waiting.
     let mut pieces = Vec::new();
     let mut rest = items;
     while rest.len() > PIECE {
@@ -204,13 +207,13 @@ fn for_each_run<T: Send>(
     pieces.into_par_iter().with_max_len(1).for_each(change_all);
 }
 
-/// Numbers for what has one part and one material, in the order of parts, then of materials.
+/// Numbers of combinations of part and material, in the order of parts, then of materials.
 struct Groups {
     of_face: Vec<u32>,
     count: usize,
 }
 
-/// The groups of the faces; none where all are one.
+/// Groups of the faces by part and material; `None` if there is only one.
 fn groups(soup: &Soup) -> Option<Groups> {
     let key = |face: usize| {
         let part = soup.triangle_part.get(face).copied().unwrap_or_default();
@@ -230,8 +233,8 @@ fn groups(soup: &Soup) -> Option<Groups> {
     Some(Groups { of_face, count: keys.len() })
 }
 
-/// All else that tells faces with the same corners apart: their paint, and by their bits what they have at
-/// each side and corner. Where that is alike too, so are the faces.
+/// Remaining attributes of a face, which order faces with equal corners: paint, marks, and the bits of its
+/// corner values. Faces with equal attributes are interchangeable.
 fn attributes(soup: &Soup, entry: &Entry) -> impl Ord + use<> {
     let (face, turn) = (entry.face(), entry.turn());
     let at_corners = |corners: &[[u32; 3]]| turned(corners.get(face).copied().unwrap_or([NONE; 3]), turn);
@@ -246,7 +249,8 @@ fn attributes(soup: &Soup, entry: &Entry) -> impl Ord + use<> {
     )
 }
 
-/// Puts what each face has in the faces' new order, changed by how far the face was turned.
+/// Sorts a list with one entry per face into the new face order. `change` adapts an entry to the rotation of
+/// its face.
 fn reorder<T: Copy + Default + Send + Sync>(
     list: &mut Vec<T>,
     entries: &[Entry],
@@ -263,7 +267,7 @@ mod tests {
     use super::*;
     use crate::mesh::{EdgeMark, PaintId, Wire};
 
-    /// Two triangles that share a side, each with all that a face may have.
+    /// Two triangles that share a side, with all attributes.
     fn soup() -> Soup {
         Soup {
             positions: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
@@ -289,7 +293,7 @@ mod tests {
         }
     }
 
-    /// Everything of a soup with values in the place of ids.
+    /// All contents of a soup, with ids replaced by values.
     fn values(soup: &Soup) -> impl PartialEq + std::fmt::Debug {
         let normals = soup.corner_normals.iter().map(|t| t.map(|id| soup.normals.get(id as usize).copied()));
         let uvs = soup.corner_uvs.iter().map(|t| t.map(|id| soup.uvs.get(id as usize).copied()));
@@ -305,7 +309,7 @@ mod tests {
 
     #[test]
     fn runs_are_changed_whole_in_pieces_of_many() {
-        // Runs shorter and longer than a piece.
+        // Runs shorter and longer than a task.
         let mut items: Vec<(usize, usize)> =
             (0..5 * PIECE).map(|k| (k * k / (3 * PIECE * PIECE), (k * 7919) % 10_007)).collect();
         let mut expected = items.clone();
@@ -318,7 +322,7 @@ mod tests {
     fn faces_go_by_material_and_begin_with_their_first_corner() {
         let mut soup = soup();
         assert_eq!(by_place(&mut soup, 1.0), 0);
-        // Along the curve: 0 0, then 1 0, then 0 1, then 1 1.
+        // Order along the curve: 0 0, then 1 0, then 0 1, then 1 1.
         let places: Vec<[f64; 2]> = soup.positions.iter().map(|p| [p.x, p.y]).collect();
         assert_eq!(places, [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]);
         assert_eq!(soup.triangles, [[0, 3, 2], [0, 1, 3]]);
@@ -330,7 +334,8 @@ mod tests {
     fn numbering_leaves_no_trace() {
         let mut first = soup();
         by_place(&mut first, 1.0);
-        // Other ids, other corners in front, zeros of another sign, a vertex twice, an unused one at an old place.
+        // Other ids, rotated faces, zeros of other sign, a duplicate vertex, and an unused one at an existing
+        // position.
         let mut second = soup();
         second.positions = [3, 2, 0, 1, 2].map(|k: usize| soup().positions[k]).to_vec();
         second.triangles = vec![[4, 0, 2], [1, 2, 3]];
@@ -361,7 +366,7 @@ mod tests {
             triangles: vec![[0, 1, 2], [3, 4, 2]],
             ..Soup::default()
         };
-        // Two places in one cell of the curve are two.
+        // Two positions in one cell of the curve stay separate.
         assert_eq!(by_place(&mut soup, 1.0), 2);
         assert_eq!(soup.positions, [DVec3::splat(0.5), near, DVec3::X]);
         assert_eq!(soup.triangles, [[0, 2, 1]; 2]);

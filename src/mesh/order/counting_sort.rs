@@ -1,16 +1,17 @@
-//! [`counting_sort`]: items by a key that is a small number, in the order they have where keys are equal.
+//! [`counting_sort`]: stable parallel sort by small integer keys.
 //!
-//! With several threads the items are first dealt out by the upper bits of their keys, each thread a run of them to places of
-//! its own, then each hand is sorted by itself: the order is the same.
+//! With several threads, the items are first distributed into buckets by the upper bits of their keys. Each
+//! thread writes a run of items to separate slots. Then each bucket is sorted by the lower bits. The result
+//! is the same as with one thread.
 
 use crate::parallel::prelude::*;
 
-/// Fewer items are sorted by one thread.
+/// Minimum number of items for several threads.
 const MANY: usize = 1 << 17;
-/// How many bits of a key deal out.
+/// Number of key bits that select the bucket.
 const UPPER_BITS: u32 = 8;
 
-/// The items by a key below `keys`, those with the same key as they were.
+/// Sorts items by a key below `keys`. Items with equal keys keep their order.
 pub(crate) fn counting_sort<T: Copy + Default + Send + Sync>(
     items: Vec<T>,
     keys: usize,
@@ -55,7 +56,7 @@ pub(crate) fn counting_sort<T: Copy + Default + Send + Sync>(
     if shift == 0 {
         return sorted;
     }
-    // What was dealt out is sorted back to where it came from.
+    // The second pass sorts back into the original buffer.
     let (dealt, mut sorted) = (sorted, items);
     let mut free = sorted.as_mut_slice();
     let mut from = dealt.as_slice();
@@ -72,7 +73,7 @@ pub(crate) fn counting_sort<T: Copy + Default + Send + Sync>(
     sorted
 }
 
-/// Does so with one thread.
+/// Single-threaded counting sort.
 fn sort_into<T: Copy>(sorted: &mut [T], items: &[T], keys: usize, key: impl Fn(&T) -> u32) {
     if items.len() < 2 {
         sorted.copy_from_slice(items);

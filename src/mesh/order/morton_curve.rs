@@ -1,39 +1,36 @@
-//! [`along_curve`]: a curve that passes through all cells of space, by which places are ordered.
+//! [`along_curve`]: position along a Morton curve over all of space.
 //!
-//! The curve is that of the whole space, not of a model's box: which of two places comes first depends on nothing
-//! but these two.
+//! The curve does not depend on the box of a model, so the order of two positions depends on nothing else.
 //!
-//! Source: Morton, *A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing*, 1966, for
-//! the curve.
+//! Source: Morton, *A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing*, 1966.
 
 use std::cmp::Ordering;
 
 use glam::DVec3;
 
-/// Cells of the curve from zero along each axis and to either side: as many as three coordinates fit in 64
-/// bits. Within a cell the places themselves are compared.
+/// Number of cells from zero in each direction of an axis, so that the cells of three axes fit in 64 bits.
+/// Positions in one cell are compared exactly.
 pub(crate) const CELLS: f64 = (1u32 << 20) as f64;
 
-/// How far along the curve the cell of a place lies: first come the signs, then the cells from zero outward.
-/// What lies beyond all cells, unused, counts as in the last.
+/// Morton code of the cell that contains a position. Signs come first, then the cells from zero outward.
+/// Positions outside all cells are clamped to the last one.
 pub(crate) fn along_curve(place: DVec3, cell: f64) -> u64 {
     let number = |x: f64| {
         let from_zero = (x.abs() / cell).min(CELLS - 1.0) as u64;
-        // The places below zero are a mirror image, so that coordinates grow along the curve.
+        // Cells below zero are mirrored, so that coordinates increase along the curve.
         if x < 0.0 { CELLS as u64 - 1 - from_zero } else { from_zero + CELLS as u64 }
     };
     let [x, y, z] = place.to_array().map(|x| spread(number(x)));
     x | y << 1 | z << 2
 }
 
-/// The order of two places along the curve, to the last bit: the axis along which the larger cells part them
-/// decides.
+/// Exact order of two positions along the curve: the axis that separates them at the largest cells decides.
 ///
 /// Source: Connor and Kumar, *Fast construction of k-nearest neighbor graphs for point clouds*, 2010, section
-/// 3, for the order of floating-point numbers.
+/// 3, for floating-point coordinates.
 pub(crate) fn along_exact_curve(a: DVec3, b: DVec3) -> Ordering {
     if !(a.is_finite() && b.is_finite()) {
-        // Unused, and last.
+        // Positions that are not finite are unused and sort last.
         return b.is_finite().cmp(&a.is_finite()).then_with(|| by_coordinates(a, b));
     }
     let (mut level, mut order) = (i64::MIN, Ordering::Equal);
@@ -46,14 +43,14 @@ pub(crate) fn along_exact_curve(a: DVec3, b: DVec3) -> Ordering {
     order
 }
 
-/// The level of the largest cells that part two numbers; the least for equal ones.
+/// Level of the largest cells that separate two numbers; the minimum for equal ones.
 fn parting_level(p: f64, q: f64) -> i64 {
     const DIGITS: u32 = f64::MANTISSA_DIGITS - 1;
     if (p < 0.0) != (q < 0.0) {
         return i64::MAX;
     }
     let (p, q) = (p.abs().to_bits(), q.abs().to_bits());
-    // Below the normal numbers digits count from the least normal one.
+    // Subnormal numbers use the digits of the smallest normal exponent.
     let exponent = |bits: u64| (bits >> DIGITS).max(1) as i64;
     let digits = |bits: u64| bits & ((1 << DIGITS) - 1) | u64::from(bits >> DIGITS > 0) << DIGITS;
     if p == q {
@@ -66,7 +63,7 @@ fn parting_level(p: f64, q: f64) -> i64 {
     }
 }
 
-/// Moves the 21 lowest bits apart, so that there are two free ones after each.
+/// Spreads the 21 lowest bits, with two zeros after each.
 pub(crate) fn spread(mut bits: u64) -> u64 {
     bits = (bits | bits << 32) & 0x001f_0000_0000_ffff;
     bits = (bits | bits << 16) & 0x001f_0000_ff00_00ff;
@@ -98,7 +95,7 @@ mod tests {
 
     #[test]
     fn the_size_of_cells_does_not_show() {
-        // Of all sizes and both signs.
+        // Numbers of very different sizes and both signs.
         let number = |k: u64| {
             let chance = |word: u64| unit(hash(7, &[k, word]));
             (chance(0) - 0.5) * [1.0, 0.1, 1e-4, 1e-7, 1e-12][(chance(1) * 5.0) as usize]

@@ -1,11 +1,12 @@
-//! [`arcs`]: the curved borders of flat surfaces, and the area between their chords and the curves they stand for.
+//! [`arcs`]: curved borders of flat surfaces, and the area between their chords and the curves that they
+//! approximate.
 //!
-//! A pin that is flush with the plate around it has a border of its own facets, and so has its hole. Where the two are cut in different
-//! places, corners of the pin lie over the plate. These slivers are no larger than what the chords of both cut off their curve.
+//! A pin flush with a plate and its hole have separate facetted borders. Where these differ, corners of the
+//! pin lie over the plate. Such slivers are no larger than the areas that both sets of chords cut off.
 //!
-//! 1. A border edge has just one face of the surface.
-//! 2. At a vertex with two border edges the border turns. Turns below [`MAX_FACET_DEG`] are those of a curve.
-//! 3. A chord of length c whose curve turns by t along it lies up to c/2 · tan(t/4) from the curve.
+//! 1. A border edge has exactly one face of the surface.
+//! 2. At a vertex with two border edges, a turn below [`MAX_FACET_DEG`] belongs to a curve.
+//! 3. A chord of length c whose curve turns by t is at most c/2 · tan(t/4) away from the curve.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -14,15 +15,15 @@ use crate::geometry::numbers::portable_math::{acos, tan};
 use crate::geometry::numbers::tolerance::MAX_FACET_DEG;
 use crate::mesh::{EdgeFaces, Mesh};
 
-/// An edge of a curved border.
+/// Edge of a curved border.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Arc {
     pub ends: [DVec3; 2],
-    /// The area of the rectangle over the edge that holds the curve.
+    /// Area of the rectangle over the edge that contains the curve.
     pub area: f64,
 }
 
-/// The curved borders of the surface of some faces; `is_own` tells whether a face is one of them.
+/// Curved borders of a surface, given by its faces. `is_own` returns whether a face belongs to it.
 pub(crate) fn arcs(mesh: &Mesh, faces: &[u32], is_own: impl Fn(u32) -> bool) -> Vec<Arc> {
     let mut border: Vec<[u32; 2]> = Vec::new();
     for face in faces {

@@ -1,4 +1,4 @@
-//! [`near_other_colours`]: which faces come near faces of another colour, by a coarse grid over the mesh.
+//! [`near_other_colours`]: faces near faces of another colour, by a coarse grid over the mesh.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -6,18 +6,20 @@ use glam::DVec3;
 use crate::mesh::{FaceId, Mesh};
 use crate::parallel::task_size::GRAIN;
 
-/// Cells of the grid along each axis.
+/// Number of grid cells on each axis.
 const ACROSS: usize = 64;
 
-/// Cells that all faces together may touch, on average of each and in all; with more, every face counts.
+/// Limit on the number of cells that all faces touch: per face on average, and a minimum. Above it, every
+/// face counts as near.
 const MAX_CELLS_A_FACE: usize = 64;
 const MIN_CELLS: usize = 1 << 22;
 
-/// What is known of a cell.
+/// Contents of a cell with no colour, and with several.
 const EMPTY: u32 = u32::MAX;
 const MIXED: u32 = u32::MAX - 1;
 
-/// For each face whether a cell that its box touches is touched by a face of another colour; `colour` numbers these from 0.
+/// For each face, whether a face of another colour touches one of its cells. `colour` returns a number for
+/// each face, from 0.
 pub(crate) fn near_other_colours(mesh: &Mesh, colour: impl Fn(u32) -> u32) -> Vec<bool> {
     let count = mesh.triangles.len();
     let half = DVec3::splat(mesh.extents.diagonal / 2.0).max(DVec3::splat(f64::MIN_POSITIVE));

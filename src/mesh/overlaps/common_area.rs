@@ -1,14 +1,15 @@
-//! [`common_area`]: by how much two triangles overlap in one plane.
+//! [`common_area`]: overlap of two coplanar triangles.
 //!
-//! One is clipped by the sides of the other, after Sutherland and Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974.
+//! One triangle is clipped by the sides of the other, after Sutherland and Hodgman, "Reentrant polygon
+//! clipping", CACM 17(1), 1974.
 
 use glam::{DVec2, DVec3};
 
-/// Planes whose normals lie at a smaller cosine are not compared.
+/// Minimum cosine between the normals of coplanar triangles.
 const MIN_COSINE: f64 = 0.999;
 
-/// The common area of two triangles, seen along the normal of the first, if it is wider than `contact` and their planes are no farther
-/// apart all over it; else 0.
+/// Common area of two triangles, seen along the normal of the first. It is 0 unless the overlap is wider than
+/// `contact` and the planes are within `contact` all over it.
 pub(crate) fn common_area(one: &[DVec3; 3], two: &[DVec3; 3], contact: f64) -> f64 {
     let [a, b, c] = *one;
     let normal = (b - a).cross(c - a).normalize_or_zero();
@@ -26,11 +27,11 @@ pub(crate) fn common_area(one: &[DVec3; 3], two: &[DVec3; 3], contact: f64) -> f
         polygon = left_of(&polygon, from, to - from);
     }
     let next = || polygon.iter().cycle().skip(1);
-    // From a corner of it: where triangles only touch, nothing is left but what rounding makes.
+    // Relative to a corner: for triangles that only touch, nothing but rounding remains.
     let corner = polygon.first().copied().unwrap_or_default();
     let area: f64 = polygon.iter().zip(next()).map(|(p, q)| (*p - corner).perp_dot(*q - corner)).sum();
     let around: f64 = polygon.iter().zip(next()).map(|(p, q)| p.distance(*q)).sum();
-    // How far the plane of the second lies over a point of the first.
+    // Height of the second plane over a point of the first.
     let height = |p: &DVec2| own.dot(two[0] - (a + right * p.x + up * p.y)) / lean;
     let is_common = polygon.len() > 2
         && area.abs() > contact * around
@@ -63,7 +64,7 @@ mod tests {
     fn triangles_that_touch_at_a_corner_or_along_an_edge_have_no_area_in_common() {
         let mut dice = Dice::new(5);
         for _ in 0..500 {
-            // Parallelograms round one corner, turned and moved.
+            // Parallelograms around one corner, rotated and moved.
             let axes = [dice.point(1.0), dice.point(1.0), dice.point(1.0)];
             let [x, y] = [axes[0].normalize(), axes[0].cross(axes[1]).normalize()];
             let at = |u: f64, v: f64| axes[2] * 5.0 + x * u + y * v;

@@ -1,14 +1,16 @@
-//! [`Overlay`]: surfaces of unlike colours that overlap in one plane, as a label on a wall does, and which of them is on top.
+//! [`Overlay`]: stacking order of coplanar surfaces of different colours, such as a label on a wall.
 //!
-//! A surface is a connected flat patch of one part, material and paint. Two surfaces overlap if triangles of them have a common area,
-//! over all of which the planes lie within contact, and which is more than the slivers between two borders of facets along one curve
-//! (`arcs`). What overlaps, directly or through others, is one plane. In it the smaller surface
-//! is on top; of equal ones that whose part, then whose material, comes later in the file. The order is the same in every view and
-//! from both sides.
+//! A surface is a connected flat patch of one part, material and paint. Surfaces that overlap, directly or
+//! through others, form a plane. In it the smaller surface is on top. Equal ones are ordered by part and then
+//! material, the later one on top. The order is the same in every view and from both sides.
 //!
 //! 1. Flat edges join faces to surfaces.
-//! 2. Surfaces are sorted by the cell of their plane: squares of its normal's coordinates, and its distance from the middle.
-//! 3. In each cell with unlike colours boxes are swept along an axis; where two meet, triangles are clipped by triangles.
+//! 2. Surfaces are sorted into cells by their plane: squares of normal coordinates, and distance from the
+//!    middle.
+//! 3. In each cell with different colours, bounding boxes are swept along an axis. Triangles of surfaces that
+//!    meet are clipped by each other.
+//! 4. Two surfaces overlap if the common area exceeds the slivers between two facetted borders along one
+//!    curve (`arcs`). Their planes must be within contact distance all over it.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -24,22 +26,22 @@ use crate::parallel::task_size::GRAIN;
 
 mod plane_key;
 
-/// The place of a face among surfaces that overlap in one plane.
+/// Stacking position of a face among coplanar surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Overlay {
-    /// The number of the plane, from 1; 0 where the face overlaps nothing.
+    /// Number of the plane, from 1; 0 where the face overlaps nothing.
     pub plane: u32,
-    /// The number of its surface, from the lowest up.
+    /// Rank of its surface in the plane, lowest first.
     pub rank: u32,
 }
 
-/// Faces are flat neighbours only if the cosine between their normals is greater.
+/// Minimum cosine between the normals of flat neighbours.
 const FLAT_COSINE: f32 = 0.999;
 
-/// Pairs of surfaces, and of triangles, after which the search ends.
+/// Maximum number of tests of surface pairs and triangle pairs, after which the search stops.
 const MAX_TESTS: usize = 50_000_000;
 
-/// For each face its place among surfaces that overlap; empty if none do.
+/// Stacking position of each face; empty if no surfaces overlap.
 pub(crate) fn overlays(mesh: &Mesh) -> Vec<Overlay> {
     let colour = |face: u32| colour(mesh, face);
     let count = mesh.triangles.len() as u32;
@@ -70,14 +72,14 @@ pub(crate) fn overlays(mesh: &Mesh) -> Vec<Overlay> {
 }
 
 impl Mesh {
-    /// The place of a face among surfaces that overlap in one plane.
+    /// Stacking position of a face.
     #[inline]
     #[must_use]
     pub fn overlay(&self, face: u32) -> Overlay {
         self.overlays.get(face as usize).copied().unwrap_or_default()
     }
 
-    /// Whether two faces are of surfaces that overlap in one plane, or are of the same one of these.
+    /// Whether two faces belong to the same plane of overlapping surfaces.
     #[inline]
     #[must_use]
     pub fn share_plane(&self, a: u32, b: u32) -> bool {
@@ -85,7 +87,8 @@ impl Mesh {
         plane != 0 && plane == self.overlay(b).plane
     }
 
-    /// Whether a face is one of the two that a line lies on, or lies in one plane with one of these: then it never hides the line.
+    /// Whether a face is one of the two hosts of a line, or coplanar with one of them. Such a face never
+    /// hides the line.
     #[inline]
     #[must_use]
     pub fn touches(&self, hosts: [u32; 2], face: u32) -> bool {
@@ -93,7 +96,7 @@ impl Mesh {
             || (!self.overlays.is_empty() && hosts.iter().any(|host| self.share_plane(*host, face)))
     }
 
-    /// Whether a face is on top of another one that lies in the same plane.
+    /// Whether a face is on top of another one in the same plane.
     #[inline]
     #[must_use]
     pub fn is_over(&self, face: u32, other: u32) -> bool {
@@ -101,12 +104,12 @@ impl Mesh {
     }
 }
 
-/// The source of a face's colour.
+/// Material and paint of a face.
 fn colour(mesh: &Mesh, face: u32) -> (MaterialId, PaintId) {
     (mesh.face_material[face as usize], mesh.paint(FaceId(face)))
 }
 
-/// Sets that are joined one by one.
+/// Union-find over surfaces.
 struct Joined(Vec<u32>);
 
 impl Joined {
@@ -129,7 +132,7 @@ impl Joined {
     }
 }
 
-/// A connected flat patch of one part, material and paint.
+/// Connected flat patch of one part, material and paint.
 #[derive(Debug, Clone, Copy)]
 struct FlatSurface {
     part: PartId,
@@ -137,17 +140,17 @@ struct FlatSurface {
     area: f64,
     low: DVec3,
     high: DVec3,
-    /// Its largest face, and the area of that.
+    /// Its largest face, with the area.
     largest: (u32, f64),
     contact: f64,
 }
 
 struct Surfaces {
     all: Vec<FlatSurface>,
-    /// For each face its surface; none without area, and where no other colour is near.
+    /// Surface of each face; `u32::MAX` without area, and where no other colour is near.
     of_face: Vec<u32>,
     faces: Grouped<u32>,
-    /// Whether each face comes near another colour: no others can overlap one.
+    /// Whether each face is near another colour. Only such faces can overlap one.
     near: Vec<bool>,
 }
 
@@ -169,7 +172,8 @@ impl Surfaces {
                         }
                     }
                     EdgeFaces::Many(faces) => {
-                        // Neighbours in the list are enough where all are one surface; else some of its patches stay apart.
+                        // Eight neighbours in the list are enough where all faces are one surface. Otherwise
+                        // some patches stay separate.
                         for (k, a) in faces.iter().enumerate() {
                             for b in faces[..k].iter().rev().take(8) {
                                 if is_one([*b, *a], is_up(edge, *a) == is_up(edge, *b), edge) {
@@ -181,7 +185,7 @@ impl Surfaces {
                 }
             });
         });
-        // Patches none of whose faces comes near another colour are passed over.
+        // Patches without a face near another colour are skipped.
         let near = near_other_colours(mesh, |face| mesh.paint(FaceId(face)).0);
         let mut is_asked = vec![false; near.len()];
         for face in (0..near.len() as u32).filter(|face| near[*face as usize]) {
@@ -217,12 +221,12 @@ impl Surfaces {
         Self { all, of_face, faces, near }
     }
 
-    /// Orders surfaces of a plane from the lowest up.
+    /// Sorts surfaces of a plane, lowest first.
     fn sort_upwards(&self, order: &mut [u32]) {
         let of = |surface: &u32| &self.all[*surface as usize];
         let in_file = |surface: &u32| (of(surface).part, of(surface).colour, of(surface).largest.0);
         order.sort_by(|a, b| of(b).area.total_cmp(&of(a).area).then_with(|| in_file(a).cmp(&in_file(b))));
-        // Areas that differ by no more than rounding are equal.
+        // Areas that differ only by rounding are equal.
         let is_equal = |a: &u32, b: &u32| {
             let reach = |own: &FlatSurface| 2.0 * own.contact * own.low.distance(own.high);
             (of(a).area - of(b).area).abs() <= reach(of(a)) + reach(of(b))
@@ -230,7 +234,7 @@ impl Surfaces {
         order.chunk_by_mut(is_equal).for_each(|equal| equal.sort_by_key(in_file));
     }
 
-    /// Joins the surfaces of unlike colours that overlap; whether any do.
+    /// Joins the overlapping surfaces of different colours. Returns whether there are any.
     fn related(&self, mesh: &Mesh, planes: &mut Joined) -> bool {
         let surfaces = (0..self.all.len() as u32).into_par_iter().with_min_len(GRAIN);
         let keys: Vec<PlaneKey> = surfaces.clone().map(|surface| self.key(mesh, surface)).collect();
@@ -277,14 +281,14 @@ impl Surfaces {
         related
     }
 
-    /// The key of the plane of a surface, by its largest face.
+    /// Plane key of a surface, from its largest face.
     fn key(&self, mesh: &Mesh, surface: u32) -> PlaneKey {
         let own = &self.all[surface as usize];
         PlaneKey::of(mesh, own.largest.0)
     }
 
-    /// Whether triangles of two surfaces have a common area in one plane, and more than slivers; `arcs` keeps the curved borders of
-    /// surfaces.
+    /// Whether triangles of two surfaces have a common area in one plane that exceeds slivers. `arcs` caches
+    /// the curved borders of surfaces.
     fn overlap(
         &self,
         mesh: &Mesh,
@@ -302,7 +306,7 @@ impl Surfaces {
         if !meet(one_box, two_box) {
             return false;
         }
-        // The triangles near the other surface, with their boxes.
+        // Triangles near the other surface, with their boxes.
         let near = |surface: u32, other: (DVec3, DVec3)| -> Vec<([DVec3; 3], (DVec3, DVec3))> {
             let faces = self.faces.of(surface as usize).iter().filter(|face| self.near[**face as usize]);
             let corners = faces.map(|face| mesh.corners(FaceId(*face)));
@@ -341,7 +345,7 @@ impl Surfaces {
         false
     }
 
-    /// The curved borders of a surface.
+    /// Curved borders of a surface.
     fn arcs(&self, mesh: &Mesh, surface: u32) -> Vec<Arc> {
         arcs(mesh, self.faces.of(surface as usize), |face| self.of_face[face as usize] == surface)
     }

@@ -1,24 +1,24 @@
-//! [`cut_faces`]: faces cut at corners that lie on their sides, into triangles round the opposite corner.
+//! [`cut_faces`]: splits faces at corners on their sides, into triangles around the opposite corner.
 
 use glam::DVec3;
 
 use crate::mesh::EdgeMark;
 use crate::mesh::soup::Soup;
 
-/// A corner that cuts a side, and where on it, from 0 to 1.
+/// Cut of a side: parameter from 0 to 1, and the vertex there.
 pub(crate) type Cut = (f64, u32);
 
-/// A face and what cuts its sides 0-1, 1-2 and 2-0, in order along each.
+/// A face with the cuts of its sides 0-1, 1-2 and 2-0, in order along each.
 pub(crate) type CutFace = (u32, [Vec<Cut>; 3]);
 
-/// Pieces lean from their face by less than the angle of this cosine (20 degrees): two of them bend together by less
-/// than makes a crease.
+/// Minimum cosine (20 degrees) between a piece and its face. Two such pieces meet at less than a crease
+/// angle.
 const UPRIGHT: f64 = 0.94;
 
-/// No normal or texture coordinate.
+/// Index of a missing normal or texture coordinate.
 const NONE: u32 = u32::MAX;
 
-/// A triangle, what each of its corners has, and what the file says of its sides.
+/// Triangle with the attributes of its corners and the marks of its sides.
 #[derive(Clone, Copy)]
 struct Piece {
     corners: [Corner; 3],
@@ -33,8 +33,8 @@ struct Corner {
     colour: [f32; 3],
 }
 
-/// Cuts faces of a soup; the first piece of each stands where the face stood, the others behind all. A face of which a
-/// piece would turn over or lean stays whole.
+/// Splits faces of a soup. The first piece replaces the face; the others are appended. A face stays whole if
+/// a piece would turn over or tilt too far.
 pub(crate) fn cut_faces(soup: &mut Soup, faces: &[CutFace]) {
     for (face, cuts) in faces {
         let face = *face as usize;
@@ -64,7 +64,8 @@ fn normal(soup: &Soup, corners: [u32; 3]) -> DVec3 {
     (b - a).cross(c - a).normalize_or_zero()
 }
 
-/// Puts what a piece has in the place of what its face had, or behind all; where nothing is known of any face, nothing.
+/// Stores the value of a piece: the first piece replaces the value of its face, others are appended. An empty
+/// list stays empty.
 fn put<T: Copy>(list: &mut Vec<T>, face: usize, piece: usize, of: impl Fn(T) -> T) {
     let Some(own) = list.get_mut(face) else { return };
     let new = of(*own);
@@ -88,7 +89,7 @@ fn piece(soup: &Soup, face: usize) -> Piece {
     Piece { corners: [0, 1, 2].map(corner), marks }
 }
 
-/// The pieces of a triangle whose sides are cut. What is new inside it is no line of the file.
+/// Splits a triangle at the cuts of its sides, recursively. New inner edges are marked as hidden.
 fn split(soup: &mut Soup, whole: Piece, cuts: [&[Cut]; 3], pieces: &mut Vec<Piece>) {
     let Some(side) = cuts.iter().position(|cuts| !cuts.is_empty()) else {
         pieces.push(whole);
@@ -110,7 +111,8 @@ fn split(soup: &mut Soup, whole: Piece, cuts: [&[Cut]; 3], pieces: &mut Vec<Piec
     }
 }
 
-/// What a face has on one of its sides, at a place from 0 to 1; of normals that of the nearer end.
+/// Attributes of a face on one of its sides, at parameter `t` from 0 to 1. The normal is that of the nearer
+/// end.
 fn between(soup: &mut Soup, [a, b]: [Corner; 2], t: f64, vertex: u32) -> Corner {
     let mix = |p: f32, q: f32| (f64::from(p) + (f64::from(q) - f64::from(p)) * t) as f32;
     let uvs = [a.uv, b.uv].map(|uv| soup.uvs.get(uv as usize).copied());
@@ -159,14 +161,15 @@ mod tests {
                 assert_eq!([place(*v).x, place(*v).y], uv);
             }
         }
-        // Of the file's sides there are three, two and one pieces.
+        // The sides of the file are split into three, two and one pieces.
         let hard = soup.edge_marks.as_flattened().iter().filter(|mark| **mark == EdgeMark::Hard);
         assert_eq!(hard.count(), 6);
     }
 
     #[test]
     fn no_piece_turns_over_or_leans() {
-        // The last corner but one lies beyond the long side of a narrow face, as seen from the side that it cuts; the last above it.
+        // Seen from the opposite corner, the second-last vertex is outside a narrow face. The last vertex is
+        // above the face.
         let at = |x: f64, y: f64| DVec3::new(x, y, 0.0);
         let mut soup = Soup {
             positions: vec![

@@ -1,9 +1,14 @@
-//! Seams: open edges that lie along each other are cut at each other's corners, so that the surface goes on
-//! across them.
+//! Seams: open edges that lie along each other without common corners are cut at each other's corners.
 //!
-//! CAD programs turn each surface into triangles by itself, and what voxels or solids are merged into has corners in the
-//! middle of sides: there two open edges lie along each other and share no corner. A line drawn there would be one
-//! of the mesh and not of the thing. Nothing moves: faces get more corners, no more places.
+//! CAD programs tessellate each surface separately, and merged voxels or solids have corners in the middle of
+//! sides. A line there would belong to the mesh, not to the object.
+//!
+//! 1. Open edges of each part are collected.
+//! 2. Corners of both sides that nearly coincide are joined.
+//! 3. A side is cut at the corners of the other side that lie on it, within tolerance or within the sagitta
+//!    of the curve that both sides approximate.
+//!
+//! Faces get more corners, but no vertex moves.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -16,60 +21,62 @@ use crate::mesh::soup::Soup;
 use crate::mesh::{EdgeFaces, Edges, Extents, PartId};
 use crate::parallel::task_size::GRAIN;
 
-/// Open edges of one seam run against each other but for an angle of this cosine (45 degrees); a curve that
-/// turns by more at a corner has a corner there.
+/// Minimum cosine (45 degrees) between one side of a seam and the reverse of the other. A border that turns
+/// by more at a vertex has a corner there.
 const ALONG: f64 = 0.7;
 
-/// Faces on both sides of a gap turn by less than the angle of this cosine (120 degrees), unless their borders part at a common
-/// corner and meet again at another: then there is no gap, but an edge with a corner in it.
+/// Maximum cosine (120 degrees) between the normals of faces that fold back onto each other. Such edges form
+/// a seam only if their borders separate at a common corner and meet again at another.
 const FOLDED: f64 = -0.5;
 
-/// Most corners that a border has between two corners that it shares with the border on the other side.
+/// Maximum number of corners on a border between two corners that both sides share.
 const MAX_CORNERS_BETWEEN: usize = 64;
 
-/// A corner stays this many times nearer to the side that it cuts than the face is high, and than to the ends of the side.
+/// A corner that cuts a side must be this many times nearer to it than the face is high, and than to the ends
+/// of the side.
 const NEARER: f64 = 2.0;
 
-/// Chords of a curve differ in length: each may stand off by this many times what it would if all were alike.
+/// Factor on the sagitta of equal chords, because chords of a curve differ in length.
 const UNEVEN: f64 = 2.0;
 
-/// Curves of space leave their plane by this part of how far they stand off.
+/// The distance of a space curve from the plane of its chord and sagitta is at most the sagitta divided by
+/// this.
 const TWIST: f64 = 4.0;
 
-/// Texture coordinates and colours of both sides of a seam differ by no more than this: what is painted apart is meant to
-/// be seen apart.
+/// Maximum difference of texture coordinates and colours across a seam. Larger differences are intentional
+/// borders.
 const PAINTED: f32 = 1e-3;
 
-/// A side of a face that no other face of the part has.
+/// Side of a face that no other face of the part shares.
 struct Open {
-    /// Its corners, in the order of the face.
+    /// Its vertices, in the order of the face.
     ends: [u32; 2],
     face: u32,
     part: PartId,
-    /// Whether faces of other parts have it.
+    /// Whether faces of other parts share it.
     is_shared: bool,
-    /// From the first to the second.
+    /// Unit direction from the first to the second vertex.
     along: DVec3,
     length: f64,
     normal: DVec3,
-    /// What its ends are painted with.
+    /// Paint at its ends.
     paint: [Painted; 2],
 }
 
 /// Texture coordinates and colour at a corner of a face.
 type Painted = (Option<[f32; 2]>, Option<[f32; 3]>);
 
-/// What makes the sides of seams meet.
+/// Changes that close the seams.
 #[derive(Default)]
 pub(crate) struct Found {
-    /// For each vertex the one that it becomes, where corners on both sides are one all but for the precision of the
-    /// program that made them; empty if there are none.
+    /// For each vertex the one that replaces it, where corners of both sides differ only by the precision of
+    /// the modelling program. Empty if nothing is replaced.
     pub joined: Vec<u32>,
-    /// Faces that are cut; none as long as corners are to be joined.
+    /// Faces to cut; empty while corners are to be joined.
     pub cuts: Vec<CutFace>,
 }
 
-/// Finds the seams of a soup; with `corners` corners to be joined first.
+/// Finds the seams of a soup. With `corners`, corners that coincide are joined first.
 pub(crate) fn find(soup: &Soup, edges: &Edges, extents: &Extents, corners: bool) -> Found {
     let open = open_edges(soup, edges);
     if open.len() < 2 {
@@ -81,7 +88,7 @@ pub(crate) fn find(soup: &Soup, edges: &Edges, extents: &Extents, corners: bool)
     Found { joined, cuts }
 }
 
-/// The sides of faces that no other face of the same part has. Other parts may touch there.
+/// The sides of faces that no other face of the same part shares. Other parts may touch there.
 fn open_edges(soup: &Soup, edges: &Edges) -> Vec<Open> {
     let part = |face: u32| soup.triangle_part.get(face as usize).copied().unwrap_or_default();
     let open = |edge: usize, face: u32, is_shared: bool| {
@@ -117,23 +124,22 @@ fn painted(soup: &Soup, face: u32, vertex: u32) -> Painted {
 }
 
 impl Open {
-    /// Whether another open edge of the part runs against this one.
+    /// Whether another open edge of the part runs in the opposite direction.
     fn runs_against(&self, other: &Self) -> bool {
         other.face != self.face && other.part == self.part && other.along.dot(self.along) < -ALONG
     }
 
-    /// Whether the surface would fold back if another open edge were the other side of a seam.
+    /// Whether the surface would fold back across a seam with another open edge.
     fn folds(&self, other: &Self) -> bool {
         other.normal.dot(self.normal) <= FOLDED
     }
 
-    /// Whether another open edge may be the other side of a seam: it runs against this one, and the surface does not
-    /// fold back there.
+    /// Whether another open edge may be the other side of a seam: opposite in direction, without a fold.
     fn faces_across(&self, other: &Self) -> bool {
         self.runs_against(other) && !self.folds(other)
     }
 
-    /// Whether both ends and a corner of another face on the way between them are painted as one surface is.
+    /// Whether the paint of a corner at parameter `t` matches the paint interpolated between both ends.
     fn goes_on(&self, t: f64, corner: Painted) -> bool {
         fn alike<const N: usize>(t: f64, ends: [Option<[f32; N]>; 2], corner: Option<[f32; N]>) -> bool {
             match (ends, corner) {
@@ -147,16 +153,16 @@ impl Open {
     }
 }
 
-/// Open edges by their corners, and these by where they lie.
+/// Open edges by corner, with the corners in a tree by position.
 struct Seams<'a> {
     soup: &'a Soup,
     open: &'a [Open],
     corners: Vec<u32>,
-    /// The number of each vertex among the corners.
+    /// Corner number of each vertex.
     numbers: Vec<u32>,
     /// The open edges at each corner.
     at: Grouped<u32>,
-    /// Where the corners lie.
+    /// Positions of the corners.
     places: Places,
 }
 
@@ -180,7 +186,7 @@ impl<'a> Seams<'a> {
         self.soup.positions[self.corners[corner as usize] as usize]
     }
 
-    /// For each vertex the one that it becomes; empty if none changes.
+    /// For each vertex the one that replaces it; empty if nothing changes.
     fn joined(&self, edges: &Edges, extents: &Extents) -> Vec<u32> {
         let mates: Vec<Option<u32>> = (0..self.corners.len() as u32)
             .into_par_iter()
@@ -201,7 +207,7 @@ impl<'a> Seams<'a> {
         joined
     }
 
-    /// All that is cut, by faces in their order.
+    /// All cuts, by face in ascending order.
     fn all_cuts(&self, extents: &Extents) -> Vec<CutFace> {
         let cuts: Vec<Vec<Cut>> = (0..self.open.len())
             .into_par_iter()
@@ -229,9 +235,9 @@ impl<'a> Seams<'a> {
         faces
     }
 
-    /// The corner nearest to one, if it is no farther than the sides of seams are apart and both are corners of one.
+    /// The nearest corner on the other side of a seam, if it is within the seam tolerance.
     fn mate(&self, corner: u32, edges: &Edges, extents: &Extents) -> Option<u32> {
-        // Corners that parts share stay together.
+        // Corners shared between parts stay unchanged.
         let borders = |of: u32| {
             let edges = self.at.of(of as usize).iter().map(|k| &self.open[*k as usize]);
             edges.filter(|edge| !edge.is_shared)
@@ -250,7 +256,7 @@ impl<'a> Seams<'a> {
         });
         let (_, other) = nearest?;
         let [p, q] = [corner, other].map(|k| self.corners[k as usize]);
-        // Across a narrow strip there is an edge.
+        // Corners connected by an edge lie on both sides of a narrow strip.
         let is_strip = edges.vertices.binary_search(&[p.min(q), p.max(q)]).is_ok();
         let meets = |a: &Open, b: &Open| {
             let end = usize::from(a.ends[1] == p);
@@ -266,12 +272,13 @@ impl<'a> Seams<'a> {
         let start = self.soup.positions[own.ends[0] as usize];
         let opposite = third.map_or(DVec3::ZERO, |v| self.soup.positions[v as usize] - start);
         let height = (opposite - own.along * opposite.dot(own.along)).length();
-        // As seen from the opposite corner, what cuts the side lies between its ends: no piece turns over.
+        // Seen from the opposite corner, a cut must lie between the ends of the side, so that no piece turns
+        // over.
         let is_between = |way: DVec3| {
             let [from, to, at] = [-opposite, own.along * own.length - opposite, way - opposite];
             from.cross(at).dot(own.normal) > 0.0 && at.cross(to).dot(own.normal) > 0.0
         };
-        // Where other parts touch there is a vertex wherever the surface of the part has one.
+        // Where parts touch, all their vertices are on the edge, so no sagitta is needed.
         let sagitta = if own.is_shared { DVec3::ZERO } else { self.sagitta(own) };
         let reach = least.max(sagitta.length()).min(height / NEARER);
         let aside = least.max(sagitta.length() / TWIST);
@@ -303,7 +310,7 @@ impl<'a> Seams<'a> {
         cuts
     }
 
-    /// Whether an open edge with this corner lies along another one, as the other side of a seam does.
+    /// Whether an open edge at this corner runs along the given edge, as the other side of a seam.
     fn is_of_seam(&self, own: &Open, t: f64, corner: u32) -> bool {
         let vertex = self.corners[corner as usize];
         self.at.of(corner as usize).iter().map(|k| &self.open[*k as usize]).any(|other| {
@@ -313,20 +320,20 @@ impl<'a> Seams<'a> {
         })
     }
 
-    /// Whether the border of an open edge and that of a vertex next to it part at a common corner before them and meet at
-    /// another one behind them.
+    /// Whether the borders of an open edge and of a nearby vertex separate at a common corner and meet again
+    /// at another.
     fn meets_on_both_sides(&self, own: &Open, vertex: u32) -> bool {
         [0, 1].into_iter().all(|end| {
             let way = if end == 0 { -own.along } else { own.along };
             let own_corners = self.corners_from(own.ends[end], end, way, own.part);
-            // The border on the other side runs the other way.
+            // The border on the other side runs in the opposite direction.
             let others = self.corners_from(vertex, 1 - end, way, own.part);
             own_corners.iter().any(|corner| others.contains(corner))
         })
     }
 
-    /// The corners of a border from a vertex on in one direction, itself first: those that its open edges begin at
-    /// (`end` is 0) or end at (1).
+    /// The corners along a border from a vertex in one direction, including the vertex. The open edges begin
+    /// (`end` is 0) or end (1) at these corners.
     fn corners_from(&self, vertex: u32, end: usize, way: DVec3, part: PartId) -> Vec<u32> {
         let mut found = vec![vertex];
         while let Some(last) = found.last().copied().filter(|_| found.len() < MAX_CORNERS_BETWEEN) {
@@ -344,10 +351,11 @@ impl<'a> Seams<'a> {
         found
     }
 
-    /// How far the curve, of which an open edge is a chord, may stand off, and which way: told by how it turns at
-    /// the end where it turns less, since at the end of a curve there is another corner. What of that turn is the next
-    /// edge's is told by how that one turns at its other end: beside the rounding of a corner a straight
-    /// side stays straight.
+    /// Largest deviation from an open edge of the curve that it approximates, as a vector.
+    ///
+    /// The estimate uses the end where the border turns less, because the other end may be a corner of the
+    /// curve. The part of that turn that belongs to the next edge is estimated from the turn at the far end
+    /// of that edge. A straight side next to a rounded corner therefore stays straight.
     fn sagitta(&self, own: &Open) -> DVec3 {
         let next = |of: &Open, end: usize| {
             let corner = self.numbers[of.ends[end] as usize] as usize;
@@ -362,7 +370,7 @@ impl<'a> Seams<'a> {
         if cosine < ALONG {
             return DVec3::ZERO;
         }
-        // The tangent of half a turn; halves of a turn belong to either edge where both are alike.
+        // Tangent of half the turn. Equal edges share a turn in halves.
         let half_turn = |cosine: f64| ((1.0 - cosine) / (1.0 + cosine)).max(0.0).sqrt();
         let turn = half_turn(cosine);
         let share = next(beside, end).map_or(0.0, |beyond| {

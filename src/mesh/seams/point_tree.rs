@@ -1,40 +1,41 @@
-//! [`Places`]: points in space, and which of them lie near a line.
+//! [`Places`]: k-d tree of points that finds those near a segment.
 //!
-//! A tree of boxes, so that points may crowd: with a grid of one width, where the outlines of leaves lie beside the corners
-//! of a field, all leaves of a tree are in one cell.
+//! A tree handles clustered points. In a uniform grid, all leaves of a tree in a wide field would fall into
+//! one cell.
 //!
-//! Source: Bentley, "Multidimensional binary search trees used for associative searching", 1975, for how the points are parted.
+//! Source: Bentley, "Multidimensional binary search trees used for associative searching", 1975, for the
+//! order of the points.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
 use crate::parallel::task_size::GRAIN;
 
-/// How many points, and how many boxes, one box is around.
+/// Number of points or boxes in one box.
 const FAN: usize = 4;
 
-/// Parameters of a line that differ by no more than this may be one but for rounding.
+/// Tolerance on the parameter of a segment, for rounding.
 const ROUNDED: f64 = 1e-9;
 
-/// A point and its number.
+/// Point with its index.
 type Place = (DVec3, u32);
 
-/// A box around some points.
+/// Bounding box of some points.
 #[derive(Clone, Copy)]
 struct Around {
     low: DVec3,
     high: DVec3,
 }
 
-/// Points by where they are: boxes are around runs of them, of these, and so on.
+/// Points in tree order. Each box covers a run of points, or of boxes one level down.
 pub(crate) struct Places {
     places: Vec<Place>,
-    /// The boxes around points first, the one around all last.
+    /// Boxes of points first, the box of all points last.
     levels: Vec<Vec<Around>>,
 }
 
 impl Places {
-    /// Of points with the numbers from 0 on.
+    /// Builds the tree. Points are numbered from 0.
     pub fn new(points: impl IntoIterator<Item = DVec3>) -> Self {
         let mut places: Vec<Place> = points.into_iter().zip(0..).collect();
         part(&mut places);
@@ -48,7 +49,8 @@ impl Places {
         Self { places, levels }
     }
 
-    /// Visits all points no farther than `reach` from the line from `start` to `start + way`, and some others, each once.
+    /// Visits all points within `reach` of the segment from `start` to `start + way`, and some others, each
+    /// once.
     pub fn near(&self, start: DVec3, way: DVec3, reach: f64, mut visit: impl FnMut(u32, DVec3)) {
         let line = Line { start, per_way: way.recip(), reach };
         let top = self.levels.len() - 1;
@@ -72,8 +74,8 @@ impl Places {
     }
 }
 
-/// Brings points into an order in which each box is around a run of them: halves, as far as whole boxes go, along the
-/// axis along which they reach farthest.
+/// Sorts points so that each box covers a run of them. Splits in halves (rounded to whole boxes) along the
+/// axis of largest extent.
 fn part(places: &mut [Place]) {
     if places.len() <= FAN {
         return;
@@ -96,23 +98,24 @@ fn part(places: &mut [Place]) {
 }
 
 impl Around {
-    /// The box around all of some.
+    /// The box around some boxes.
     fn all(boxes: impl Iterator<Item = Self>) -> Self {
         let nothing = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
         boxes.fold(nothing, |all, one| Self { low: all.low.min(one.low), high: all.high.max(one.high) })
     }
 }
 
-/// A line, and how far from it is near.
+/// Segment with a search distance.
 struct Line {
     start: DVec3,
-    /// One over how far it goes along each axis; infinite where it does not.
+    /// Inverse of the vector along each axis; infinite where that is zero.
     per_way: DVec3,
     reach: f64,
 }
 
 impl Line {
-    /// Whether the line gets as near to a box, along each axis; now and then it does not and is said to.
+    /// Whether the segment comes within reach of a box along each axis. May rarely return true for a box out
+    /// of reach.
     fn meets(&self, around: &Around) -> bool {
         let (low, high) = (around.low - self.start - self.reach, around.high - self.start + self.reach);
         let (mut from, mut to) = (0.0f64, 1.0f64);
@@ -135,7 +138,7 @@ mod tests {
     use super::*;
     use crate::geometry::dice::Dice;
 
-    /// Points that crowd in a few places of a wide field, in any order.
+    /// Clusters of points in a wide field, in mixed order.
     fn crowds(count: usize) -> Vec<DVec3> {
         let mut dice = Dice::new(5);
         let middles: Vec<DVec3> = (0..count).map(|_| dice.point(1000.0)).collect();
@@ -150,7 +153,7 @@ mod tests {
         let mut found = 0;
         for k in 0..600 {
             let start = all[k * 7 % all.len()] + dice.point(0.01);
-            // Along axes, short, from crowd to crowd, and none at all.
+            // Along an axis, short, between clusters, and of length zero.
             let way = match k % 4 {
                 0 => DVec3::X * 0.3,
                 1 => dice.point(0.1),

@@ -1,8 +1,8 @@
-//! Sheets: surfaces whose faces stand twice, back to back, and the side of each that stays.
+//! Doubled sheets: surfaces whose faces occur twice, back to back, and the side that is kept.
 //!
-//! Leaves and cloth are often modelled so. If each pair kept the face that happens to come first, the surface
-//! would turn over from face to face. Hence a side is chosen for a whole sheet: what goes on in single faces
-//! goes on as they do, and other sheets show outward, away from the middle of the model.
+//! Leaves and cloth are often modelled in this way. Keeping the first face of each pair would flip the
+//! surface from face to face. One side is therefore chosen for each connected sheet. If the sheet continues
+//! in single faces, it matches their winding. Otherwise it faces outward, away from the middle of the model.
 
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
@@ -14,10 +14,10 @@ use crate::mesh::soup::Soup;
 
 const NONE: u32 = u32::MAX;
 
-/// Edges that one task looks at.
+/// Number of edges per task.
 const CHUNK: usize = 1 << 12;
 
-/// Of each pair of faces that have the same corners and run opposite ways the face that stays.
+/// Of each pair of faces with the same corners and opposite windings, the face to keep.
 pub(crate) fn one_side(soup: &Soup, edges: &Edges, pairs: &[[u32; 2]]) -> Vec<u32> {
     if pairs.is_empty() {
         return Vec::new();
@@ -36,8 +36,8 @@ struct Sheets<'a> {
     soup: &'a Soup,
     pairs: &'a [[u32; 2]],
     pair_of: Vec<u32>,
-    /// What of the same part goes on beyond each side of the first face of each pair: another pair, by its first face, or a
-    /// single face; none where there is nothing, or too much.
+    /// For each side of the first face of each pair, the face of the same part across it: the first face of
+    /// another pair, or a single face. [`NONE`] if there is no such face, or more than one.
     beyond: Vec<[AtomicU32; 3]>,
 }
 
@@ -54,12 +54,13 @@ impl<'a> Sheets<'a> {
         sheets
     }
 
-    /// Chooses the side of all pairs of the sheet to which one belongs.
+    /// Chooses the side of all pairs in the sheet of `seed`.
     fn choose(&self, seed: usize, sides: &mut [Option<usize>]) {
         sides[seed] = Some(0);
         let mut members = vec![(seed, 0)];
         let mut done = 0;
-        // Single faces that this side goes on in, less those in which the other does; and its volume.
+        // Number of single faces that match this side minus those that match the other; and the enclosed
+        // volume.
         let (mut votes, mut volume) = (0i64, 0.0);
         while let Some(&(pair, side)) = members.get(done) {
             done += 1;
@@ -72,7 +73,7 @@ impl<'a> Sheets<'a> {
                 if other == NONE {
                     continue;
                 }
-                // A surface runs along each edge both ways.
+                // Consistent neighbours run along an edge in opposite directions.
                 let turned = self.runs(other, edge);
                 match self.pair_of[other as usize] {
                     NONE => votes += if turned { -1 } else { 1 },
@@ -91,11 +92,11 @@ impl<'a> Sheets<'a> {
         }
     }
 
-    /// Tells the pairs at an edge what goes on beyond it.
+    /// Records for the pairs at an edge the face across it.
     fn look_beyond(&self, edges: &Edges, edge: usize) {
         let faces = edges.faces(edge);
         let part = |face: u32| self.soup.triangle_part.get(face as usize);
-        // Of the two faces of a pair one is enough.
+        // The first face of a pair represents both.
         let first_of = |face: u32| match self.pair_of[face as usize] {
             NONE => None,
             pair => Some((pair as usize, self.pairs[pair as usize][0])),
@@ -111,13 +112,13 @@ impl<'a> Sheets<'a> {
         }
     }
 
-    /// Which of the sides of a face lies between two of its vertices.
+    /// Index of the side of a face between two of its vertices.
     fn side(&self, face: u32, ends: [u32; 2]) -> usize {
         let corners = self.soup.triangles[face as usize];
         (0..2).find(|side| ends.contains(&corners[*side]) && ends.contains(&corners[side + 1])).unwrap_or(2)
     }
 
-    /// Whether a face runs from the first of two vertices to the second.
+    /// Whether a face has a directed side from the first vertex to the second.
     fn runs(&self, face: u32, [from, to]: [u32; 2]) -> bool {
         let [a, b, c] = self.soup.triangles[face as usize];
         [[a, b], [b, c], [c, a]].contains(&[from, to])
@@ -132,8 +133,8 @@ mod tests {
     use crate::geometry::dice::Dice;
     use crate::mesh::{EdgeFaces, FaceId, Mesh, PartId};
 
-    /// A bent strip of squares, of which those from `single` on have one face only; which of the two
-    /// faces of a triangle comes first changes along it.
+    /// Bent strip of squares. Those from `single` on have one face only. The order of the two faces of a pair
+    /// varies along the strip.
     fn strip(single: u32, shift: f64) -> Mesh {
         let bend = |i: u32| f64::from(i * i) / 20.0;
         let positions: Vec<DVec3> =
@@ -150,14 +151,14 @@ mod tests {
                 }
             }
         }
-        // Something far below or above, so that the strip is not in the middle.
+        // A distant triangle, so that the strip is not in the middle of the model.
         let far = soup.positions.len() as u32;
         soup.positions.extend([0.0, 1.0, 2.0].map(|x| DVec3::new(x, x * x, -shift)));
         soup.triangles.push([far, far + 1, far + 2]);
         Mesh::build(soup)
     }
 
-    /// How many faces of a strip face up, after a look at its edges.
+    /// Number of upward faces of a strip. Also checks that all neighbours are consistent.
     fn upward(mesh: &Mesh) -> usize {
         let turned = |e: &usize| matches!(mesh.edges.faces(*e), EdgeFaces::Two { same_way: true, .. });
         assert_eq!((0..mesh.edges.len()).filter(turned).count(), 0);
@@ -192,7 +193,7 @@ mod tests {
                 let part = PartId(below(1 + round % 3));
                 let is_new = |t: &[u32; 3]| !corners.iter().all(|corner| t.contains(corner));
                 if a != b && b != c && c != a && soup.triangles.iter().all(is_new) {
-                    // One of two stands twice.
+                    // About half of the triangles are doubled.
                     let twice = below(2) as usize;
                     soup.triangles.extend([[a, b, c], [c, b, a]].iter().take(1 + twice));
                     soup.triangle_part.extend([part; 2].iter().take(1 + twice));

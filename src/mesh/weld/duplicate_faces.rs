@@ -1,4 +1,4 @@
-//! Cleaning: faces that no surface has, and the count of what was mended.
+//! Removal of duplicate faces, and the counts of repaired defects.
 
 use crate::parallel::prelude::*;
 
@@ -6,18 +6,18 @@ use super::doubled_sheets;
 use crate::mesh::Edges;
 use crate::mesh::soup::Soup;
 
-/// What was mended or noticed while a mesh was built.
+/// Counts of defects that were repaired or found while a mesh was built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Cleaning {
-    /// Vertices joined to another at the same place.
+    /// Vertices joined to another at the same position.
     pub welded: u64,
-    /// Faces dropped because two of their corners were one place.
+    /// Faces dropped because two of their corners coincide.
     pub collapsed: u64,
-    /// Wires dropped because both of their ends were one place.
+    /// Wires dropped because both of their ends coincide.
     pub short_wires: u64,
-    /// Faces dropped because another face of the part had the same corners.
+    /// Faces dropped because another face of the part has the same corners.
     pub doubled: u64,
-    /// Faces kept that have no area: they join their neighbours but hide nothing.
+    /// Faces kept without area: they connect their neighbours but hide nothing.
     pub degenerate: u64,
     /// Edges with one face.
     pub borders: u64,
@@ -25,7 +25,7 @@ pub struct Cleaning {
     pub non_manifold: u64,
 }
 
-/// Drops the faces (and all that is stored beside them) for which `keep` is false.
+/// Drops the faces for which `keep` is false, with all their attributes.
 pub(crate) fn retain_faces(soup: &mut Soup, keep: &[bool]) {
     fn filter<T>(list: &mut Vec<T>, keep: &[bool]) {
         let mut flags = keep.iter();
@@ -33,7 +33,7 @@ pub(crate) fn retain_faces(soup: &mut Soup, keep: &[bool]) {
     }
     let Soup { triangles, triangle_part, triangle_material, triangle_paint, .. } = soup;
     let Soup { corner_normals, corner_uvs, corner_colours, edge_marks, .. } = soup;
-    // Each list is gone through in order, all of them side by side.
+    // The lists are filtered in parallel.
     rayon_core::scope(|all| {
         all.spawn(|_| filter(triangles, keep));
         all.spawn(|_| filter(triangle_part, keep));
@@ -46,10 +46,10 @@ pub(crate) fn retain_faces(soup: &mut Soup, keep: &[bool]) {
     });
 }
 
-/// For each face whether it is the only one of its part with its three corners (in any order), or
-/// the one of several that stays; `None` if all are alone.
+/// For each face, whether it is kept: false for all but one of the faces of a part with the same three
+/// corners. `None` if there are no duplicates.
 ///
-/// Of faces that run the same way the first stays; where they run both ways, see [`doubled_sheets`].
+/// Of duplicates with the same winding the first is kept. For opposite windings see [`doubled_sheets`].
 pub(crate) fn one_of_doubles(soup: &Soup, edges: &Edges) -> Option<Vec<bool>> {
     let found: Vec<Doubles> =
         edges.suspects.par_chunks(CHUNK).map(|some| Doubles::at(soup, edges, some)).collect();
@@ -59,7 +59,7 @@ pub(crate) fn one_of_doubles(soup: &Soup, edges: &Edges) -> Option<Vec<bool>> {
     let mut keep = vec![true; soup.triangles.len()];
     found.iter().flat_map(|doubles| &doubles.dropped).for_each(|face| keep[*face as usize] = false);
     let mut pairs: Vec<[u32; 2]> = found.iter().flat_map(|doubles| &doubles.pairs).copied().collect();
-    // Part by part; within each they are by their corners already.
+    // Sorted by part. Within a part they are already in corner order.
     pairs.par_sort_by_key(|[face, _]| part(soup, *face));
     for face in doubled_sheets::one_side(soup, edges, &pairs) {
         keep[face as usize] = true;
@@ -67,20 +67,20 @@ pub(crate) fn one_of_doubles(soup: &Soup, edges: &Edges) -> Option<Vec<bool>> {
     Some(keep)
 }
 
-/// So many edges are asked by one task.
+/// Number of edges per task.
 const CHUNK: usize = 1 << 12;
 
-/// Faces of one part that have the same corners.
+/// Duplicate faces of one part.
 #[derive(Default)]
 struct Doubles {
-    /// Those that do not stay, and both of each pair.
+    /// Faces that are dropped, and both faces of each pair.
     dropped: Vec<u32>,
-    /// The first of those with the same corners and the first that runs the other way, where one does.
+    /// For each set of duplicates with both windings, the first face and the first with the other winding.
     pairs: Vec<[u32; 2]>,
 }
 
 impl Doubles {
-    /// Those at some edges: each face counts at the edge between its two least corners.
+    /// Duplicates at some edges. Each face counts at the edge between its two smallest corners.
     fn at(soup: &Soup, edges: &Edges, some: &[u32]) -> Self {
         let mut doubles = Self::default();
         let mut own: Vec<(u32, u32, u32)> = Vec::new();
@@ -103,7 +103,7 @@ impl Doubles {
         doubles
     }
 
-    /// Adds faces with the same corners, of which the first is the first of the mesh.
+    /// Adds a set of duplicates, in face order.
     fn add(&mut self, soup: &Soup, same: &[(u32, u32, u32)]) {
         let faces = || same.iter().map(|(_, _, face)| *face);
         let Some(first) = faces().next() else { return };
@@ -117,12 +117,12 @@ impl Doubles {
     }
 }
 
-/// The number of the part that a face is of.
+/// Part number of a face.
 fn part(soup: &Soup, face: u32) -> u32 {
     soup.triangle_part.get(face as usize).copied().unwrap_or_default().0
 }
 
-/// Whether the corners of a face run from the least id to the greatest by way of the third.
+/// Whether the corners of a face are a cyclic permutation of ascending ids.
 fn is_upward(soup: &Soup, face: u32) -> bool {
     let [a, b, c] = soup.triangles[face as usize];
     [a < b, b < c, c < a].into_iter().filter(|up| *up).count() == 2
@@ -136,7 +136,7 @@ mod tests {
     use crate::geometry::dice::Dice;
     use crate::mesh::PartId;
 
-    /// By looking up all faces by part and corners.
+    /// Reference: compares all faces by part and corners.
     fn plain(soup: &Soup, edges: &Edges) -> Vec<bool> {
         let mut alike: BTreeMap<(u32, [u32; 3]), Vec<u32>> = BTreeMap::new();
         for (face, corners) in (0..).zip(&soup.triangles) {
@@ -160,7 +160,7 @@ mod tests {
     fn doubles_are_those_of_looking_up_all_faces() {
         let mut dice = Dice::new(7);
         for round in 0..400 {
-            // Few vertices make many doubles, also of three faces and more; many hardly any.
+            // Few vertices give many duplicates, also of three faces and more; many vertices give hardly any.
             let vertices = 4 + round % 30;
             let mut below = |n: u32| dice.below(n as usize) as u32;
             let mut soup = Soup::default();

@@ -1,24 +1,24 @@
-//! Welding: vertices at the same place become one.
+//! Welding of vertices within a tolerance.
 //!
-//! Exporters split vertices at normal and texture seams, STL has no connectivity at all, and the
-//! corners of CAD faces differ in their last bits. Two passes mend that: what lies at exactly one place
-//! is joined when vertices are put in order, and [`near`] joins what lies within a tolerance, but
-//! looks only at vertices on open edges, since a closed fan of faces has nothing to be joined to.
-//! Parts keep their names through both: a weld joins vertices, never faces.
+//! Exporters split vertices at normal and texture seams, STL has no connectivity, and corners of CAD faces
+//! differ in their last bits. Vertices at equal positions are already joined when vertices are sorted.
+//! [`near`] joins the rest within a tolerance. It examines only vertices on open edges, because a closed fan
+//! of faces needs no join. Welding joins vertices, never faces, so parts stay separate.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
-/// For each vertex the smallest id of those that are joined to it, looking only at `candidates`
-/// (ascending): steps are at most as long as the greater of what `reaches` says of both their ends. `None` if
-/// nothing is joined.
+/// For each vertex, the smallest id of the vertices joined to it; `None` if nothing is joined.
+///
+/// Only `candidates` (ascending) are examined. Two of them are joined if their distance is at most the
+/// greater of their `reaches`. Joins are transitive.
 #[must_use]
 pub fn near(positions: &[DVec3], candidates: &[u32], reaches: &[f64]) -> Option<Vec<u32>> {
     let tolerance = reaches.iter().copied().fold(0.0, f64::max);
     if tolerance <= 0.0 {
         return None;
     }
-    // Cells are much larger than the tolerance, so that few points need to ask a second cell.
+    // Cells are much larger than the tolerance, so that few points touch a second cell.
     let cell = tolerance * 16.0;
     let key = |p: DVec3| (p / cell).floor().to_array().map(|c| c as i64);
     let mut cells: FxHashMap<[i64; 3], Vec<(u32, f64)>> = FxHashMap::default();
@@ -75,7 +75,7 @@ mod tests {
         let joined = near(&doubled, &all, &[1e-6; 400]).expect("pairs lie within the tolerance");
         assert!((0..200).all(|i| joined[i + 200] == i as u32));
         assert_eq!(near(&doubled, &all, &[1e-7; 400]), None);
-        // The greater of two reaches counts.
+        // The greater of two reaches applies.
         let reaches: Vec<f64> = (0..400).map(|i| if i < 100 { 1e-6 } else { 1e-9 }).collect();
         let joined = near(&doubled, &all, &reaches).expect("the first hundred pairs are joined");
         assert!((0..200).all(|i| (joined[i + 200] == i as u32) == (i < 100)));

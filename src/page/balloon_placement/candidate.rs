@@ -1,4 +1,4 @@
-//! [`Candidate`]: a place of one balloon that holds whatever becomes of the others.
+//! [`Candidate`]: a place for one balloon that meets all constraints except those with other balloons.
 
 use kurbo::{Point, Rect, Vec2};
 
@@ -7,22 +7,22 @@ use super::request::{Placed, Room, Wish};
 use super::tail::{around, is_clear, tail};
 use crate::page::layout::Polygon;
 
-/// Places tried across and down a panel.
+/// Grid positions across and down a panel.
 const ACROSS: usize = 26;
 
-/// A place of one balloon that holds whatever becomes of the others.
+/// A place for one balloon that meets all constraints except those with other balloons.
 pub(crate) struct Candidate {
     pub place: Placed,
-    /// Around its tail, from the middle to the tip, with room for a bend.
+    /// A polygon around its tail, from the centre to the tip, with space for a bend.
     pub tail: Option<Polygon>,
-    /// Around the balloon.
+    /// Bounding box of the balloon.
     pub bounds: Rect,
-    /// Around the balloon and its tail.
+    /// Bounding box of the balloon and its tail.
     pub reach: Rect,
     pub cost: f64,
 }
 
-/// The places of a balloon by itself, the best first.
+/// The candidates of one balloon, cheapest first.
 pub(crate) fn candidates(wish: &Wish, room: &Room) -> Vec<Candidate> {
     let mut found = Vec::new();
     for (shape, hull) in wish.hulls.iter().enumerate() {
@@ -52,7 +52,7 @@ pub(crate) fn candidates(wish: &Wish, room: &Room) -> Vec<Candidate> {
     found
 }
 
-/// Where its middle may be.
+/// The possible centres of a balloon: the given one, or a grid over the panel.
 fn middles(wish: &Wish, hull: &Polygon, room: &Room) -> Vec<Point> {
     if let Some(at) = wish.at {
         return vec![at];
@@ -68,7 +68,7 @@ fn middles(wish: &Wish, hull: &Polygon, room: &Room) -> Vec<Point> {
     places.map(|(x, y)| from + Vec2::new(x as f64 * step.x, y as f64 * step.y)).collect()
 }
 
-/// Whether a balloon covers nothing that is kept, and its tail runs over nothing but what it points at.
+/// Whether a balloon covers no protected area, and its tail crosses none except its own target.
 fn is_free(own: &Placed, tail: Option<&Polygon>, wish: &Wish, room: &Room) -> bool {
     let free = |other: &Polygon| !own.hull.meets(other, room.gap);
     let is_own = |other: &Polygon| wish.target.as_ref().is_some_and(|(target, _)| target == other);

@@ -1,4 +1,4 @@
-//! What a place of a balloon costs, in ems of a longer tail.
+//! The cost of a place for a balloon, in ems of additional tail length.
 
 use kurbo::Rect;
 
@@ -6,29 +6,30 @@ use super::request::{Room, Wish};
 use super::tail::Tail;
 use crate::page::layout::Reading;
 
-/// A tail so long costs nothing, ems.
+/// Tails up to this length cost nothing, ems.
 const SHORT: f64 = 3.0;
 
-/// A balloon that covers figures wholly, with so many ems around it.
+/// Cost of a balloon that covers figures completely, and the margin around it that counts, ems.
 const COVERING: f64 = 45.0;
 const AROUND: f64 = 1.0;
 
-/// An em of a tail over a figure, and an em by which it ends short of what it points at.
+/// Costs per em of a tail over a figure, and per em between the tip and the target.
 const OVER: f64 = 2.0;
 const SHORT_OF: f64 = 0.25;
 
-/// A tail that lies flat rather than hangs down, and one that points up.
+/// Costs of a horizontal tail instead of one that hangs down, and of one that points up.
 const FLAT: f64 = 3.0;
 const UPWARD: f64 = 7.0;
 
-/// An em further down, and an em later in the line.
+/// Costs per em of distance from the top, and from the side where reading starts.
 const DOWN: f64 = 0.18;
 const LATE: f64 = 0.05;
 
-/// The next shape rather than the first one.
+/// Cost of the next shape instead of the first one.
 const SHAPE: f64 = 2.5;
 
-/// How bad a place is: far from what speaks, low, late in its line, and on what models cover.
+/// The cost of a place. It grows with the tail length, the distance from the start of reading, and the area
+/// of models that the balloon covers.
 pub(crate) fn cost(bounds: Rect, shape: usize, tail: Option<&Tail>, wish: &Wish, room: &Room) -> f64 {
     let panel = room.outline.bounds();
     let down = (bounds.y0 - panel.y0) / wish.em;
@@ -44,7 +45,7 @@ pub(crate) fn cost(bounds: Rect, shape: usize, tail: Option<&Tail>, wish: &Wish,
     }
     let pointing = tail.map_or(0.0, |tail| {
         let long = (tail.length / wish.em - SHORT).max(0.0);
-        // 1 where it hangs straight down.
+        // 1 if the tail points straight down.
         let steep = tail.way.y;
         let aside = FLAT * (1.0 - steep.max(0.0)) + UPWARD * (-steep).max(0.0);
         long + aside + OVER * tail.over / wish.em + SHORT_OF * tail.short / wish.em

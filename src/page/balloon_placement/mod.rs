@@ -25,19 +25,19 @@ use tail::is_clear;
 
 pub use request::{Placed, Room, Wish};
 
-/// Pairs of places looked at, at most, in the search for the best choice.
+/// Maximum number of candidate pairs that the search compares.
 const MOST_LOOKS: usize = 400_000;
 
-/// Places for all balloons, in their order.
+/// Places all balloons, in reading order.
 ///
 /// # Errors
-/// Which of them found none.
+/// Returns the index of a balloon that does not fit.
 pub fn place(wishes: &[Wish], room: &Room) -> Result<Vec<Placed>, usize> {
     let all: Vec<Vec<Candidate>> = wishes.iter().map(|wish| candidates(wish, room)).collect();
     if let Some(none) = all.iter().position(Vec::is_empty) {
         return Err(none);
     }
-    // The least that the balloons from each one on cost.
+    // Lower bound of the cost of all balloons from each index on.
     let mut least = vec![0.0; all.len() + 1];
     for (number, own) in all.iter().enumerate().rev() {
         least[number] = least[number + 1] + own.first().map_or(0.0, |candidate| candidate.cost);
@@ -51,7 +51,7 @@ pub fn place(wishes: &[Wish], room: &Room) -> Result<Vec<Placed>, usize> {
     }
 }
 
-/// A search for the choice of places that costs least.
+/// A branch-and-bound search for the cheapest compatible candidates.
 struct Search<'a> {
     all: &'a [Vec<Candidate>],
     told: Vec<bool>,
@@ -63,7 +63,8 @@ struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Tries all places of the next balloon that may be better, where those before it cost so much.
+    /// Tries the candidates of the next balloon. `placed` are those of the balloons before it, and `cost` is
+    /// their total.
     fn next(&mut self, placed: &mut Vec<&'a Candidate>, cost: f64) {
         let number = placed.len();
         let all = self.all;
@@ -89,7 +90,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Whether a balloon may be where it is beside one before it.
+/// Whether a candidate is compatible with one of an earlier balloon.
 fn goes_with(own: &Candidate, before: &Candidate, told: bool, room: &Room) -> bool {
     let is_read = told || is_read_after(own.bounds, before.bounds, room.reading);
     let apart = own.reach.inset(room.gap).intersect(before.reach).is_zero_area();
@@ -103,13 +104,14 @@ fn goes_with(own: &Candidate, before: &Candidate, told: bool, room: &Room) -> bo
     is_read && (apart || keeps_off())
 }
 
-/// Whether one is read after the other: below its middle, or beside it on the side that is read later and no higher.
+/// Whether one box is read after another: it is below the other's centre, or it starts past that centre in
+/// reading direction and is not clearly higher.
 fn is_read_after(own: Rect, before: Rect, reading: Reading) -> bool {
     let beside = match reading {
         Reading::Ltr => own.x0 >= before.center().x,
         Reading::Rtl => own.x1 <= before.center().x,
     };
-    // What is on the side that is read earlier is below all of it.
+    // A box on the side where reading starts must be completely below the other.
     let below = match reading {
         Reading::Ltr => own.center().x >= before.x0,
         Reading::Rtl => own.center().x <= before.x1,

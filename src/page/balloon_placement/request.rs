@@ -1,55 +1,55 @@
-//! What is asked of places, and what is found: [`Wish`], [`Room`] and [`Placed`].
+//! Input and result of balloon placement: [`Wish`], [`Room`] and [`Placed`].
 
 use kurbo::Point;
 
 use crate::page::figure::Cover;
 use crate::page::layout::{Polygon, Reading};
 
-/// A balloon that wants a place.
+/// A balloon that needs a place.
 #[derive(Debug, Clone)]
 pub struct Wish {
-    /// The shapes that it may have, the best first; of each a polygon around it, its middle at 0, 0.
+    /// Hulls of its possible shapes, preferred first, centred at the origin.
     pub hulls: Vec<Polygon>,
-    /// What its tail points at, and towards which point of it.
+    /// Hull of the target of its tail, and the point that the tail points to.
     pub target: Option<(Polygon, Point)>,
-    /// The em of its letters.
+    /// Em size of its letters.
     pub em: f64,
-    /// How long its tail is at least.
+    /// Minimum length of its tail.
     pub tail: f64,
-    /// Half the width of its tail where it begins.
+    /// Half the width of its tail at the balloon.
     pub foot: f64,
-    /// Where it is told to be.
+    /// Centre from the page file, if given.
     pub at: Option<Point>,
-    /// Whether it stands in the corner where reading begins, or near to it.
+    /// Whether it belongs in the corner where reading starts, as captions do.
     pub cornered: bool,
 }
 
-/// Where balloons may be.
+/// The area for balloons in a panel.
 #[derive(Debug, Clone)]
 pub struct Room {
-    /// Within this.
+    /// The outline that contains all balloons.
     pub outline: Polygon,
-    /// On none of these; tails may reach them.
+    /// Areas that balloons and the tails of others must not cover.
     pub kept: Vec<Polygon>,
-    /// On none of these, and with no tail over them.
+    /// Areas that neither balloons nor tails may cover.
     pub obstacles: Vec<Polygon>,
-    /// What of the panel models cover; balloons stay on what is free if they can.
+    /// The area that models cover; balloons avoid it if possible.
     pub cover: Option<Cover>,
-    /// From one to the other, at least.
+    /// Minimum gap between balloons and other areas.
     pub gap: f64,
-    /// In which direction they are read.
+    /// Reading direction.
     pub reading: Reading,
 }
 
-/// A balloon in its place.
+/// A placed balloon.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Placed {
-    /// Which of its shapes it has.
+    /// Index of its shape.
     pub shape: usize,
-    /// Its middle.
+    /// Its centre.
     pub middle: Point,
-    /// Where its tail ends.
+    /// End of its tail.
     pub tip: Option<Point>,
-    /// Around it.
+    /// Its hull on the page.
     pub hull: Polygon,
 }

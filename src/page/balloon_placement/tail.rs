@@ -1,31 +1,37 @@
-//! [`Tail`]: where the tail of a balloon ends, and what it runs over.
+//! [`Tail`]: the end of a balloon's tail, and its length over figures.
+//!
+//! 1. The tail runs from the centre of the balloon towards the aim, and starts where it leaves the hull.
+//! 2. It ends just before the hull of its target.
+//! 3. If a figure is close in front of the target, the tail ends before that figure.
+//! 4. Long tails are shortened.
 
 use kurbo::{Point, Vec2};
 
 use super::request::{Room, Wish};
 use crate::page::layout::Polygon;
 
-/// From the tip of a tail to what it points at, in gaps.
+/// Distance from the tip of a tail to its target, as a multiple of the gap.
 const SHORT_OF: f64 = 0.6;
 
-/// So much of a tail, in ems, leads on as it is; of what it is longer it leads on by a share.
+/// A tail is drawn in full up to this length, ems; of the excess only the share `OF_LONGER` is drawn.
 const LONG: f64 = 4.0;
 const OF_LONGER: f64 = 0.4;
 
-/// So far, in ems, a figure may reach before what the tail points at for the tail to end short of it.
+/// Maximum length of a figure in front of the target for the tail to end before the figure, ems.
 const BEFORE: f64 = 4.0;
 
-/// From the tip of a tail to the figure that it ends short of, in ems: the squares of a cover are coarse, and lines have a width.
+/// Distance from the tip of a tail to the figure in front of its target, ems. It allows for coarse grid
+/// squares and line widths.
 const SHORT_OF_FIGURE: f64 = 0.45;
 
-/// Steps to the em in which a tail is followed.
+/// Sampling steps per em along a tail.
 const STEPS: f64 = 6.0;
 
-/// How far tails bend aside, in shares of their length.
+/// Sideways bend of a tail, as a share of its length.
 const BEND: f64 = 0.03;
 
-/// Where a tail begins, at the balloon, and ends, and how much of its way, and of what is left of it up to the part that it points
-/// at, is over figures.
+/// The tail of a balloon: its length up to the target, unit direction, length over figures, distance between
+/// tip and target, and its tip.
 pub(crate) struct Tail {
     pub length: f64,
     pub way: Vec2,
@@ -34,7 +40,8 @@ pub(crate) struct Tail {
     pub tip: Point,
 }
 
-/// The tail of a balloon: it ends a little before it reaches what it points at, and before the figure that this is a part of.
+/// Fits the tail of a balloon. It ends just before its target, and before the figure that the target belongs
+/// to if that is near. `None` if the tail is too short.
 pub(crate) fn tail(
     middle: Point,
     hull: &Polygon,
@@ -50,7 +57,7 @@ pub(crate) fn tail(
     let way = way / length;
     let enters = enters(target, middle, aim).unwrap_or(length);
     let leaves = leaves(hull, middle, aim);
-    // From within a large part the tail leads to the point itself.
+    // If the balloon is inside a large part, the tail points to the aim itself.
     let reach = if target.holds(middle) { length } else { enters } - room.gap * SHORT_OF;
     let least = leaves + wish.tail;
     if reach.is_nan() || reach < least {
@@ -62,7 +69,7 @@ pub(crate) fn tail(
     while end > least && reach - end < BEFORE * wish.em && is_figure(end) {
         end -= step;
     }
-    // Where the figure begins no later, the tail leads over it.
+    // If the figure covers the whole search length, the tail runs over it.
     end = if is_figure(end) { reach } else { (end - SHORT_OF_FIGURE * wish.em).max(least) };
     let long = leaves + LONG * wish.em;
     if end > long {
@@ -79,7 +86,7 @@ pub(crate) fn tail(
     })
 }
 
-/// Around a tail, from the middle of its balloon to its tip, with room for a bend.
+/// A polygon around a tail, from the centre of its balloon to the tip, with space for a bend.
 pub(crate) fn around(middle: Point, tip: Point, foot: f64) -> Polygon {
     let way = tip - middle;
     let across = Vec2::new(-way.y, way.x).normalize();
@@ -87,17 +94,17 @@ pub(crate) fn around(middle: Point, tip: Point, foot: f64) -> Polygon {
     Polygon(vec![middle - wide, tip - narrow, tip + narrow, middle + wide])
 }
 
-/// How far it is from a point to where the way to another one enters a polygon.
+/// Distance from a point to where the segment to another point enters a polygon.
 fn enters(polygon: &Polygon, from: Point, to: Point) -> Option<f64> {
     crossings(polygon, from, to).reduce(f64::min).filter(|at| *at <= from.distance(to))
 }
 
-/// How far it is from a point within a polygon to where the way towards another one leaves it.
+/// Distance from a point inside a polygon to where the ray towards another point leaves it.
 fn leaves(polygon: &Polygon, from: Point, to: Point) -> f64 {
     crossings(polygon, from, to).fold(0.0, f64::max)
 }
 
-/// How far it is to where the way towards a point, and beyond it, crosses the sides of a polygon.
+/// Distances to the crossings of a ray with the sides of a polygon.
 fn crossings(polygon: &Polygon, from: Point, to: Point) -> impl Iterator<Item = f64> + '_ {
     let way = to - from;
     polygon.sides().filter_map(move |(a, b)| {
@@ -109,7 +116,7 @@ fn crossings(polygon: &Polygon, from: Point, to: Point) -> impl Iterator<Item = 
     })
 }
 
-/// Whether a tail keeps off a polygon.
+/// Whether a tail does not touch a polygon.
 pub(crate) fn is_clear(tail: Option<&Polygon>, other: &Polygon) -> bool {
     tail.is_none_or(|tail| !tail.meets(other, 0.0))
 }

@@ -1,4 +1,4 @@
-//! What a page file tells of a comic page: [`ComicPage`], its panels, and the letters in them.
+//! [`ComicPage`]: the keys of a comic page, of its panels and of their letters.
 
 use std::path::PathBuf;
 
@@ -14,55 +14,55 @@ use crate::page::page_size::Size;
 use crate::page::page_source::Source;
 use crate::page::print_inks::{PrintKeys, Spots};
 
-/// What a page file tells of a comic page.
+/// A comic page in a page file.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ComicPage {
-    /// What viewers call it. Default: the name of the file.
+    /// Title for viewers. Default: the name of the file.
     pub title: Option<String>,
-    /// How large it is when it is cut. Default: A4.
+    /// Size after trimming. Default: A4.
     pub size: Spanned<Size>,
-    /// Whether it lies on its longer side. Default: no.
+    /// Whether the page is in landscape format. Default: no.
     pub landscape: bool,
-    /// Whether it is two pages side by side. Default: no.
+    /// Whether the page is a double page. Default: no.
     pub spread: bool,
-    /// How far what is printed reaches beyond the cut. Default: 0.
+    /// Width of the bleed outside the trim. Default: 0.
     pub bleed: Spanned<Mm>,
-    /// How far letters stay from the cut. Default: 5 mm.
+    /// Distance of the safe area for letters from the trim. Default: 5 mm.
     pub safe: Spanned<Mm>,
-    /// From the cut to the panels. Default: 12 mm.
+    /// Distance from the trim to the panels. Default: 12 mm.
     pub margin: Spanned<Mm>,
-    /// `ltr` or `rtl`: in which direction it is read. Default: ltr.
+    /// Reading direction, `ltr` or `rtl`. Default: ltr.
     pub reading: ReadingKey,
     /// Colour of the paper. Default: white.
     pub background: Colour,
-    /// How panels part it. Default: `1`, one panel.
+    /// Layout of the panels, see `page::layout`. Default: `1`, one panel.
     pub layout: Spanned<String>,
-    /// Between panels: one length, or one between columns and one between rows. Default: 4 mm.
+    /// Gap between panels: one length, or one between columns and one between rows. Default: 4 mm.
     pub gutter: Spanned<Gutter>,
-    /// Width of the lines around panels; 0 for none. Default: 0.6 mm.
+    /// Line width of panel borders; 0 for none. Default: 0.6 mm.
     pub border: Spanned<Mm>,
-    /// How far these lines stray, as drawn by a hand. Default: 0.
+    /// Maximum deviation of hand-drawn panel borders. Default: 0.
     pub hand: Spanned<Mm>,
-    /// The style of the panels. Default: comic.
+    /// Style of the panels. Default: comic.
     pub style: Spanned<String>,
-    /// Changes to it, `KEY=VALUE` each.
+    /// Changes to the style, each `KEY=VALUE`.
     pub set: Vec<Spanned<String>>,
-    /// Inks of PDF: `screen`, `k` or `cmyk`. Default: screen.
+    /// Inks of the PDF: `screen`, `k` or `cmyk`. Default: screen.
     pub ink: Option<Spanned<String>>,
-    /// The ICC profile of the press.
+    /// ICC profile of the press.
     pub icc: Option<Spanned<String>>,
-    /// All inks of a place together, percent of one.
+    /// Maximum total ink at a point, in percent of one ink.
     pub ink_limit: Option<Spanned<f64>>,
-    /// A colour that is printed with an ink of its own, or several.
+    /// One or more spot colours.
     pub spot: Option<Spanned<Spots>>,
-    /// How letters are set.
+    /// Settings of all letters.
     pub lettering: LetteringKeys,
     /// The panels, in reading order.
     pub panel: Vec<Spanned<PanelKeys>>,
 }
 
-/// In which direction a page is read.
+/// Reading direction of a page.
 #[derive(Debug, Clone, Copy, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ReadingKey {
@@ -82,69 +82,69 @@ impl From<ReadingKey> for Reading {
     }
 }
 
-/// What is between panels.
+/// Gaps between panels.
 #[derive(Debug, Clone, Copy, Deserialize)]
 #[serde(untagged, expecting = "this is not a gutter; write one length, or [between columns, between rows]")]
 pub enum Gutter {
-    /// Everywhere.
+    /// The same gap everywhere.
     All(Mm),
-    /// Between columns, and between rows.
+    /// The gap between columns, and the gap between rows.
     Each([Mm; 2]),
 }
 
-/// How letters are set.
+/// Settings of all letters of a page.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct LetteringKeys {
-    /// A font that comes with the program, or the file of one. Default: comic.
+    /// Name of a bundled font, or a font file. Default: comic.
     pub font: Spanned<String>,
-    /// The em of the letters. Default: 3.4 mm.
+    /// Em size of the letters. Default: 3.4 mm.
     pub size: Spanned<Mm>,
-    /// Whether all letters are capitals. Default: yes.
+    /// Whether all letters are upper case. Default: yes.
     pub upper_case: bool,
-    /// The language, as two letters of ISO 639-1, that words are parted in. Default: none, words stay whole.
+    /// Language for hyphenation, two letters of ISO 639-1. Default: none, words are not hyphenated.
     pub language: Option<String>,
-    /// Width of the lines around balloons. Default: 0.4 mm.
+    /// Line width of balloons. Default: 0.4 mm.
     pub line: Spanned<Mm>,
     /// Colour of letters and lines. Default: black.
     #[serde(alias = "color")]
     pub colour: Colour,
-    /// Colour of balloons. Default: white.
+    /// Fill colour of balloons. Default: white.
     pub fill: Colour,
 }
 
-/// A panel.
+/// A panel of a comic page.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct PanelKeys {
-    /// What its layers are called by. Default: `panel-1` and so on.
+    /// Name of its layers. Default: `panel-1` and so on.
     pub name: Option<Spanned<String>>,
-    /// Its place, where it is none of the layout: left, top, width and height from the corner of the cut page.
+    /// Position outside the layout: left, top, width and height, from the corner of the trimmed page.
     pub at: Option<Spanned<[Mm; 4]>>,
-    /// Whether it lies over others. Default: no.
+    /// Whether the panel may overlap other panels. Default: no.
     pub inset: bool,
-    /// Whether it reaches to the edge of what is printed, where it is at the rim of the layout. Default: no.
+    /// Whether the panel extends into the bleed where it touches the rim of the layout. Default: no.
     pub bleed: bool,
-    /// Width of the line around it; 0 for none. Default: that of the page.
+    /// Line width of the border; 0 for none. Default: that of the page.
     pub border: Option<Spanned<Mm>>,
-    /// The model or models in it.
+    /// One or more models.
     pub model: Models,
-    /// From where they are seen. Default: from the front, right and above.
+    /// Camera. Default: from the front, right and above.
     pub camera: Option<Spanned<Aim>>,
-    /// The style. Default: that of the page.
+    /// Style. Default: that of the page.
     pub style: Option<Spanned<String>>,
-    /// Changes to it, behind those of the page.
+    /// Changes to the style, applied after those of the page.
     pub set: Vec<Spanned<String>>,
-    /// Its colour, or `none`. Default: that of the style.
+    /// Background colour, or `none`. Default: that of the style.
     pub background: Option<Spanned<String>>,
-    /// The moment of animations, in seconds.
+    /// Time of animations, in seconds.
     pub time: Option<Spanned<f64>>,
-    /// Which animation plays.
+    /// Name of the animation.
     pub animation: Option<Spanned<String>>,
-    /// Parts that are drawn over the line around the panel.
+    /// Parts that are drawn over the border of the panel.
     #[serde(rename = "break")]
     pub breaking: Vec<Spanned<String>>,
-    /// Parts that no balloon covers.
+    /// Parts that balloons must not cover.
     pub keep: Vec<Spanned<String>>,
     /// Balloons and captions, in reading order.
     pub balloon: Vec<BalloonKeys>,
@@ -152,37 +152,37 @@ pub struct PanelKeys {
     pub sound: Vec<SoundKeys>,
 }
 
-/// What a balloon says, and how.
+/// A balloon or caption.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BalloonKeys {
-    /// What it says.
+    /// Text of the balloon.
     pub text: Spanned<String>,
-    /// Of which kind it is. Default: speech.
+    /// Kind of balloon. Default: speech.
     #[serde(default)]
     pub kind: BalloonKind,
-    /// The part that its tail points at. Default: no tail.
+    /// Part that the tail points at. Default: no tail.
     pub tail: Option<Spanned<String>>,
-    /// Where its middle is, in shares of the panel. Default: it is placed by itself.
+    /// Position of the centre, as shares of the panel's width and height. Default: placed automatically.
     pub at: Option<Spanned<[f64; 2]>>,
-    /// The em of its letters. Default: that of the page.
+    /// Em size of the letters. Default: that of the page.
     pub size: Option<Spanned<Mm>>,
-    /// Its colour. Default: that of the page.
+    /// Fill colour. Default: that of the page.
     pub fill: Option<Colour>,
 }
 
-/// Kinds of balloons.
+/// Kind of balloon.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum BalloonKind {
     /// An ellipse with a tail.
     #[default]
     Speech,
-    /// A cloud with small ones for a tail.
+    /// A cloud with a tail of small bubbles.
     Thought,
-    /// A burst.
+    /// A burst of spikes.
     Shout,
-    /// An ellipse of dashes.
+    /// A dashed ellipse.
     Whisper,
     /// A box without a tail.
     Caption,
@@ -192,29 +192,29 @@ pub enum BalloonKind {
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SoundKeys {
-    /// The sound.
+    /// Text of the sound.
     pub text: Spanned<String>,
-    /// Where its middle is, in shares of the panel. Default: 0.5, 0.75.
+    /// Position of the centre, as shares of the panel's width and height. Default: 0.5, 0.75.
     #[serde(default = "low")]
     pub at: Spanned<[f64; 2]>,
-    /// Height of its capitals. Default: 12 mm.
+    /// Height of capitals. Default: 12 mm.
     pub size: Option<Spanned<Mm>>,
-    /// Degrees by which it is turned, to the right if above 0. Default: 0.
+    /// Rotation in degrees, clockwise if positive. Default: 0.
     #[serde(default = "none")]
     pub rotate: Spanned<f64>,
-    /// Degrees of the arc it is bent along, up in its middle if above 0. Default: 0.
+    /// Angle of the arc that the text follows, degrees; positive arcs rise in the middle. Default: 0.
     #[serde(default = "none")]
     pub arc: Spanned<f64>,
-    /// How much wider than high letters are drawn. Default: 1.
+    /// Horizontal stretch factor of the letters. Default: 1.
     pub stretch: Option<Spanned<f64>>,
-    /// Colour of its letters. Default: white.
+    /// Fill colour of the letters. Default: white.
     pub fill: Option<Colour>,
-    /// Colour of the line around them. Default: that of letters.
+    /// Colour of the outline. Default: that of other letters.
     #[serde(alias = "color")]
     pub colour: Option<Colour>,
-    /// Width of that line. Default: a tenth of its size.
+    /// Width of the outline. Default: a tenth of the size.
     pub line: Option<Spanned<Mm>>,
-    /// A font that comes with the program, or the file of one. Default: that of the page.
+    /// Name of a bundled font, or a font file. Default: that of the page.
     pub font: Option<Spanned<String>>,
 }
 
@@ -273,14 +273,14 @@ impl Default for LetteringKeys {
 }
 
 impl ComicPage {
-    /// What it tells of its inks.
+    /// The keys for the inks of the page.
     #[must_use]
     pub fn print(&self) -> PrintKeys {
         let Self { ink, icc, ink_limit, spot, .. } = self.clone();
         PrintKeys { ink, icc, ink_limit, spot }
     }
 
-    /// The files it is made from.
+    /// The files that the page is made from.
     #[must_use]
     pub fn inputs(&self, source: &Source) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = file(&self.style, source).into_iter().collect();

@@ -26,10 +26,11 @@ use panel_outlines::Sheet;
 
 pub use comic_keys::ComicPage;
 
-/// Draws a comic page: the panels in their order, then what breaks their borders, then the letters of all.
+/// Draws a comic page. Panels come first in their order, then parts that break out of borders, then all
+/// letters.
 ///
 /// # Errors
-/// Each names the line of what is wrong.
+/// Returns an error with the line of the wrong key.
 pub fn compose(comic: &ComicPage, source: &Source) -> Result<Composed, Error> {
     let sheet = Sheet::of(comic, source)?;
     let shapes = panel_outlines::shapes(comic, &sheet, source)?;
@@ -44,7 +45,7 @@ pub fn compose(comic: &ComicPage, source: &Source) -> Result<Composed, Error> {
     for (shape, mut panel) in shapes.iter().zip(panels) {
         items.append(&mut panel.items);
         over.extend(panel.over.take());
-        // Panels share the style of the page, and a warning about it.
+        // Panels share the style of the page, and would repeat a warning about it.
         panel.warnings.retain(|warning| !warnings.contains(warning));
         warnings.append(&mut panel.warnings);
         letters.extend(lettering.letter(shape, panel.seen.as_ref(), &sheet, &mut warnings)?);

@@ -1,4 +1,7 @@
-//! The line around a panel, straight or as drawn by a hand.
+//! The border line of a panel, straight or wavy as if hand-drawn.
+//!
+//! A wavy side is a Catmull-Rom spline through points that smooth noise moves sideways. The seed comes from
+//! the side, so the same page gives the same border. Sides along the edge of the printed area are left out.
 
 use kurbo::{Affine, BezPath, Point, Rect, Vec2};
 
@@ -9,13 +12,14 @@ use crate::drawing::{
 use crate::geometry::numbers::noise::{hash, smooth};
 use crate::page::layout::Polygon;
 
-/// From one bend of a line drawn by a hand to the next, mm.
+/// Distance between two bends of a hand-drawn line, mm.
 const WAVE: f64 = 18.0;
 
-/// Points of such a line from one bend to the next.
+/// Curve points between two bends.
 const POINTS_A_WAVE: f64 = 4.0;
 
-/// A line of a width around a panel, which strays by at most `hand`, as a drawing of the whole page.
+/// The border of a panel as a drawing of the whole page. `hand` is the maximum deviation of a hand-drawn
+/// line, mm.
 pub(crate) fn border(
     name: &str,
     outline: &Polygon,
@@ -40,7 +44,8 @@ pub(crate) fn border(
     Item { name: name.to_owned(), drawing, place: Affine::IDENTITY, clip: None }
 }
 
-/// The sides of an outline but those along the edge of what is printed; where `hand` is above 0 they stray, and their corners stay.
+/// The sides of an outline, except those along the edge of the printed area. With `hand` above 0 the sides
+/// are wavy between fixed corners.
 fn line(outline: &Polygon, hand: f64, sheet: Rect) -> BezPath {
     let sides: Vec<(Point, Point)> = outline.sides().collect();
     let is_edge = |(a, b): &(Point, Point)| {
@@ -50,7 +55,7 @@ fn line(outline: &Polygon, hand: f64, sheet: Rect) -> BezPath {
             || along(a.y, b.y, sheet.y0)
             || along(a.y, b.y, sheet.y1)
     };
-    // What is open begins behind an edge.
+    // An open border starts after a side that is left out.
     let first = sides.iter().position(is_edge).map_or(0, |edge| edge + 1);
     let mut path = BezPath::new();
     let mut goes_on = false;
@@ -72,7 +77,7 @@ fn line(outline: &Polygon, hand: f64, sheet: Rect) -> BezPath {
     path
 }
 
-/// Adds a side that strays by at most `hand`.
+/// Adds a side that deviates by at most `hand`.
 fn shake(path: &mut BezPath, (a, b): (Point, Point), number: usize, hand: f64) {
     let length = a.distance(b);
     let across = Vec2::new(b.y - a.y, a.x - b.x) / length.max(f64::MIN_POSITIVE);
@@ -80,11 +85,11 @@ fn shake(path: &mut BezPath, (a, b): (Point, Point), number: usize, hand: f64) {
     let steps = (length / WAVE * POINTS_A_WAVE).ceil().max(1.0);
     let at = |step: f64| -> Point {
         let share = step / steps;
-        // Still at the ends, and full from a wave on.
+        // The amplitude is 0 at both ends and full at a distance of one bend.
         let pinned = (share.min(1.0 - share) * length / WAVE).min(1.0);
         a.lerp(b, share) + across * (hand * pinned * smooth(seed, share * length / WAVE))
     };
-    // A smooth curve through the points: Catmull and Rom's.
+    // Catmull-Rom spline through the points.
     for step in 0..steps as usize {
         let step = step as f64;
         let [p, q, r, s] = [step - 1.0, step, step + 1.0, step + 2.0].map(|k| at(k.clamp(0.0, steps)));

@@ -1,4 +1,9 @@
-//! One panel: the drawing of its scene, the line around it, and what breaks that line.
+//! One panel: the drawing of its scene, its border, and the parts that break out of the border.
+//!
+//! 1. The scene is assembled, and the bounding box of the panel becomes the frame of its camera.
+//! 2. The scene is drawn in one picture and clipped to the outline of the panel.
+//! 3. Parts that break out are taken from the same picture, which is drawn in a larger frame for this. They
+//!    are painted over the border, outside the panel only.
 
 use kurbo::{Affine, BezPath, Rect, Shape as _, Vec2};
 use toml::Spanned;
@@ -17,34 +22,35 @@ use crate::pipeline;
 use crate::scene::{Camera, Part, Projection, Scene};
 use crate::style::Style;
 
-/// How far beyond its panel, in shares of the shorter side, a figure may break.
+/// How far a part may break out of its panel, as a share of the panel's shorter side.
 const BEYOND: f64 = 0.5;
 
-/// How far what breaks a line is drawn within the panel again, mm: so far no gap shows.
+/// Overlap of broken-out parts with the panel, mm; it prevents gaps.
 const LAP: f64 = 0.1;
 
-/// A panel that was drawn.
+/// A panel that has been drawn.
 pub(crate) struct Drawn {
-    /// Its drawing and its line.
+    /// The drawing of the scene, and the border.
     pub items: Vec<Item>,
-    /// What breaks that line, and may reach over other panels.
+    /// Parts that break out of the border; they may cover other panels.
     pub over: Option<Item>,
-    /// What is in it, and how it is seen.
+    /// The scene and its camera; `None` without a model.
     pub seen: Option<Seen>,
-    /// What there is to say of it.
+    /// Warnings about the panel.
     pub warnings: Vec<String>,
 }
 
-/// A scene in a panel.
+/// The scene of a panel with its camera.
 pub(crate) struct Seen {
     scene: Scene,
     camera: Camera,
-    /// From the frame of the camera to the page.
+    /// Offset from the camera's frame to the page, mm.
     place: Vec2,
 }
 
 impl Seen {
-    /// Which of the panel models cover; the figures are the models of those parts, or all of them if no model has a name.
+    /// The area of the panel that models cover. The figures are the models of `parts`, or all models if none
+    /// has a name.
     pub fn cover(&self, parts: &[&str]) -> Cover {
         let models: Vec<&str> =
             parts.iter().filter_map(|part| part.split_once('/')).map(|(model, _)| model).collect();
@@ -55,10 +61,10 @@ impl Seen {
         Cover::of(&self.scene, &self.camera, self.place.to_point(), &is_figure)
     }
 
-    /// Where parts are on the page.
+    /// The bounds on the page of the parts that match a pattern.
     ///
     /// # Errors
-    /// If there is no such part.
+    /// Returns an error if no part matches.
     pub fn places(&self, glob: &Spanned<String>, source: &Source) -> Result<Vec<Place>, Error> {
         let mut places = figure::places(&self.scene, &self.camera, glob.get_ref());
         if !self.scene.parts.iter().any(|part| is_named(glob.get_ref(), &part.name)) {
@@ -75,7 +81,7 @@ impl Seen {
 /// Draws a panel.
 ///
 /// # Errors
-/// If a model, a style or a camera is not there or not what it should be.
+/// Returns an error if a model, style or camera is missing or invalid.
 pub(crate) fn draw(shape: &Shape, page: &ComicPage, sheet: &Sheet, source: &Source) -> Result<Drawn, Error> {
     let bounds = shape.outline.bounds();
     let none = PanelKeys::default();
@@ -111,7 +117,7 @@ pub(crate) fn draw(shape: &Shape, page: &ComicPage, sheet: &Sheet, source: &Sour
                 return Err(camera_spec::unknown_part(glob, &scene, source));
             }
         }
-        // What breaks the line is drawn in a frame that is larger on all sides, with the same picture in its middle.
+        // Broken-out parts need a larger frame, with the same picture in its centre.
         let beyond =
             if keys.breaking.is_empty() { 0.0 } else { BEYOND * bounds.width().min(bounds.height()) };
         let wide = widened(&camera, beyond);
@@ -149,7 +155,7 @@ fn paper([width, height]: [f64; 2], background: Option<Colour>) -> Page {
     Page { width, height, unit: Unit::Mm, background }
 }
 
-/// A colour, or none.
+/// Parses a colour or `none`.
 fn background(word: &Spanned<String>, source: &Source) -> Result<Option<Colour>, Error> {
     if word.get_ref().eq_ignore_ascii_case("none") {
         return Ok(None);
@@ -161,7 +167,7 @@ fn background(word: &Spanned<String>, source: &Source) -> Result<Option<Colour>,
     Ok(Some(colour))
 }
 
-/// The camera with so much more on each side of its frame, and the same picture in the middle of that.
+/// The camera with a frame that is larger by a margin on each side and shows the same picture in its centre.
 fn widened(camera: &Camera, by: f64) -> Camera {
     if by == 0.0 {
         return *camera;
@@ -177,7 +183,7 @@ fn widened(camera: &Camera, by: f64) -> Camera {
     camera.with_projection(projection).with_frame(camera.width + 2.0 * by, camera.height + 2.0 * by)
 }
 
-/// What of a drawing is of the parts that break the line of the panel, on paper of their own where they are seen.
+/// The marks of the parts that break out of the border, over fills in the background colour.
 fn breaking(
     drawing: &Drawing,
     scene: &Scene,
@@ -212,7 +218,7 @@ fn breaking(
     Ok(Drawing::new(format!("{} over its border", drawing.title), page, layers))
 }
 
-/// A frame with a hole.
+/// A rectangle with a hole.
 fn around(frame: Rect, hole: &BezPath) -> BezPath {
     let mut path = frame.to_path(0.1);
     path.extend(hole.reverse_subpaths());

@@ -1,4 +1,9 @@
 //! [`Shape`]: the outlines of the panels of a page.
+//!
+//! 1. Bleed, trim, margin and safe area give the boxes of the page.
+//! 2. The layout divides the frame inside the margin into panels. Panels with bleed extend to the printed
+//!    area.
+//! 3. Panels with explicit positions follow. They must not overlap others unless they are insets.
 
 use kurbo::{Point, Rect};
 use toml::Spanned;
@@ -11,30 +16,30 @@ use crate::page::mm_length::Mm;
 use crate::page::page_size::Size;
 use crate::page::page_source::Source;
 
-/// Panels have no area in common but what is less than this, mm².
+/// Overlaps of panels up to this area are ignored, mm².
 const NOTHING: f64 = 1e-3;
 
-/// The boxes of a page; what is printed begins at 0, 0.
+/// The boxes of a page, mm. The printed area starts at the origin.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sheet {
-    /// What is left when it is cut.
+    /// The page after trimming.
     pub trim: Rect,
-    /// What is printed.
+    /// The printed area.
     pub bleed: Rect,
-    /// Where letters stay.
+    /// The safe area for letters.
     pub safe: Rect,
-    /// What panels part.
+    /// The area that the layout divides into panels.
     frame: Rect,
 }
 
 /// A panel on the page.
 #[derive(Debug, Clone)]
 pub(crate) struct Shape<'a> {
-    /// What its layers are called by.
+    /// Name of its layers.
     pub name: String,
-    /// What is told of it; nothing of a panel that stays empty.
+    /// The keys of the panel; `None` if the page file has none for it.
     pub keys: Option<&'a Spanned<PanelKeys>>,
-    /// Its outline.
+    /// The outline of the panel.
     pub outline: Polygon,
 }
 
@@ -42,7 +47,7 @@ impl Sheet {
     /// The boxes of a page.
     ///
     /// # Errors
-    /// Where a length is below 0, or a margin leaves nothing.
+    /// Returns an error if a length is negative, or a margin leaves no space.
     pub fn of(page: &ComicPage, source: &Source) -> Result<Self, Error> {
         for length in [&page.bleed, &page.safe, &page.margin, &page.border, &page.hand, &page.lettering.line]
         {
@@ -74,10 +79,11 @@ impl Sheet {
     }
 }
 
-/// The panels of a page: those of the layout in reading order, then those with a place of their own.
+/// The panels of a page: those of the layout in reading order, then those with an explicit position.
 ///
 /// # Errors
-/// At the place of a layout that is none, of panels too many, without size, or over one another.
+/// Returns an error if the layout is invalid, or there are too many panels, or a panel is too small or
+/// overlaps others.
 pub(crate) fn shapes<'a>(
     page: &'a ComicPage,
     sheet: &Sheet,
@@ -159,7 +165,7 @@ pub(crate) fn shapes<'a>(
     Ok(shapes)
 }
 
-/// The first line of a panel in the file.
+/// The span of the first line of a panel in the file.
 fn head(source: &Source, panel: &Spanned<PanelKeys>) -> std::ops::Range<usize> {
     let span = panel.span();
     let text = source.text.get(span.clone()).unwrap_or_default();

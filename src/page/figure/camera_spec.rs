@@ -1,4 +1,9 @@
-//! [`Aim`]: from where a figure is seen, and what of it fills its frame.
+//! [`Aim`]: the camera of a figure as the page file describes it.
+//!
+//! 1. A record, a named view, or azimuth and elevation give the direction.
+//! 2. `fov` and `ortho` give the projection.
+//! 3. The camera is fitted to the scene or to the parts of `look_at`, cropped by `crop`.
+//! 4. `zoom`, `shift` and `roll` are applied.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -18,18 +23,18 @@ use crate::scene::cameras::named_views::{THREE_QUARTER_AZIMUTH_DEG, THREE_QUARTE
 use crate::scene::{Camera, NamedView, Projection, Scene, UpAxis};
 use crate::style::sheet_errors;
 
-/// How much of the height of what is looked at a bust shows.
+/// Share of the height that a bust shows.
 const BUST: f64 = 0.42;
 
-/// How much nearer a close view is than one of all.
+/// Zoom factor of a close view.
 const CLOSE: f64 = 1.7;
 
-/// From where a figure is seen: a word (a camera record's file, a named view, or a camera of the model), or keys.
+/// The camera of a figure: a word or a table.
 #[derive(Debug, Clone)]
 pub enum Aim {
-    /// A word.
+    /// A named view, the file of a camera record, or a camera of the model.
     Word(String),
-    /// Keys.
+    /// A table of keys.
     Keys(Box<AimKeys>),
 }
 
@@ -39,13 +44,13 @@ impl Default for Aim {
     }
 }
 
-/// From where a figure is seen, in keys.
+/// The keys of a camera.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct AimKeys {
-    /// A named view, in parallel lines of sight unless `fov` is given.
+    /// A named view. It is orthographic unless `fov` is given.
     pub view: Option<Spanned<String>>,
-    /// A camera record's file, or a camera of the model: where `look_at` is given, it keeps its direction.
+    /// The file of a camera record, or a camera of the model. With `look_at` only its direction is used.
     pub record: Option<Spanned<String>>,
     /// Degrees to the right of the front. Default: 35.
     pub azimuth: Option<Spanned<f64>>,
@@ -53,30 +58,30 @@ pub struct AimKeys {
     pub elevation: Option<Spanned<f64>>,
     /// Vertical field of view in degrees. Default: 35.
     pub fov: Option<Spanned<f64>>,
-    /// Whether lines of sight are parallel. Default: no, but for named views.
+    /// Whether the projection is orthographic. Default: no, except for named views.
     pub ortho: bool,
-    /// The parts that fill the frame. Default: all.
+    /// Pattern of the parts that fill the frame. Default: all parts.
     pub look_at: Option<Spanned<String>>,
-    /// How much of them: `full`, `bust` or `close`. Default: full.
+    /// The section of these parts that fills the frame: `full`, `bust` or `close`. Default: full.
     pub crop: Option<Crop>,
-    /// How much larger than what fits. Default: 1.
+    /// Zoom factor relative to a fitted view. Default: 1.
     pub zoom: Option<Spanned<f64>>,
-    /// Shares of the frame by which the picture is moved to the right and down. Default: 0, 0.
+    /// Shift of the picture to the right and down, as shares of the frame. Default: 0, 0.
     pub shift: [f64; 2],
-    /// Degrees by which the picture is turned, to the right if above 0. Default: 0.
+    /// Rotation of the picture in degrees, clockwise if positive. Default: 0.
     pub roll: f64,
 }
 
-/// How much of what is looked at fills the frame.
+/// The section of the parts that fills the frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Crop {
-    /// All of it.
+    /// The whole parts.
     #[default]
     Full,
-    /// Its upper part.
+    /// The upper section.
     Bust,
-    /// So near that its rim is cut off.
+    /// Enlarged, so that the rim is cut off.
     Close,
 }
 
@@ -105,7 +110,7 @@ impl<'de> Visitor<'de> for AimVisitor {
 }
 
 impl Aim {
-    /// The file of a camera record.
+    /// The file of a camera record, if one is named.
     #[must_use]
     pub fn file(&self, source: &Source) -> Option<PathBuf> {
         let name = match self {
@@ -116,10 +121,10 @@ impl Aim {
     }
 }
 
-/// The camera of a figure with a frame of that size, in mm.
+/// The camera of a figure with a frame of the given size, mm.
 ///
 /// # Errors
-/// If there is no such camera, view or part, or the numbers are none of a camera.
+/// Returns an error if there is no such camera, view or part, or a number is out of range.
 pub fn camera(
     aim: &Spanned<Aim>,
     scene: &Scene,
@@ -169,7 +174,7 @@ pub fn camera(
     Ok(camera)
 }
 
-/// A camera by the name of a record's file, or of the model.
+/// A camera of the model, or one from the file of a camera record.
 fn recorded(name: &Spanned<String>, scene: &Scene, source: &Source) -> Result<Camera, Error> {
     if let Some(named) = scene.cameras.iter().find(|camera| camera.name == *name.get_ref()) {
         return Ok(named.camera);
@@ -186,7 +191,7 @@ fn recorded(name: &Spanned<String>, scene: &Scene, source: &Source) -> Result<Ca
     Err(source.fault(&name.span(), &format!("there is no camera `{}`", name.get_ref()), &advice))
 }
 
-/// The camera with the lens that is asked for.
+/// The camera with the projection that the keys request.
 fn lens(camera: Camera, keys: &AimKeys, source: &Source) -> Result<Camera, Error> {
     match &keys.fov {
         Some(fov) if !(*fov.get_ref() > 0.0 && *fov.get_ref() < 180.0) => {
@@ -198,7 +203,7 @@ fn lens(camera: Camera, keys: &AimKeys, source: &Source) -> Result<Camera, Error
     }
 }
 
-/// The camera so that what is looked at fills its frame.
+/// The camera fitted to the scene or to some parts.
 fn fitted(
     camera: Camera,
     look_at: Option<&Spanned<String>>,
@@ -223,7 +228,7 @@ fn fitted(
     })
 }
 
-/// An error about a name that no part has.
+/// The error that no part matches a pattern; it names the nearest part or all parts.
 #[must_use]
 pub fn unknown_part(glob: &Spanned<String>, scene: &Scene, source: &Source) -> Error {
     let mut known: Vec<&str> = scene.parts.iter().map(|part| part.name.as_str()).collect();
@@ -237,7 +242,7 @@ pub fn unknown_part(glob: &Spanned<String>, scene: &Scene, source: &Source) -> E
     source.fault(&glob.span(), &format!("there is no part `{}`", glob.get_ref()), &advice)
 }
 
-/// The upper ones of points.
+/// The points in the upper section of their extent, the share `BUST`.
 fn upper(points: &[DVec3], up: UpAxis) -> Vec<DVec3> {
     let height = |p: &DVec3| match up {
         UpAxis::Y => p.y,
@@ -250,7 +255,7 @@ fn upper(points: &[DVec3], up: UpAxis) -> Vec<DVec3> {
     points.iter().copied().filter(|p| height(p) >= least).collect()
 }
 
-/// The camera zoomed, moved and turned as is asked for.
+/// The camera with the zoom, shift and roll of the keys.
 fn nearer(camera: Camera, keys: &AimKeys, source: &Source) -> Result<Camera, Error> {
     let zoom = keys.zoom.as_ref().map_or(1.0, |zoom| *zoom.get_ref());
     if let Some(key) = keys.zoom.as_ref().filter(|_| !(zoom.is_finite() && zoom > 0.0)) {
@@ -271,13 +276,13 @@ fn nearer(camera: Camera, keys: &AimKeys, source: &Source) -> Result<Camera, Err
     if keys.roll != 0.0 {
         let turn = keys.roll.to_radians();
         let (sine, cosine) = (sin(turn), cos(turn));
-        // The picture turns to the right if the camera turns to the left.
+        // The picture turns clockwise if the camera turns counter-clockwise.
         camera.up = up * cosine - forward.cross(up) * sine;
     }
     Ok(camera)
 }
 
-/// A camera that sees things so much larger.
+/// The camera zoomed by a factor.
 fn zoomed(camera: Camera, zoom: f64) -> Camera {
     camera.with_projection(match camera.projection {
         Projection::Perspective { fov_y_deg } => {

@@ -1,4 +1,6 @@
-//! [`Cover`]: which of a frame models cover, and which of them are figures, in coarse squares, to weigh places by.
+//! [`Cover`]: the area of a frame that models and figures cover, on a coarse grid with a summed-area table.
+//!
+//! It is used to rate places for balloons.
 
 use glam::DVec3;
 use kurbo::{Point, Rect, Vec2};
@@ -6,26 +8,27 @@ use kurbo::{Point, Rect, Vec2};
 use crate::scene::{Camera, Part, Scene};
 use crate::view::Frame;
 
-/// Squares across and down a frame.
+/// Grid squares per side of the frame.
 const SQUARES: usize = 48;
 
-/// What a square weighs that a figure covers, and one that all else does.
+/// Weight of a square that a figure covers, and of one that another part covers.
 const FIGURE: u32 = 3;
 const OTHER: u32 = 1;
 
-/// Which squares of a frame models cover.
+/// The covered area of a frame on a grid of squares.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cover {
-    /// The frame.
+    /// The frame on the page.
     frame: Rect,
-    /// What each square weighs, row by row.
+    /// Weight of each square, row by row; 0 for free squares.
     squares: Vec<u32>,
-    /// What the squares above and to the left of each corner of one weigh, row by row.
+    /// Summed-area table of the weights, one entry per corner of a square, row by row.
     sums: Vec<u32>,
 }
 
 impl Cover {
-    /// Of the frame of a camera, which is put at `corner`; `is_figure` tells parts that matter from those around them.
+    /// Rasterises a scene into the frame of a camera, which is placed at `corner`. `is_figure` selects the
+    /// parts with the higher weight.
     #[must_use]
     pub fn of(scene: &Scene, camera: &Camera, corner: Point, is_figure: &dyn Fn(&Part) -> bool) -> Self {
         let frame = Frame::new(camera, DVec3::ZERO);
@@ -55,7 +58,7 @@ impl Cover {
         Self { frame, sums: sums(&squares), squares }
     }
 
-    /// Whether a figure covers the square that holds a point.
+    /// Whether a figure covers the square at a point.
     #[must_use]
     pub fn is_figure(&self, p: Point) -> bool {
         let square = |at: f64, from: f64, length: f64| ((at - from) / length * SQUARES as f64).floor();
@@ -66,7 +69,7 @@ impl Cover {
         is_within && self.squares.get(y as usize * SQUARES + x as usize) == Some(&FIGURE)
     }
 
-    /// The share of a box that figures cover, in whole squares; other models count for a third.
+    /// Covered share of a box, in whole squares. Parts that are not figures count one third.
     #[must_use]
     pub fn share(&self, of: Rect) -> f64 {
         let square = |at: f64, from: f64, length: f64| {
@@ -80,7 +83,7 @@ impl Cover {
     }
 }
 
-/// What the squares above and to the left of each corner weigh.
+/// Summed-area table of the weights.
 fn sums(squares: &[u32]) -> Vec<u32> {
     let side = SQUARES + 1;
     let mut sums = vec![0; side * side];
@@ -94,7 +97,7 @@ fn sums(squares: &[u32]) -> Vec<u32> {
     sums
 }
 
-/// Marks the squares whose middle a triangle holds; each weighs what the weightiest does.
+/// Marks the squares whose centres lie in a triangle. The larger weight wins.
 fn mark(squares: &mut [u32], [a, b, c]: [Point; 3], weight: u32) {
     let range = |values: [f64; 3]| {
         let low = values.into_iter().fold(f64::INFINITY, f64::min).max(0.0);
@@ -121,7 +124,7 @@ mod tests {
     #[test]
     fn what_is_covered_is_counted() {
         let mut squares = vec![0; SQUARES * SQUARES];
-        // The left half of the upper half.
+        // A square: the left half of the upper half.
         let half = SQUARES as f64 / 2.0;
         mark(&mut squares, [Point::new(0.0, 0.0), Point::new(half, 0.0), Point::new(half, half)], FIGURE);
         mark(&mut squares, [Point::new(0.0, 0.0), Point::new(half, half), Point::new(0.0, half)], FIGURE);

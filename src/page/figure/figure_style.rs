@@ -8,10 +8,10 @@ use crate::error::Error;
 use crate::page::page_source::Source;
 use crate::style::{Style, bare_lengths, placed_change, sheet_errors};
 
-/// The style of that name or in that file, which is relative to the page file, changed by `sets` (`KEY=VALUE` each).
+/// Loads a style by name or file, relative to the page file, and applies changes (`KEY=VALUE` each).
 ///
 /// # Errors
-/// If there is no such style, or a change has no key of one.
+/// Returns an error if there is no such style, or a change is invalid.
 pub fn style(name: &Spanned<String>, sets: &[Spanned<String>], source: &Source) -> Result<Style, Error> {
     let known: Vec<&str> = Style::names().collect();
     let sheet = match file(name, source) {
@@ -36,7 +36,8 @@ pub fn style(name: &Spanned<String>, sets: &[Spanned<String>], source: &Source) 
     Style::load(&sheet, &changes).map_err(|error| source.about(&name.span(), error))
 }
 
-/// The warning about lengths without a unit that the page file or its own sheets set: a page is in mm.
+/// The warning about lengths without a unit in the page file or its own sheets; the default unit of a page is
+/// mm.
 #[must_use]
 pub fn unit_warning(name: &Spanned<String>, sets: &[Spanned<String>], source: &Source) -> Option<String> {
     let sheet =
@@ -45,14 +46,14 @@ pub fn unit_warning(name: &Spanned<String>, sets: &[Spanned<String>], source: &S
     bare_lengths(&sheet, &sets)
 }
 
-/// Without its place in another text.
+/// The error without its position in another text.
 fn plain(mut error: Error) -> Error {
     error.place = None;
     error.remedy = error.remedy.map(|remedy| remedy.lines().next().unwrap_or_default().to_owned());
     error
 }
 
-/// The file of a style that is not built in.
+/// The file of a style, unless it is built in.
 #[must_use]
 pub fn file(name: &Spanned<String>, source: &Source) -> Option<PathBuf> {
     Style::sheet_text(name.get_ref()).is_none().then(|| source.beside(name.get_ref()))

@@ -33,10 +33,10 @@ use crate::pipeline::render_reported;
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
 
-/// Draws a scene on a page with the camera's frame in its middle; with what there is to say of it.
+/// Draws a scene on a page with the camera's frame in its centre. Also returns warnings.
 ///
 /// # Errors
-/// If the camera can take no picture.
+/// Returns an error if the camera is invalid.
 pub fn draw(
     scene: &Scene,
     camera: &Camera,

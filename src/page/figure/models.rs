@@ -1,4 +1,7 @@
-//! [`Models`]: the models of a figure, and the scene they are placed in.
+//! [`Models`]: the models of a figure, and the scene that they form.
+//!
+//! Each model is read, posed at its time, reduced to the selected parts and coloured. Then it is moved to its
+//! position and appended to the scene. The first model determines the up axis of the scene.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -19,51 +22,51 @@ use crate::page::page_source::Source;
 use crate::scene::{Scene, UpAxis};
 use crate::style::Style;
 
-/// A model of a figure.
+/// The keys of a model.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ModelKeys {
-    /// Its file, relative to the page file.
+    /// File of the model, relative to the page file.
     pub file: Spanned<String>,
-    /// What its parts are called by: `hero` makes them `hero/head` and so on. Default: as in the file.
+    /// Prefix of its part names: `hero` makes them `hero/head` and so on. Default: none.
     pub name: Option<String>,
-    /// Where its origin is, in units of the first model. Default: 0, 0, 0.
+    /// Position of its origin, in units of the first model. Default: 0, 0, 0.
     #[serde(default)]
     pub position: [f64; 3],
-    /// Degrees by which it is turned about its x, then its y, then its z axis. Default: 0, 0, 0.
+    /// Rotation in degrees about the x, then the y, then the z axis. Default: 0, 0, 0.
     #[serde(default)]
     pub rotation: [f64; 3],
-    /// By how much it is enlarged. Default: 1.
+    /// Scale factor. Default: 1.
     pub scale: Option<Spanned<f64>>,
-    /// Which axis points up, `y` or `z`. Default: as the format has it.
+    /// The axis that points up, `y` or `z`. Default: that of the file format.
     pub up: Option<Spanned<String>>,
-    /// The moment of its animation, in seconds. Default: that of the figure.
+    /// Time of its animation, in seconds. Default: that of the figure.
     pub time: Option<Spanned<f64>>,
-    /// Which of its animations plays. Default: the only one.
+    /// Name of its animation. Default: the only one.
     pub animation: Option<Spanned<String>>,
-    /// Its colour, or those of its parts by name, in place of its materials. Default: as in the file.
+    /// One colour, or colours by part name, that replace its materials. Default: those of the file.
     #[serde(alias = "color")]
     pub colour: Option<Spanned<Colours>>,
-    /// Only parts with such names. Default: all.
+    /// Patterns of the parts that are kept. Default: all.
     #[serde(default)]
     pub only: Vec<String>,
-    /// No parts with such names. Default: none.
+    /// Patterns of the parts that are removed. Default: none.
     #[serde(default)]
     pub hide: Vec<String>,
 }
 
-/// The models of a figure: the path of one, a table with keys of its own, or a list of these.
+/// The models of a figure: a path, a table of keys, or a list of these.
 #[derive(Debug, Clone, Default)]
 pub struct Models(pub Vec<ModelKeys>);
 
 impl Models {
-    /// The files they are in.
+    /// The files of all models.
     pub fn files<'a>(&'a self, source: &'a Source) -> impl Iterator<Item = PathBuf> + 'a {
         self.0.iter().map(|model| source.beside(model.file.get_ref()))
     }
 }
 
-/// What is written for a model, or for several.
+/// The value of a key for one or more models.
 enum Written {
     Path(String),
     Keys(Box<ModelKeys>),
@@ -132,11 +135,12 @@ fn add(written: Spanned<Written>, models: &mut Vec<ModelKeys>) -> Result<(), Str
     Ok(())
 }
 
-/// The scene of all models, each in its pose and its place. `time` and `animation` are of those that tell none of their own; the
-/// style says which bodies leave motion lines.
+/// The scene of all models in their poses and positions.
+///
+/// `time` and `animation` apply to models without their own. The style selects the bodies with motion lines.
 ///
 /// # Errors
-/// If a model cannot be read, has no such animation or parts, or cannot be placed so.
+/// Returns an error if a model cannot be read, lacks the animation or parts, or has an invalid position.
 pub fn staged(
     models: &Models,
     time: Option<&Spanned<f64>>,
@@ -164,7 +168,7 @@ pub fn staged(
     Ok(all.unwrap_or_default())
 }
 
-/// A model at its moment, with its parts.
+/// A model posed at its time, with the selected parts.
 fn posed(
     keys: &ModelKeys,
     time: Option<&Spanned<f64>>,
@@ -209,7 +213,7 @@ fn posed(
     Ok(scene)
 }
 
-/// What plays of a model.
+/// The animation of a model and its time.
 fn playing(
     clips: &[Clip],
     time: Option<&Spanned<f64>>,
@@ -241,7 +245,7 @@ fn playing(
     }
 }
 
-/// From a model, with that axis up, to the scene with another.
+/// The transform of a model to the scene. `up` holds the up axes of the model and the scene.
 fn place(keys: &ModelKeys, up: [UpAxis; 2], source: &Source) -> Result<DAffine3, Error> {
     let [x, y, z] = keys.rotation.map(f64::to_radians);
     let numbers = keys.position.iter().chain(&keys.rotation);
@@ -258,7 +262,7 @@ fn place(keys: &ModelKeys, up: [UpAxis; 2], source: &Source) -> Result<DAffine3,
         * DQuat::from_xyzw(0.0, y, 0.0, of_y)
         * DQuat::from_xyzw(x, 0.0, 0.0, of_x);
     let scale = DVec3::splat(scale.map_or(1.0, |scale| *scale.get_ref()));
-    // What points up goes on to do so.
+    // The up axis of the model becomes the up axis of the scene.
     let raised = match up {
         [UpAxis::Z, UpAxis::Y] => DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y),
         [UpAxis::Y, UpAxis::Z] => DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y),

@@ -1,4 +1,4 @@
-//! Where parts are on the page: their boxes and hulls, by name.
+//! Bounds of parts in the frame of a camera: boxes and convex hulls, selected by name.
 
 use glam::DVec3;
 use kurbo::{Point, Rect};
@@ -9,19 +9,21 @@ use crate::scene::part_selection::glob_matches;
 use crate::scene::{Camera, Scene};
 use crate::view::Frame;
 
-/// Where a part is in the frame of a camera, hidden or not.
+/// The bounds of a part in the frame of a camera, hidden or not.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Place {
-    /// The name of the part.
+    /// Name of the part.
     pub part: String,
-    /// The box round it, in units of the frame.
+    /// Bounding box, in units of the frame.
     pub bounds: Rect,
-    /// Its convex hull, clockwise on the page.
+    /// Convex hull, clockwise on the page.
     pub hull: Vec<Point>,
 }
 
-/// Whether a name of a part is meant by a pattern: as a whole, behind the name of its model (`head` is `hero/head`), or as one
-/// of a model (`hero` is all of its parts).
+/// Whether a pattern matches the name of a part.
+///
+/// It may match the whole name, the name without its model (`head` for `hero/head`), or the model (`hero` for
+/// all its parts).
 #[must_use]
 pub fn is_named(glob: &str, name: &str) -> bool {
     let own = || {
@@ -31,12 +33,12 @@ pub fn is_named(glob: &str, name: &str) -> bool {
     glob_matches(glob, name) || own()
 }
 
-/// The points of the parts that are meant by a pattern, world.
+/// The points of the parts that match a pattern, world.
 pub(crate) fn part_points(scene: &Scene, glob: &str) -> Vec<DVec3> {
     DrawnPoints::of_parts(scene, |part| is_named(glob, &part.name)).points
 }
 
-/// Where the parts that are meant by a pattern are, those before the eye.
+/// The bounds of the parts that match a pattern and are in front of the camera.
 #[must_use]
 pub fn places(scene: &Scene, camera: &Camera, glob: &str) -> Vec<Place> {
     let frame = Frame::new(camera, DVec3::ZERO);

@@ -1,4 +1,4 @@
-//! [`Colours`]: colours that a page gives the parts of a model.
+//! [`Colours`]: colours that a page assigns to the parts of a model.
 
 use std::collections::BTreeMap;
 
@@ -11,16 +11,16 @@ use crate::page::page_source::Source;
 use crate::scene::part_selection::glob_matches;
 use crate::scene::{Material, Scene};
 
-/// Colours that stand in for the materials of a model: one, or one for each pattern of names of parts.
+/// Colours that replace the materials of a model: one for all parts, or one for each pattern of part names.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(
     untagged,
     expecting = "this is not a colour; write one, or a table such as { \"*\" = \"white\", \"leg*\" = \"orange\" }"
 )]
 pub enum Colours {
-    /// All parts.
+    /// One colour for all parts.
     All(Colour),
-    /// Parts by their names; of several patterns the longest one counts.
+    /// Colours by pattern; the longest matching pattern applies.
     Parts(BTreeMap<String, Colour>),
 }
 
@@ -36,10 +36,10 @@ impl Colours {
     }
 }
 
-/// Gives parts these colours, in place of their materials, pictures and colours of vertices.
+/// Replaces materials, textures and vertex colours of parts by these colours.
 ///
 /// # Errors
-/// If a pattern fits no part.
+/// Returns an error if a pattern matches no part.
 pub(crate) fn paint(scene: &mut Scene, colours: &Spanned<Colours>, source: &Source) -> Result<(), Error> {
     if let Colours::Parts(parts) = colours.get_ref() {
         let is_there = |glob: &str| scene.parts.iter().any(|part| glob_matches(glob, &part.name));
@@ -71,7 +71,7 @@ pub(crate) fn paint(scene: &mut Scene, colours: &Spanned<Colours>, source: &Sour
     Ok(())
 }
 
-/// An error at a pattern that fits no part.
+/// The error about a pattern that matches no part.
 fn unknown(glob: &str, scene: &Scene, colours: &Spanned<Colours>, source: &Source) -> Error {
     let span = colours.span();
     let text = source.text.get(span.clone()).unwrap_or_default();

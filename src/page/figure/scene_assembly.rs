@@ -1,10 +1,10 @@
-//! A scene moved as a whole, and scenes joined to one.
+//! Moves whole scenes and joins scenes to one.
 
 use glam::{DAffine3, DVec3};
 
 use crate::scene::{Camera, LightKind, Projection, Scene};
 
-/// Moves all that is in a scene: parts, lights, cameras, and the ways of what moves.
+/// Transforms everything in a scene: parts, lights, cameras and motion trails.
 pub(crate) fn move_scene(scene: &mut Scene, to: DAffine3) {
     if to == DAffine3::IDENTITY {
         return;
@@ -49,12 +49,12 @@ pub(crate) fn move_scene(scene: &mut Scene, to: DAffine3) {
     }
 }
 
-/// Puts all that is in a scene into another one.
+/// Appends everything in a scene to another one.
 pub(crate) fn join(all: &mut Scene, mut scene: Scene) {
     let materials = u32::try_from(all.materials.len()).unwrap_or(u32::MAX);
     let (geometries, parts) = (all.geometries.len(), all.parts.len());
     for geometry in &mut scene.geometries {
-        // What has no material takes the default one, which is no entry of the list.
+        // `u32::MAX` means the default material, which is not in the list.
         for material in geometry.triangle_material.iter_mut().chain(&mut geometry.material) {
             if *material != u32::MAX {
                 *material = material.saturating_add(materials);

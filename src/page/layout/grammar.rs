@@ -1,68 +1,76 @@
-//! The grammar of layouts: `30 [30 | 20 | *] / *`.
+//! Parser of panel layouts such as `30 [30 | 20 | *] / *`.
+//!
+//! Grammar:
+//!
+//! - `stack = item (separator item)*`, with equal separators
+//! - `separator = ("/" | "|") [number ("°" | "deg")]`, for rows or columns, with the slant of the gutter
+//! - `item = share | [share] "[" stack "]"`, a panel or a divided item
+//! - `share = number | "*"`
 
 use std::ops::Range;
 
-/// More panels are refused.
+/// Maximum number of panels.
 pub const MOST_PANELS: usize = 10_000;
 
-/// Brackets in brackets, at most.
+/// Maximum nesting depth of brackets.
 const DEEPEST: usize = 32;
 
-/// What is wrong in a layout.
+/// An error in a layout.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Fault {
-    /// Where, in bytes of the text.
+    /// Position in the text, bytes.
     pub span: Range<usize>,
-    /// What.
+    /// Description of the error.
     pub message: String,
-    /// What to do.
+    /// How to correct it.
     pub advice: String,
 }
 
-/// Whether things stand under or beside each other.
+/// Direction of a stack.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
-    /// Under each other.
+    /// Items below each other.
     Rows,
-    /// Beside each other.
+    /// Items side by side.
     Columns,
 }
 
-/// How much of a stack is taken.
+/// The share of a stack that an item takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Share {
-    /// Percent where others take the rest, else a part.
+    /// Percent if another item takes the rest, otherwise a proportion.
     Number(f64),
-    /// Of what others leave.
+    /// The rest that other items leave.
     Rest,
 }
 
-/// Rows or columns.
+/// A stack of rows or columns.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Stack {
-    /// Which of them.
+    /// Direction of the stack.
     pub axis: Axis,
-    /// They, in reading order.
+    /// The items in reading order.
     pub items: Vec<Item>,
-    /// By how many degrees the gutter behind each but the last leans to the right, or rises to the right.
+    /// Slant of the gutter after each item except the last, in degrees; it leans or rises to the right if
+    /// positive.
     pub slants: Vec<f64>,
 }
 
-/// A row or a column.
+/// A row or column of a stack.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Item {
-    /// How much it takes.
+    /// Share of the stack.
     pub share: Share,
-    /// What it is parted into; a panel if into nothing.
+    /// The stack inside; `None` for a panel.
     pub within: Option<Stack>,
-    /// Where it is written.
+    /// Position in the text, bytes.
     pub span: Range<usize>,
 }
 
-/// Reads a layout.
+/// Parses a layout.
 ///
 /// # Errors
-/// At the place of what is no layout.
+/// Returns an error at the position of the wrong character.
 pub fn parse(text: &str) -> Result<Stack, Fault> {
     let mut parser = Parser { text, at: 0, panels: 0 };
     let stack = parser.stack(0)?;
@@ -82,7 +90,7 @@ struct Parser<'a> {
 }
 
 impl Parser<'_> {
-    /// The next character that is no blank.
+    /// The next character after blanks.
     fn peek(&mut self) -> Option<char> {
         let rest = self.text.get(self.at..).unwrap_or_default();
         self.at += rest.len() - rest.trim_start().len();
@@ -129,7 +137,7 @@ impl Parser<'_> {
         Ok(stack)
     }
 
-    /// How a gutter leans: degrees right behind it.
+    /// The slant of a gutter in degrees, right after its separator; 0 if none is written.
     fn slant(&mut self) -> Result<f64, Fault> {
         let before = self.at;
         self.peek();
@@ -138,7 +146,7 @@ impl Parser<'_> {
         let rest = self.text.get(self.at..).unwrap_or_default();
         let sign = ["°", "deg"].into_iter().find(|sign| rest.starts_with(sign));
         let Some(sign) = sign else {
-            // It is the share of what follows.
+            // The number is the share of the next item.
             self.at = before;
             return Ok(0.0);
         };

@@ -1,7 +1,7 @@
 //! [`cells`]: the panels of a layout on a page.
 //!
-//! Each panel is what lies on its sides of all gutters around it. A gutter that leans turns about its middle, so that the panels
-//! beside it keep the area they would have if it did not, as long as it ends on the same two sides.
+//! A panel is the intersection of half planes, one for each gutter around it. A slanted gutter turns about
+//! its centre, so adjacent panels keep their areas as long as the gutter ends on the same two sides.
 
 use std::ops::Range;
 
@@ -11,10 +11,10 @@ use super::grammar::{Axis, Fault, Share, Stack, parse};
 use super::polygon::{HalfPlane, Polygon};
 use crate::geometry::numbers::portable_math::{cos, sin};
 
-/// Shorter sides, in mm, are those of no panel.
+/// Minimum side of a panel, mm.
 const SHORTEST: f64 = 2.0;
 
-/// In which direction a page is read.
+/// Reading direction of a page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Reading {
     /// From left to right.
@@ -24,30 +24,30 @@ pub enum Reading {
     Rtl,
 }
 
-/// What a layout parts, and how.
+/// The area that a layout divides.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Grid {
-    /// What is parted.
+    /// The rectangle to divide.
     pub frame: Rect,
-    /// Between columns, and between rows.
+    /// Gap between columns, and between rows.
     pub gutter: [f64; 2],
-    /// In which direction columns follow each other.
+    /// Order of columns.
     pub reading: Reading,
 }
 
 /// A panel of a layout.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cell {
-    /// Where it would be if no gutter leaned.
+    /// Its rectangle if no gutter is slanted.
     pub nominal: Rect,
-    /// The gutters around it: it is on these sides of them.
+    /// The half planes of the gutters around it.
     pub sides: Vec<HalfPlane>,
-    /// Where it is written in the layout.
+    /// Its position in the layout text, bytes.
     pub span: Range<usize>,
 }
 
 impl Cell {
-    /// Its outline within a frame: that which is parted, or a larger one that it bleeds into.
+    /// The outline within a frame: the divided area, or a larger one for panels with bleed.
     #[must_use]
     pub fn outline(&self, frame: Rect) -> Polygon {
         self.sides.iter().fold(Polygon::from(frame), |rest, side| rest.cut(side))
@@ -57,7 +57,7 @@ impl Cell {
 /// The panels of a layout in reading order.
 ///
 /// # Errors
-/// At the place of what is no layout, and of panels without size.
+/// Returns an error at the position of a syntax error or of a panel that is too small.
 pub fn cells(layout: &str, grid: &Grid) -> Result<Vec<Cell>, Fault> {
     let stack = parse(layout)?;
     let mut cells = Vec::new();
@@ -104,7 +104,7 @@ fn split(
     let within = sides.iter().fold(Polygon::from(grid.frame), |rest, side| rest.cut(side));
     let mut begin = from;
     let last = stack.items.len() - 1;
-    // The gutter before an item, as the side on which the item is.
+    // The half plane of the gutter before the current item.
     let mut before: Option<HalfPlane> = None;
     for (number, (item, share)) in stack.items.iter().zip(shares).enumerate() {
         let end = if number == last { to } else { begin + share * length };
@@ -143,20 +143,20 @@ fn split(
     Ok(())
 }
 
-/// Whether the edges of two lines meet in a polygon.
+/// Whether two boundary lines intersect within a polygon.
 fn meet(a: &HalfPlane, b: &HalfPlane, within: &Polygon) -> bool {
     let area = a.normal.cross(b.normal);
     if area == 0.0 {
         return false;
     }
-    // Where both depths are 0 (Cramer's rule).
+    // The point with both depths 0, by Cramer's rule.
     let [u, v] = [a, b].map(|side| side.point.to_vec2().dot(side.normal));
     let x = (u * b.normal.y - v * a.normal.y) / area;
     let y = (v * a.normal.x - u * b.normal.x) / area;
     within.holds(Point::new(x, y))
 }
 
-/// The share of each item of a stack; together 1.
+/// The shares of the items of a stack; their sum is 1.
 fn shares(stack: &Stack) -> Result<Vec<f64>, Fault> {
     let numbers = stack.items.iter().filter_map(|item| match item.share {
         Share::Number(number) => Some(number),

@@ -1,24 +1,26 @@
-//! [`Polygon`]: convex polygons, cut by lines and asked whether they meet.
+//! [`Polygon`]: convex polygons with clipping and separation tests.
+//!
+//! Clipping by a half plane follows Sutherland and Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974.
 
 use kurbo::{BezPath, Point, Rect, Vec2};
 
-/// A side of a line: the points `p` with `(p - point) · normal >= 0`.
+/// A half plane: the points `p` with `(p - point) · normal >= 0`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HalfPlane {
-    /// A point of the line.
+    /// A point on the boundary line.
     pub point: Point,
-    /// Into the side, unit length.
+    /// Unit normal into the half plane.
     pub normal: Vec2,
 }
 
 impl HalfPlane {
-    /// How far a point is within; below 0 outside.
+    /// Signed distance of a point from the boundary, positive inside.
     #[must_use]
     pub fn depth(&self, p: Point) -> f64 {
         (p - self.point).dot(self.normal)
     }
 
-    /// The same, mirrored at a vertical line.
+    /// The half plane mirrored at a vertical line.
     #[must_use]
     pub fn mirrored(self, x: f64) -> Self {
         let point = Point::new(2.0 * x - self.point.x, self.point.y);
@@ -26,7 +28,7 @@ impl HalfPlane {
     }
 }
 
-/// A convex polygon, clockwise on a page whose y points down; may be empty.
+/// A convex polygon, clockwise with y down; may be empty.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Polygon(pub Vec<Point>);
 
@@ -37,7 +39,7 @@ impl From<Rect> for Polygon {
 }
 
 impl Polygon {
-    /// What of it is on a side of a line.
+    /// The part of the polygon in a half plane.
     #[must_use]
     pub fn cut(&self, side: &HalfPlane) -> Self {
         let mut kept = Vec::with_capacity(self.0.len() + 1);
@@ -53,7 +55,7 @@ impl Polygon {
         if kept.len() < 3 { Self::default() } else { Self(kept) }
     }
 
-    /// The same with all sides moved inwards.
+    /// The polygon with all sides moved inwards.
     #[must_use]
     pub fn inset(&self, by: f64) -> Self {
         let sides: Vec<(Point, Point)> = self.sides().collect();
@@ -64,33 +66,33 @@ impl Polygon {
         })
     }
 
-    /// Its sides in order.
+    /// The sides in order.
     pub fn sides(&self) -> impl Iterator<Item = (Point, Point)> + '_ {
         let ends = self.0.iter().cycle().skip(1);
         self.0.iter().copied().zip(ends.copied())
     }
 
-    /// Its area.
+    /// The area.
     #[must_use]
     pub fn area(&self) -> f64 {
         let Some(first) = self.0.first() else { return 0.0 };
         self.sides().map(|(a, b)| (a - *first).cross(b - *first)).sum::<f64>() / 2.0
     }
 
-    /// The box around it.
+    /// The bounding box.
     #[must_use]
     pub fn bounds(&self) -> Rect {
         let first = self.0.first().copied().unwrap_or_default();
         self.0.iter().fold(Rect::from_points(first, first), |rect, p| rect.union_pt(*p))
     }
 
-    /// Whether a point is in it or on its sides.
+    /// Whether a point is inside or on the boundary.
     #[must_use]
     pub fn holds(&self, p: Point) -> bool {
         !self.0.is_empty() && self.sides().all(|(a, b)| (b - a).cross(p - a) >= -1e-9)
     }
 
-    /// What of it lies in another one.
+    /// The intersection of two polygons.
     #[must_use]
     pub fn common(&self, other: &Self) -> Self {
         other.sides().filter(|(a, b)| a != b).fold(self.clone(), |rest, (a, b)| {
@@ -99,13 +101,14 @@ impl Polygon {
         })
     }
 
-    /// Whether it and another one are nearer than a gap: no side of either has the other beyond it by so much.
+    /// Whether two polygons are closer than a gap. Only lines along their sides are tested as separators, so
+    /// polygons near each other's corners count as closer.
     #[must_use]
     pub fn meets(&self, other: &Self, gap: f64) -> bool {
         !self.0.is_empty() && !other.0.is_empty() && !self.parts(other, gap) && !other.parts(self, gap)
     }
 
-    /// Whether a line along a side has the other beyond it.
+    /// Whether a line along a side of this polygon separates the other by at least a gap.
     fn parts(&self, other: &Self, gap: f64) -> bool {
         self.sides().filter(|(a, b)| a != b).any(|(a, b)| {
             let way = (b - a).normalize();
@@ -113,7 +116,7 @@ impl Polygon {
         })
     }
 
-    /// The closed path around it.
+    /// The closed path of the boundary.
     #[must_use]
     pub fn path(&self) -> BezPath {
         let mut path = BezPath::new();
@@ -126,7 +129,7 @@ impl Polygon {
         path
     }
 
-    /// It, moved.
+    /// The polygon moved by a vector.
     #[must_use]
     pub fn moved(&self, by: Vec2) -> Self {
         Self(self.0.iter().map(|p| *p + by).collect())

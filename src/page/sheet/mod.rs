@@ -54,14 +54,14 @@ use dimensions::hole_dimensions::Round;
 use frame::parts_table::ItemTable;
 use keys::sheet_keys::ListKeys;
 
-/// Between the frame and what is drawn, mm.
+/// Gap between the frame and the views, mm.
 const INSET: f64 = 4.0;
 
-/// Clear paper around centring marks, mm.
+/// Clearance around centring marks, mm.
 const MARK_CLEAR: f64 = 2.0;
 
 impl SheetPage {
-    /// The files it is made from.
+    /// The files that the sheet is made from.
     #[must_use]
     pub fn inputs(&self, source: &Source) -> Vec<PathBuf> {
         let style = self.style.as_ref().and_then(|style| figure::figure_style::file(style, source));
@@ -77,7 +77,7 @@ impl SheetPage {
         self.parts_list.as_ref().is_some_and(|list| *list.get_ref() != ListKeys::Named(false))
     }
 
-    /// Its size as it lies.
+    /// The size of the sheet in its orientation.
     #[must_use]
     pub fn lying(&self) -> Size {
         let size = self.size.unwrap_or(Size { width: 420.0, height: 297.0 });
@@ -86,7 +86,7 @@ impl SheetPage {
     }
 }
 
-/// The name of a size of the A series.
+/// The name of a standard size, or an empty string.
 fn size_name(size: Size) -> &'static str {
     let is_it = |name: &&str| Size::parse(name).is_some_and(|known| known == size || known.lying() == size);
     Size::names().find(is_it).unwrap_or("")
@@ -95,7 +95,8 @@ fn size_name(size: Size) -> &'static str {
 /// Draws a sheet.
 ///
 /// # Errors
-/// If the model or the style cannot be read, a key tells what is not there, or the views do not fit on the sheet.
+/// Returns an error if the model or style cannot be read, a key names something that does not exist, or the
+/// views do not fit.
 pub fn compose(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> {
     let in_file = |error: Error| if error.file.is_some() { error } else { error.in_file(&source.path) };
     compose_sheet(sheet, source).map_err(in_file)
@@ -174,7 +175,7 @@ fn compose_sheet(sheet: &SheetPage, source: &Source) -> Result<Composed, Error> 
     Ok(Composed { composition, warnings })
 }
 
-/// The items of the parts list, and warnings about parts that are in none.
+/// The items of the parts list, and warnings about parts that belong to no item.
 fn items(
     sheet: &SheetPage,
     plan: &Plan,
@@ -195,13 +196,14 @@ fn items(
     Ok((items, left.into_iter().map(warning).collect()))
 }
 
-/// Room for what is written changes the scale, and that again the room.
+/// Maximum number of layout rounds: annotations change the scale, and the scale changes the room of
+/// annotations.
 const ROUNDS: usize = 60;
 
-/// How many times as large a view within a ring of balloons is tried.
+/// Enlargements that are tried for a view inside a ring of balloons.
 const RINGS_FILLED: [f64; 6] = [4.0, 3.0, 2.4, 1.9, 1.5, 1.25];
 
-/// A sheet whose views have their places.
+/// A sheet whose views have their final positions.
 struct Laid {
     scale: f64,
     views: (Vec<Item>, Vec<String>),
@@ -209,7 +211,7 @@ struct Laid {
     anchors: Vec<Option<DVec2>>,
 }
 
-/// What is found once for a sheet, while its views are arranged again and again.
+/// Data that stays the same while the views are arranged repeatedly.
 struct Laying<'a> {
     sheet: &'a SheetPage,
     overall: bool,
@@ -249,7 +251,7 @@ impl<'a> Laying<'a> {
         Ok(measures)
     }
 
-    /// Arranges the views until all that is written on them has room.
+    /// Arranges the views until all annotations fit.
     fn lay(
         &mut self,
         plan: &mut Plan,
@@ -323,7 +325,7 @@ impl<'a> Laying<'a> {
         Err(self.refused(plan, source))
     }
 
-    /// The error that the views do not fit, which says what takes the room.
+    /// The error that the views do not fit; it names the view with the widest margins.
     fn refused(&self, plan: &Plan, source: &Source) -> Error {
         let around = |placed: &arrangement::view_arrangement::Placed| {
             placed.rooms.last().map_or(0.0, |(_, around)| around.iter().sum::<f64>())
@@ -344,7 +346,7 @@ impl<'a> Laying<'a> {
     }
 }
 
-/// Makes a view with balloons that has no scale of its own as large as the ring of its balloons lets it be.
+/// Enlarges a view with balloons as far as the ring of balloons allows. Views to scale keep their size.
 fn fill_ring(
     plan: &mut Plan,
     view: usize,
@@ -372,7 +374,7 @@ fn fill_ring(
     Ok(())
 }
 
-/// Gives views the room that what is written on them needs. Reports whether they had it.
+/// Widens the margins of views to those that their annotations need. Returns whether they were wide enough.
 fn make_room(views: &mut [arrangement::view_arrangement::Placed], boards: &[Board]) -> bool {
     let mut fits = true;
     for (placed, board) in views.iter_mut().zip(boards) {
@@ -387,7 +389,7 @@ fn make_room(views: &mut [arrangement::view_arrangement::Placed], boards: &[Boar
     fits
 }
 
-/// What lies on the sheet as a whole.
+/// A drawing of the whole sheet as an item of the page.
 fn whole(name: &str, ink: Ink, size: Size) -> Item {
     let drawing = ink.drawing(name, size.width, size.height);
     Item { name: name.to_owned(), drawing, place: Affine::IDENTITY, clip: None }

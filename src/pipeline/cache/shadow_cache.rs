@@ -1,6 +1,7 @@
-//! [`LateShadows`]: the shadows that all views of a surface share, made with the first of them.
+//! [`LateShadows`]: shadows that all views of a surface share, built with the first view.
 //!
-//! A light that is fixed in the world casts the same shadows in every view, as long as the view cuts no faces: shadows lie on faces.
+//! A light fixed in the world casts the same shadows in every view that splits no faces, because shadows lie
+//! on faces.
 
 use std::sync::{Arc, OnceLock};
 
@@ -8,19 +9,19 @@ use crate::light::Caster;
 use crate::mesh::Mesh;
 use crate::shadows::Shadows;
 
-/// What is not there before the first view.
+/// Shadows of the first view.
 #[derive(Debug, Default)]
 pub(crate) struct LateShadows {
     first: OnceLock<Arc<Shadows>>,
 }
 
 impl LateShadows {
-    /// The shadows that these lights cast on the surface's own mesh. Where lights move with the camera they are made anew.
+    /// The shadows of these lights on the surface's mesh. Lights that move with the camera get new shadows.
     pub fn of(&self, mesh: &Mesh, casters: &[Caster]) -> Arc<Shadows> {
         if let Some(first) = self.first.get().filter(|first| first.casters() == casters) {
             return Arc::clone(first);
         }
-        // Views may be drawn side by side: none waits for another.
+        // Views may be drawn in parallel; none waits for another.
         let made = Arc::new(Shadows::new(mesh, casters));
         let _ = self.first.set(Arc::clone(&made));
         made

@@ -1,8 +1,10 @@
-//! [`LateSearch`]: what all views of a surface share, made when it pays.
+//! [`LateSearch`]: results that all views of a surface share, built when they pay off.
 //!
-//! The trees in the dual space (see [`EdgeSearch`]) take some time to make and save a little in each view
-//! after: not for one drawing, but for all the views of a turning model. Where the surface passes through itself
-//! no view changes, so the first one finds it for all; for views that cut faces into finer ones, what is left whole is known.
+//! Trees in dual space (see [`EdgeSearch`]) take time to build and save a little in each later view. They do
+//! not pay for one drawing, but do for the views of a turntable.
+//!
+//! Self-intersections of the surface do not depend on the view, so the first view finds them for all. For
+//! views that split faces, the intersections of unsplit faces are reused.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -15,37 +17,38 @@ use crate::mesh::intersect::intersection_curves::IntersectionCurves;
 use crate::view::View;
 use crate::visibility::ViewCovers;
 
-/// The search is made for this view of a surface. It takes as long as it saves in 40 to 240 views, in the middle
-/// of the models of `cargo bench --bench dual_tree` in about 100 (last column). Made when as many views have
-/// been drawn without, it never costs more than twice what the better choice does, however many follow.
+/// Number of the view that builds the edge search. The search saves the cost of building it in 40 to 240
+/// views, and in about 100 for the median model of `cargo bench --bench dual_tree` (last column). By building
+/// it at that view, the total cost never exceeds twice the optimum.
 const MADE_FOR_VIEW: u32 = 100;
 
-/// Asking each of fewer edges than this takes half a millisecond at most.
+/// Least number of edges for which the search is built. Testing fewer edges one by one takes half a
+/// millisecond at most.
 const FEW_EDGES: usize = 20_000;
 
-/// What the views of one surface share, not there at first.
+/// Results shared by the views of one surface, built on demand.
 #[derive(Debug, Default)]
 pub(crate) struct LateSearch {
     views: AtomicU32,
     search: OnceLock<EdgeSearch>,
-    /// Whether a view has them found, or is about to.
+    /// Whether a view has found the intersections, or is about to.
     is_found: AtomicBool,
     intersections: OnceLock<IntersectionCurves>,
-    /// Of views that may cut faces.
+    /// Number of views that may split faces.
     asked_views: AtomicU32,
     cones: OnceLock<Cones>,
-    /// Of views that cut faces.
+    /// Number of views that split faces.
     finer_views: AtomicU32,
     pairs: OnceLock<PairSearch>,
 }
 
 impl LateSearch {
-    /// What is known for one more view. The lines are the same with and without.
+    /// The shared results for one more view. The lines are the same with and without them.
     ///
-    /// Views may be drawn side by side: one thread makes what is missing while the others go without, so that none
-    /// ever waits.
+    /// Views may be drawn in parallel. One thread builds a missing result while others go without, so none
+    /// waits.
     ///
-    /// With `finds` it finds all intersections if none has before.
+    /// With `finds`, this view finds all intersections if no earlier one has.
     pub fn of_next_view(&self, surface: &Surface, options: &LineOptions, finds: bool) -> Known<'_> {
         // No other view has this number.
         let view = self.views.fetch_add(1, Ordering::Relaxed);
@@ -58,9 +61,11 @@ impl LateSearch {
         Known { search: self.search.get(), intersections: self.intersections.get() }
     }
 
-    /// Intersections of all that is in sight of one more view, with the covers that say what is: where it has to find them by
-    /// itself and draws nothing hidden, and covers save more than they cost. The first view has to, and all that follow are told;
-    /// where there are too many faces to find all, each has to.
+    /// Intersections of the visible surface for one more view, with the view's covers.
+    ///
+    /// `None` if a shared result exists, if hidden lines are drawn, or if covers do not pay off. The first
+    /// view needs them; later views use the shared intersections, unless the surface has too many faces to
+    /// find all.
     pub fn in_sight(
         &self,
         surface: &Surface,
@@ -79,18 +84,18 @@ impl LateSearch {
         Some((covers, curves))
     }
 
-    /// What bounds the edges of a surface, for one more view that may cut its faces.
+    /// Bounds of the edges of a surface, for one more view that may split its faces.
     pub fn cones_of_next_view(&self, surface: &Surface) -> Option<&Cones> {
         let is_asked =
             !surface.refined && surface.mesh.edges.len() >= FEW_EDGES && !surface.smooth.is_empty();
-        // A surface that is drawn but once gains nothing by it, and each further view what it took to make.
+        // Built at the second view: a surface drawn only once gains nothing.
         if is_asked && self.asked_views.fetch_add(1, Ordering::Relaxed) == 1 {
             let _ = self.cones.set(Cones::new(&surface.mesh, &surface.smooth));
         }
         self.cones.get()
     }
 
-    /// The intersections of one more view that cuts faces of a surface, if they are sooner found so.
+    /// The intersections for one more view that splits faces, if the shared search finds them faster.
     pub fn of_finer_view(
         &self,
         surface: &Surface,
@@ -100,7 +105,7 @@ impl LateSearch {
         if !is_wanted(&finer.surface, options) {
             return None;
         }
-        // A surface that is drawn but once, as each pose of a film is, gains nothing by it.
+        // A surface drawn only once, such as a pose of a film, gains nothing.
         if self.finer_views.fetch_add(1, Ordering::Relaxed) == 1 {
             let _ = self.pairs.set(intersection_lines::search(&surface.mesh));
         }
@@ -108,7 +113,7 @@ impl LateSearch {
     }
 }
 
-/// Whether all intersections are sought, seen or not.
+/// Whether all intersections are needed, visible or not.
 fn is_wanted(surface: &Surface, options: &LineOptions) -> bool {
     has_intersections(options) && intersection_lines::is_searched_in_full(&surface.mesh, options.hidden)
 }

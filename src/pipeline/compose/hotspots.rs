@@ -1,4 +1,4 @@
-//! Where each part of a scene is seen, whatever the style draws of it.
+//! Hotspots: the visible area of each part of a scene, independent of the drawing style.
 
 use std::sync::Arc;
 
@@ -18,11 +18,11 @@ use crate::regions::{self, Look, PageBorders, RegionOptions};
 use crate::scene::{Camera, GlassDraw, GlassOptions, Scene, TextureFill, TextureOptions};
 use crate::style::Style;
 
-/// Lines between parts.
+/// Kinds of lines between parts.
 const BETWEEN: [LineKind; 5] =
     [LineKind::Contour, LineKind::Border, LineKind::Crease, LineKind::Material, LineKind::Intersection];
 
-/// A style that paints each part in one tone. Its lines run where those of `style` do.
+/// A style that paints each part in one tone. Lines run where those of `style` do.
 fn one_tone(style: &Style) -> Style {
     let draw = if style.glass.draw == GlassDraw::Absent { GlassDraw::Absent } else { GlassDraw::Opaque };
     Style {
@@ -44,8 +44,8 @@ fn one_tone(style: &Style) -> Style {
     }
 }
 
-/// Where each part of a scene is seen, in the order of the parts; those without a name are left out, and those of one name are one.
-/// No two of them overlap.
+/// The visible area of each part of a scene, in the order of the parts. Parts without a name are omitted;
+/// parts of equal name are merged. Areas do not overlap.
 ///
 /// ```
 /// use ligne::drawing::{Page, Unit};
@@ -61,7 +61,7 @@ fn one_tone(style: &Style) -> Style {
 /// ```
 ///
 /// # Errors
-/// If the camera can take no picture: see [`Camera::validate`].
+/// If the camera is invalid: see [`Camera::validate`].
 pub fn hotspots(scene: &Scene, camera: &Camera, page: Page, style: &Style) -> Result<Vec<Hotspot>, Error> {
     camera.validate()?;
     let style = one_tone(style);

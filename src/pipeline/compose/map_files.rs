@@ -1,4 +1,4 @@
-//! [`MapFiles`]: the maps in which lines are found, as pictures to keep.
+//! [`MapFiles`]: the maps for finding image lines, as PNG files.
 
 use crate::parallel::prelude::*;
 
@@ -7,26 +7,26 @@ use crate::lines::image::{self, ImageOptions};
 use crate::mesh::Mesh;
 use crate::view::raster::{Maps, NO_FRONT};
 
-/// The maps of a view as PNG files, all of one size: a px of the drawing is as many pixels as `lines.image.samples` says.
+/// Maps of a view as PNG files of equal size, with `lines.image.samples` pixels per px of the drawing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct MapFiles {
-    /// Unit normals on the side that is seen, from −1 to 1 as 0 to 255: red to the right, green up, blue towards the
-    /// eye. Black where nothing is.
+    /// Unit normals of the visible side, -1 to 1 mapped to 0 to 255: red to the right, green up, blue towards
+    /// the camera. Black for background.
     pub normal: Vec<u8>,
-    /// Depth along the optical axis, 16 bits, linear: darker is nearer, white is where nothing is.
+    /// Depth along the optical axis, 16 bits, linear. Darker is nearer; white is background.
     pub depth: Vec<u8>,
-    /// Black where the test of the style finds edges, widened by as many passes as it asks for.
+    /// Black where the style's edge test finds edges, widened by the style's number of passes.
     pub edges: Vec<u8>,
-    /// A colour for each part of the model; white where none is.
+    /// One colour per part of the model; white for background.
     pub parts: Vec<u8>,
 }
 
 impl MapFiles {
-    /// What the files are called.
+    /// Names of the files.
     pub const NAMES: [&'static str; 4] = ["normal.png", "depth.png", "edges.png", "parts.png"];
 
-    /// The files and their names.
+    /// The files with their names.
     #[must_use]
     pub fn named(&self) -> [(&'static str, &[u8]); 4] {
         let [normal, depth, edges, parts] = Self::NAMES;
@@ -55,7 +55,7 @@ impl MapFiles {
     }
 }
 
-/// A colour of its own for a part: its number, its bits well mixed, neither near white nor near black.
+/// Colour of a part: a bit-mixing hash of its number, neither near white nor near black.
 fn colour(part: u32) -> [u8; 3] {
     let mixed = part.wrapping_add(1).wrapping_mul(0x9E37_79B1);
     [24, 16, 8].map(|shift| 40 + ((mixed >> shift) & 0xFF) as u8 / 4 * 3)

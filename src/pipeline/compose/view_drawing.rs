@@ -1,4 +1,4 @@
-//! From what is known of a view to its drawing: what lies under the lines beside the lines, one layer over the other.
+//! From a view with known visibility to its drawing: fills, lines and further layers, stacked.
 
 use std::sync::Arc;
 
@@ -30,11 +30,11 @@ use crate::view::View;
 use crate::visibility::{Ahead, ViewMap};
 
 impl Prepared<'_> {
-    /// Draws a view as [`render_reported`](crate::pipeline::render_reported) does; the report has only the times of what was done for
-    /// this view.
+    /// Draws a view as [`render_reported`](crate::pipeline::render_reported) does. The report has only the times spent
+    /// on this view.
     ///
     /// # Errors
-    /// If the camera can take no picture: see [`Camera::validate`].
+    /// If the camera is invalid: see [`Camera::validate`].
     pub fn draw(
         &self,
         camera: &Camera,
@@ -45,10 +45,10 @@ impl Prepared<'_> {
         Ok(self.on_view(camera, page.unit, |on_view| self.drawn(on_view, camera, page, stage)))
     }
 
-    /// The maps of a view that lines in the image are found in, whether the style seeks any or not. `unit` is that of the page.
+    /// The maps of a view for finding image lines, even if the style draws none. `unit` is that of the page.
     ///
     /// # Errors
-    /// If the camera can take no picture: see [`Camera::validate`].
+    /// If the camera is invalid: see [`Camera::validate`].
     pub fn maps(&self, camera: &Camera, unit: Unit) -> Result<MapFiles, Error> {
         camera.validate()?;
         on_threads(|| {
@@ -60,8 +60,8 @@ impl Prepared<'_> {
         })
     }
 
-    /// What a view is hatched on, and the strokes of each layer of its hatching, each with what it is
-    /// known by. `None` if the style hatches nothing, or the camera can take no picture.
+    /// The ground of a view's hatching, and the strokes of each of its layers with their identities. `None`
+    /// if the style hatches nothing or the camera is invalid.
     #[must_use]
     pub fn hatch_strokes(&self, camera: &Camera, page: Page) -> Option<(Ground, Vec<Hatched>)> {
         camera.validate().ok()?;
@@ -76,7 +76,7 @@ impl Prepared<'_> {
         })
     }
 
-    /// A drawing of a view, and what it took; of a stage, where one is named.
+    /// The drawing of a view with its report; with a stage named, the result of that stage.
     pub(crate) fn drawn(
         &self,
         on_view: OnView,
@@ -95,7 +95,7 @@ impl Prepared<'_> {
         let materials: Vec<(Arc<str>, Colour)> =
             scene.materials.iter().map(|m| (Arc::from(m.name.as_str()), m.colour)).collect();
         let widths = InkWidths::new(&style.stroke, &parts, &materials, page.unit);
-        // Both have parts that one thread does alone.
+        // Painting and linking both have single-threaded parts, so they run side by side.
         let paint = || {
             let (fills, borders) = lit.zip(borders.as_ref())?;
             let (paints, behind) = (paints.as_deref(), behind.as_ref());
@@ -125,7 +125,7 @@ impl Prepared<'_> {
         report.stages_ms.hatching = hatching_ms;
         report.stages_ms.features += joining;
         let lines = &*lines;
-        // Each of both has told its own time.
+        // Both have reported their own times.
         watch.lap_ms();
         if let Some(behind) = &mut behind {
             chains.extend(behind.chains(style, page.unit, |veiled| {
@@ -216,7 +216,7 @@ impl Prepared<'_> {
     }
 }
 
-/// The model's name: its file without folder and ending.
+/// The model's name: the stem of its file name.
 fn title(scene: &Scene) -> String {
     let stem = scene.file.as_ref().and_then(|file| file.file_stem());
     stem.map_or_else(|| "drawing".to_owned(), |stem| stem.to_string_lossy().into_owned())

@@ -1,4 +1,4 @@
-//! [`Painted`]: what lies under the lines of a drawing, colours and hatching.
+//! [`Painted`]: everything below the lines of a drawing: paint and hatching.
 
 use super::glass::Behind;
 use super::surface_fills::Fills;
@@ -13,25 +13,25 @@ use crate::scene::{Camera, Scene};
 use crate::strokes::{self, Order};
 use crate::style::Style;
 
-/// What lies under the lines of a drawing.
+/// Layers below the lines of a drawing.
 #[derive(Default)]
 pub(crate) struct Painted {
-    /// From the lowest up.
+    /// Layers from bottom to top.
     pub layers: Vec<Layer>,
-    /// Where hatching is all black.
+    /// Areas where paint or hatching is black.
     pub blacks: Option<Ground>,
     pub warnings: Vec<String>,
-    /// How many regions there are.
+    /// Number of regions.
     pub regions: u64,
-    /// Cells in which different looks were seen.
+    /// Number of cells where different looks were seen.
     pub leaks: u64,
-    /// How long regions took, milliseconds.
+    /// Time for regions, milliseconds.
     pub regions_ms: f64,
-    /// How long hatching took, milliseconds.
+    /// Time for hatching, milliseconds.
     pub hatching_ms: f64,
 }
 
-/// A lit surface, cut by the lines that are seen, to be painted and hatched.
+/// Lit surface with visible lines, to be painted and hatched.
 pub(crate) struct Unpainted<'a> {
     pub scene: &'a Scene,
     pub style: &'a Style,

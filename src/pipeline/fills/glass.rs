@@ -1,4 +1,4 @@
-//! Materials that one sees through: left out, or drawn over what is behind them.
+//! Transparent materials: left out, or drawn over what is behind them.
 
 use std::borrow::Cow;
 
@@ -25,7 +25,7 @@ pub(crate) fn left<'a>(scene: &'a Scene, style: &Style) -> Cow<'a, Scene> {
     Cow::Owned(glass::without(scene, |material| absent.get(material).copied().flatten().is_some()))
 }
 
-/// What pictures leave of a scene, as [`cutouts::cut`] has it.
+/// A scene without the areas that textures cut out, by [`cutouts::cut`].
 pub(crate) fn cut<'a>(scene: &'a Scene, left: &Cow<'a, Scene>) -> Cut<'a> {
     match left {
         Cow::Borrowed(_) => cutouts::cut(scene),
@@ -36,25 +36,25 @@ pub(crate) fn cut<'a>(scene: &'a Scene, left: &Cow<'a, Scene>) -> Cut<'a> {
     }
 }
 
-/// A mesh some of whose faces one sees through.
+/// Mesh with transparent faces.
 pub(crate) struct Panes {
-    /// The mesh, but that these faces hide nothing.
+    /// The mesh with transparent faces that hide nothing.
     clear: Mesh,
-    /// How opaque materials are that one sees through.
+    /// Opacity of each transparent material; `None` for opaque ones.
     opacities: Vec<Option<f64>>,
 }
 
-/// What is seen through panes.
+/// Lines and surfaces visible through panes.
 pub(crate) struct Behind<'a> {
     panes: &'a Panes,
-    /// All lines that the mesh without panes leaves seen.
+    /// View map of the lines that are visible when panes hide nothing.
     map: ViewMap,
-    /// Those of them that are seen through panes alone.
+    /// Lines that are visible through panes only.
     veiled: ViewMap,
 }
 
 impl Panes {
-    /// The panes of a surface; none if it has none, or the style draws them like all else.
+    /// The panes of a surface. `None` if it has none, or the style draws them as opaque.
     pub fn of(surface: &Surface, scene: &Scene, style: &Style) -> Option<Self> {
         let opacities = style.glass.opacities(scene, GlassDraw::Glass);
         let is_pane = |material: MaterialId| opacities.get(material.index()).copied().flatten().is_some();
@@ -66,12 +66,12 @@ impl Panes {
         Some(Self { clear, opacities })
     }
 
-    /// The mesh, but that panes hide nothing.
+    /// The mesh with panes that hide nothing.
     pub fn clear(&self) -> &Mesh {
         &self.clear
     }
 
-    /// Decides what is seen through them.
+    /// Decides what is visible through the panes.
     pub fn look_behind(
         &self,
         mesh: &Mesh,
@@ -85,18 +85,18 @@ impl Panes {
 }
 
 impl Behind<'_> {
-    /// The mesh, but that panes hide nothing.
+    /// The mesh with panes that hide nothing.
     pub fn clear(&self) -> &Mesh {
         self.panes.clear()
     }
 
-    /// What the eye sees where there are no panes.
+    /// The surfaces visible without panes.
     pub fn see(&self, fills: &Fills, page: &Page) -> regions::Seen {
         fills.see_behind(&self.panes.clear, &self.map, page)
     }
 
-    /// Paints the panes over the layers of what is behind them: each region in the colour of its tone, as opaque as its
-    /// material.
+    /// Paints the panes over the layers behind them. Each region has the colour of its tone and the opacity
+    /// of its material.
     pub fn paint(
         &self,
         fills: &Fills,
@@ -118,7 +118,7 @@ impl Behind<'_> {
         }));
     }
 
-    /// The lines that are seen through panes alone, before they are moved on the page.
+    /// The chains that are visible through panes only. `prepare` changes their view map first.
     pub fn chains(&mut self, style: &Style, unit: Unit, prepare: impl FnOnce(&mut ViewMap)) -> Vec<Chain> {
         prepare(&mut self.veiled);
         let mut chains = chains::link(&self.veiled, &style.chain, unit, HiddenLines::None);

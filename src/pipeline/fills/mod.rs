@@ -2,7 +2,7 @@
 //!
 //! 1. Light, shadows and occlusion are computed on the surface, and tone borders join the feature lines
 //!    ([`surface_fills`]).
-//! 2. What lies behind glass is seen and painted separately ([`glass`]).
+//! 2. Surfaces behind glass are seen and painted separately ([`glass`]).
 //! 3. Regions are painted; pictures, patterns and hatching are laid over them ([`fill_pass`]).
 //!
 //! Files, in reading order: [`surface_fills`]; [`glass`]; [`fill_pass`]; [`picture_pass`]; [`pattern_pass`];

@@ -1,4 +1,4 @@
-//! Patterns over the tones of a view.
+//! Marks of patterns over the tones of a view.
 
 use std::sync::Arc;
 
@@ -16,7 +16,8 @@ use crate::regions::{Ground, Seen};
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
 
-/// Lines of a pattern that cover more of the surface than this are left out: where it turns from the eye they would fill it.
+/// Greatest coverage of pattern lines. Denser parts are omitted, because they would fill surfaces that turn
+/// away from the camera.
 const DENSEST: f64 = 0.7;
 
 /// The marks of all patterns of a style.
@@ -64,8 +65,8 @@ pub(crate) fn marks(
     style.patterns.iter().filter(asked).flat_map(of).collect()
 }
 
-/// The lines of a pattern that is fixed to the surface: cuts through the model as far apart as they are on the page where the camera
-/// looks.
+/// The lines of a pattern that is fixed to the surface: cuts through the model, spaced as on the page at the
+/// camera's target.
 fn guides(
     fills: &Fills,
     ground: &Ground,

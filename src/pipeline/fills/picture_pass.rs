@@ -1,4 +1,4 @@
-//! The pictures of materials themselves, over the regions that show them.
+//! Textures drawn as pictures over the regions that show them.
 
 use std::sync::Arc;
 
@@ -20,8 +20,8 @@ use crate::scene::{Camera, Paints};
 use crate::style::Style;
 use crate::view::raster::Screen;
 
-/// Adds the pictures of materials to painted regions, and what makes their tones. `mesh` is that of the surface, but that panes hide
-/// nothing.
+/// Adds the pictures of materials to painted regions, and the translucent fills that give them tones. `mesh`
+/// is that of the surface, where panes hide nothing.
 pub(crate) fn add(
     fills: &Fills,
     (mesh, lines): (&Mesh, &FeatureLines),
@@ -72,7 +72,7 @@ pub(crate) fn add(
     }
 }
 
-/// The regions that show a picture.
+/// Regions that show a picture.
 struct Painted<'a> {
     regions: &'a Regions,
     imaged: &'a Imaged,
@@ -80,7 +80,8 @@ struct Painted<'a> {
 }
 
 impl Painted<'_> {
-    /// The outline in each of these parts, in ascending order, of what shows the picture in some tones.
+    /// For each of these parts (ascending), the outline of the regions that show the picture in the selected
+    /// tones.
     fn outlines(&self, parts: &[PartId], of_tone: impl Fn(u16) -> bool) -> Vec<BezPath> {
         let class = |number: u32| {
             let look = self.regions.regions.get(number as usize)?.look;
@@ -101,7 +102,7 @@ impl Painted<'_> {
         }
     }
 
-    /// The number of the material.
+    /// Index of the material.
     fn material(&self) -> usize {
         self.imaged.material.index()
     }

@@ -1,4 +1,4 @@
-//! What a drawing with regions needs beside its lines: light, tone borders, paint.
+//! Fills: light on the surface, tone borders and paint of a view.
 
 use std::sync::Arc;
 
@@ -28,18 +28,19 @@ use crate::style::Style;
 use crate::view::View;
 use crate::visibility::ViewMap;
 
-/// Whether a style asks for light on the surface: for colours, or for hatching.
+/// Whether a style needs light on the surface, for paint or hatching.
 pub(crate) fn is_lit(style: &Style) -> bool {
     style.region.enabled || style.hatch.enabled
 }
 
-/// Whether a style draws lines where tones change, whether it paints them or not.
+/// Whether a style draws lines where tones change.
 pub(crate) fn asks_isophotes(style: &Style) -> bool {
     let lines = &style.lines;
     lines.enabled && lines.source != Source::Image && lines.kinds.contains(&LineKind::Isophote)
 }
 
-/// Whether a style asks what is painted on the surface: for that, for lines between painted colours, or between tones.
+/// Whether a style needs the paints of the surface: for fills, for lines between painted colours, or for
+/// lines between tones.
 pub(crate) fn asks_surface(style: &Style) -> bool {
     is_lit(style) || asks_artist(style) || asks_isophotes(style)
 }
@@ -49,14 +50,14 @@ pub(crate) fn asks_artist(style: &Style) -> bool {
     style.lines.enabled && style.lines.kinds.contains(&LineKind::Artist)
 }
 
-/// Whether a style lays strokes along cuts through the model.
+/// Whether a style lays strokes or patterns that are fixed to the model.
 pub(crate) fn lays_through(style: &Style) -> bool {
     let fixed = |layer: &HatchLayer| matches!(layer.direction, Direction::Object | Direction::Uv);
     let hatches = style.hatch.enabled && style.hatch.layers.iter().any(fixed);
     hatches || style.patterns.iter().any(|own| own.fixed == PatternFixed::Surface)
 }
 
-/// What shadows that things cast are to darken.
+/// Which of tones and hatching bins cast shadows darken.
 fn darkened(style: &Style) -> Darkened {
     Darkened {
         tones: has_tones(style) && style.tones.cast_shadows,
@@ -64,12 +65,12 @@ fn darkened(style: &Style) -> Darkened {
     }
 }
 
-/// Whether light falls into tones: where these are painted, or lines between them are drawn.
+/// Whether light is divided into tones, for paint or for lines between tones.
 fn has_tones(style: &Style) -> bool {
     style.region.enabled || asks_isophotes(style)
 }
 
-/// The tones of a style; one for all where none are asked for.
+/// The tone options of a style; a single tone if it needs none.
 fn tones(style: &Style) -> ToneOptions {
     let Darkened { tones, bins } = darkened(style);
     let cast_shadows = tones || bins;
@@ -79,12 +80,12 @@ fn tones(style: &Style) -> ToneOptions {
     ToneOptions { scale: Scale::Thresholds(Vec::new()), cast_shadows, ..ToneOptions::default() }
 }
 
-/// Lines that part regions, whether they are drawn or not.
+/// Kinds of lines that separate regions, drawn or not.
 const PARTING: [LineKind; 4] =
     [LineKind::Contour, LineKind::Border, LineKind::Material, LineKind::Intersection];
 
-/// The lines to be sought for a style: those it draws, and where it paints regions, those that may
-/// part them.
+/// Options for the feature lines to be found: those that the style draws, and with regions, those that may
+/// separate them.
 pub(crate) fn sought(style: &Style) -> LineOptions {
     let mut options = style.lines.clone();
     if options.source == Source::Image {
@@ -97,7 +98,7 @@ pub(crate) fn sought(style: &Style) -> LineOptions {
         options.enabled = true;
         options.kinds = Vec::new();
     }
-    // Strokes of a hatching end at creases too.
+    // Hatching strokes end at creases as well.
     let creases = style.hatch.enabled.then_some(LineKind::Crease);
     let missing =
         PARTING.into_iter().chain(creases).filter(|kind| !options.kinds.contains(kind)).collect::<Vec<_>>();
@@ -105,7 +106,7 @@ pub(crate) fn sought(style: &Style) -> LineOptions {
     options
 }
 
-/// The colours of paints without light: those of their materials, or what stands in for these in fills.
+/// The unlit colours of paints: those of their materials, or the fill colours that replace them.
 pub(crate) fn paint_colours(paints: &[Paint], scene: &Scene, style: &Style) -> Vec<Colour> {
     let instead = |paint: &Paint| {
         let material = scene.materials.get(paint.material.index()).filter(|_| style.region.enabled)?;
@@ -114,7 +115,8 @@ pub(crate) fn paint_colours(paints: &[Paint], scene: &Scene, style: &Style) -> V
     paints.iter().map(|paint| instead(paint).unwrap_or(paint.colour)).collect()
 }
 
-/// Leaves only lines that are drawn; tone borders among the segments of `unchanged`, ascending, are not.
+/// Removes lines that are not drawn. Tone borders among the segments of `unchanged` (ascending) are removed
+/// too.
 pub(crate) fn keep_inked(map: &mut ViewMap, style: &Style, unchanged: &[u32]) {
     let lines = &style.lines;
     let on_surface = lines.enabled && lines.source != Source::Image;
@@ -126,61 +128,63 @@ pub(crate) fn keep_inked(map: &mut ViewMap, style: &Style, unchanged: &[u32]) {
     });
 }
 
-/// What regions need of a surface beside its lines; the same for all views.
+/// Data of a surface for painting that all views share.
 #[derive(Debug)]
 pub(crate) struct Paintable {
     normals: ShadedNormals,
-    /// Edges across which it may look different.
+    /// Edges where the tone may change.
     edges: EdgeSet,
-    /// Parts whose inside nobody sees.
+    /// Whether each part is closed, so that its inside is invisible.
     solid: Vec<bool>,
 }
 
 impl Paintable {
-    /// `solid` says which parts of the mesh nobody sees the inside of.
+    /// Collects the data. `solid` says whether each part of the mesh is closed.
     pub fn new(surface: &Surface, paints: &Paints, solid: Vec<bool>) -> Self {
         let normals = ShadedNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
         let edges = tone_edges::candidates(&surface.mesh, &normals, paints);
         Self { normals, edges, solid }
     }
 
-    /// That of a surface some of whose faces are cut: its parts are as closed as they were.
+    /// The data of a refined surface. Its parts are as closed as before.
     pub fn finer(&self, surface: &Surface, paints: &Paints) -> Self {
         Self::new(surface, paints, self.solid.clone())
     }
 }
 
-/// What is painted on a surface.
+/// Paints and textures of a surface.
 #[derive(Clone, Copy)]
 pub(crate) struct Colours<'a> {
     pub paints: &'a Paints,
     pub textures: &'a Textures,
 }
 
-/// A lit surface on its way to regions.
+/// Lit surface of a view, ready to be divided into regions.
 pub(crate) struct Fills<'a> {
     surface: &'a Surface,
-    /// What casts shadows.
+    /// Mesh that casts shadows.
     casting: &'a Mesh,
     paintable: &'a Paintable,
     view: &'a View,
     shading: Shading,
     shadows: Arc<Shadows>,
     openness: Vec<f64>,
-    /// Every set of lights that may be in shadow together.
+    /// Every set of lights that may be in shadow together, as bit masks.
     masks: Vec<u32>,
     parts: Vec<Arc<str>>,
     materials: Vec<Arc<str>>,
     paints: &'a [Paint],
     textures: &'a Textures,
     darkened: Darkened,
-    /// Where the mesh rests, if it does not stand so.
+    /// Rest positions of the mesh, if it is posed.
     rest: Option<AtRest<'a>>,
 }
 
 impl<'a> Fills<'a> {
-    /// `casting` is the mesh that casts shadows: that of the surface, but that some faces may hide nothing. Where it is that of all
-    /// views, `late` keeps its shadows.
+    /// Lights the surface of a view.
+    ///
+    /// `casting` is the mesh that casts shadows: that of the surface, where some faces may hide nothing. If
+    /// all views share it, `late` caches its shadows.
     #[expect(clippy::too_many_arguments, reason = "it is called once, and each is another thing")]
     pub fn new(
         surface: &'a Surface,
@@ -204,7 +208,7 @@ impl<'a> Fills<'a> {
         };
         let dims = style.light.occlusion > 0.0;
         let nook = |at: DVec3| frame.side_at(frame.depth(at)) * NOOK_OF_FRAME;
-        // Behind glass there is more in sight than what is in front.
+        // Through glass more is visible than the front faces.
         let asked = || if std::ptr::eq(casting, mesh) { in_sight(mesh, view) } else { Vec::new() };
         let openness = if dims { openness(mesh, &asked(), nook) } else { Vec::new() };
         Self {
@@ -225,12 +229,12 @@ impl<'a> Fills<'a> {
         }
     }
 
-    /// With what is laid through the model laid through it as it rests.
+    /// Fixes patterns and strokes through the model to its rest pose.
     pub fn laid_at(self, anchors: &'a Anchors) -> Self {
         Self { rest: AtRest::new(anchors, &self.surface.mesh), ..self }
     }
 
-    /// Where the corners of a face are at rest, world.
+    /// The rest positions of a face's corners, world.
     pub fn resting_corners(&self, face: u32) -> [DVec3; 3] {
         let mesh = &self.surface.mesh;
         let rest = self.rest.as_ref().zip(mesh.triangles.get(face as usize));
@@ -238,8 +242,8 @@ impl<'a> Fills<'a> {
         rest.unwrap_or_else(|| mesh.corners(FaceId(face)).map(|p| p + mesh.origin))
     }
 
-    /// About where in its part a point of the surface (relative to the mesh's origin) is at rest, in shares of the part's size:
-    /// `share` to a unit.
+    /// Rough rest position of a surface point in its part, in units of `share` times the part's size. `at` is
+    /// relative to the mesh's origin.
     pub fn rough_place(&self, part: PartId, at: DVec3, share: f64) -> DVec3 {
         let mesh = &self.surface.mesh;
         let world = at + mesh.origin;
@@ -249,7 +253,7 @@ impl<'a> Fills<'a> {
         }
     }
 
-    /// How many tones a paint has.
+    /// Number of tones of a paint.
     pub fn tone_count(&self, paint: PaintId) -> u16 {
         self.shading.tone_count(paint)
     }
@@ -259,19 +263,19 @@ impl<'a> Fills<'a> {
         self.paints
     }
 
-    /// Their colours without light.
+    /// Unlit colours of the paints.
     pub fn paint_colours(&self, scene: &Scene, style: &Style) -> Vec<Colour> {
         paint_colours(self.paints, scene, style)
     }
 
-    /// Whether a face stands for a rounded surface.
+    /// Whether a face approximates a rounded surface.
     pub fn is_round(&self, face: u32) -> bool {
         self.surface.smooth.corners_of(face).is_some()
     }
 
-    /// The surface under its light.
+    /// The surface with its light.
     pub fn lit(&self) -> Lit<'_> {
-        // Where the near plane cuts a part open, its inside is seen.
+        // Where the near plane cuts a part open, its inside is visible.
         let is_cut = !self.view.clipped.is_empty() || self.view.points.iter().any(|p| p.z.is_nan());
         Lit {
             mesh: &self.surface.mesh,
@@ -284,13 +288,13 @@ impl<'a> Fills<'a> {
         }
     }
 
-    /// Adds where the tone may change to the lines whose visibility is decided. Where these are to be `inked`, returns the numbers of
-    /// the segments at which it does not change, ascending.
+    /// Adds the lines where the tone may change. If they are `inked`, returns the numbers of those where it
+    /// does not change, ascending.
     pub fn add_tone_borders(&self, lines: &mut FeatureLines, inked: bool) -> Vec<u32> {
         let lit = self.lit();
         let first = lines.segments.len();
         let seams = tone_edges::find(&lit, &self.paintable.edges, &self.masks, lines);
-        // What one sees through casts no shadow, and hides nothing from the second look.
+        // Transparent faces cast no shadow and hide nothing behind them.
         let sees_through = !std::ptr::eq(self.casting, lit.mesh);
         let edges = first..lines.segments.len();
         let traced = isophote_lines::find(&lit, &self.masks, sees_through, lines);
@@ -314,12 +318,12 @@ impl<'a> Fills<'a> {
         )
     }
 
-    /// What the eye sees, cut by these borders.
+    /// The visible surface, divided by the given borders.
     pub fn see(&self, borders: &PageBorders, page: &Page) -> Seen {
         self.see_lit(&self.lit(), borders, page)
     }
 
-    /// What the eye sees with another mesh before it, which has the same faces but hides less.
+    /// The visible surface with another mesh in front, which has the same faces but hides less.
     pub fn see_behind(&self, clear: &Mesh, map: &ViewMap, page: &Page) -> Seen {
         let borders = PageBorders::of(map, &self.view.frame);
         self.see_lit(&Lit { mesh: clear, ..self.lit() }, &borders, page)
@@ -331,7 +335,7 @@ impl<'a> Fills<'a> {
         regions::see(lit, borders, shadowed, self.darkened, page.unit)
     }
 
-    /// The outlines of regions that look as `pick` says, with their colours and where they are from.
+    /// Outlines of the regions whose look `pick` accepts, with colour, look and provenance.
     pub fn outlines(
         &self,
         seen: &Seen,
@@ -353,7 +357,7 @@ impl<'a> Fills<'a> {
             .collect()
     }
 
-    /// Names, colours and the place on the page.
+    /// Names, colours and position on the page.
     pub fn paint_context(&self, page: &Page, camera: &Camera) -> PaintContext<'_> {
         PaintContext {
             unit: page.unit,
@@ -364,28 +368,28 @@ impl<'a> Fills<'a> {
         }
     }
 
-    /// Which lights do not reach points of faces.
+    /// Which lights do not reach points of faces, as bit masks.
     fn shadowed(&self, points: &[(u32, DVec3)]) -> Vec<u32> {
         self.shadows.shadowed(self.casting, points)
     }
 
-    /// Which lights do not reach each point, as hatching has it: none where it knows no cast shadows.
+    /// Which lights do not reach points, for hatching bins. None if the bins have no cast shadows.
     pub fn shadowed_bins(&self, points: &[(u32, DVec3)]) -> Vec<u32> {
         if self.darkened.bins { self.shadowed(points) } else { vec![0; points.len()] }
     }
 
-    /// The painted regions.
+    /// The painted layers and their regions.
     pub fn paint(&self, seen: &Seen, page: &Page, camera: &Camera, style: &Style) -> (Vec<Layer>, Regions) {
         let regions = regions::gather(seen, &style.region, &style.chain, page.unit);
         (regions::paint(&regions, &self.paint_context(page, camera), &style.region), regions)
     }
 }
 
-/// Nooks are dark where they see no sky within this part of the frame's longer side, as it is at their depth.
+/// Occlusion radius as a share of the frame's longer side at a point's depth.
 const NOOK_OF_FRAME: f64 = 0.15;
 
-/// With no more lights than this, tones are sought for every set of them that may be in shadow; with
-/// more, for none, each, and all.
+/// Greatest number of lights for which every shadow combination is searched. With more lights, only none,
+/// each and all are searched.
 const FEW_LIGHTS: u32 = 3;
 
 fn masks(lights: u32) -> Vec<u32> {

@@ -1,4 +1,4 @@
-//! Dots and tiles of patterns on the surface: the plane that carries them, face by face.
+//! Dots and tiles of patterns on the surface, and the charts that map faces to the pattern's plane.
 
 use glam::{DMat3, DVec2, DVec3};
 use kurbo::Vec2;
@@ -14,10 +14,10 @@ use crate::regions::surface_curves::decals::{Chart, Figure, MOST_FIGURES, count,
 use crate::scene::{Scene, UpAxis};
 use crate::view::{Frame, View};
 
-/// Texture coordinates that cover less than this part of what is usual in their part are none.
+/// Least area of texture coordinates relative to the usual scale of their part. Below it they are ignored.
 const NO_TEXTURE: f64 = 1e-4;
 
-/// Points on the outline of a dot.
+/// Number of points on the outline of a dot.
 const DOT_POINTS: u32 = 40;
 
 /// The dots or tiles of a pattern on the surface.
@@ -49,12 +49,12 @@ pub(crate) fn laid(
     OnSurface::Decals(found, filled)
 }
 
-/// How long in the model a length on the page is where the camera looks.
+/// The length in the model of a page length, at the camera's target.
 pub(crate) fn in_model(length: f64, frame: &Frame) -> f64 {
     length / frame.scale * if frame.perspective { frame.focus } else { 1.0 }
 }
 
-/// What a pattern repeats, y upwards, and whether each figure is filled.
+/// The figures that a pattern repeats, y upwards, and whether each is filled.
 fn figures(own: &Pattern, width: f64) -> (Vec<Figure>, Vec<bool>) {
     if own.kind == PatternKind::Dots {
         let at = |k: u32| {
@@ -76,16 +76,16 @@ fn figures(own: &Pattern, width: f64) -> (Vec<Figure>, Vec<bool>) {
     lines.chain(shapes).unzip()
 }
 
-/// How a plane with squares of side 1 lies on the faces.
+/// Plane of unit squares that carries a pattern, and its place on the faces.
 struct Plane<'a> {
     mesh: &'a Mesh,
     view: &'a View,
-    /// The axes of each part: across, upwards, and out of the plane of both; and where they meet.
+    /// Axes of each part (across, upwards, and normal to both), and their origin.
     parts: Vec<(DMat3, DVec3)>,
-    /// Lengths of a unit of texture coordinates, and whether v runs upwards, in each part.
+    /// For each part, the length of a texture coordinate unit, and whether v runs upwards.
     textures: Vec<(f64, bool)>,
     turn: DVec2,
-    /// Side of the squares in the model.
+    /// Side of the squares, in model units.
     spacing: f64,
 }
 
@@ -119,8 +119,8 @@ impl<'a> Plane<'a> {
         }
     }
 
-    /// Where the corners of a face are in the plane: by texture coordinates, else along the two axes of the part which the face
-    /// is turned to least.
+    /// The corners of a face in the plane. They come from texture coordinates, or else from the two axes of
+    /// the part that the face is most parallel to.
     fn chart(&self, face: u32) -> Option<Chart> {
         let place = |p: DVec2| {
             let [x, y] = [p.dot(self.turn), self.turn.perp_dot(p)];
@@ -146,7 +146,7 @@ impl<'a> Plane<'a> {
             .enumerate()
             .fold((2, -1.0), |best, (k, v)| if v > best.1 { (k, v) } else { best });
         let side = own[axis].signum();
-        // Seen from outside, upwards is up; from above, across stays across.
+        // Seen from outside, upwards points up; seen from above, across stays across.
         let [right, up] = match axis {
             0 => [DVec3::NEG_Z * side, DVec3::Y],
             1 => [DVec3::X, DVec3::NEG_Z * side],
@@ -160,7 +160,7 @@ impl<'a> Plane<'a> {
     }
 }
 
-/// The texture coordinates of the corners of a face.
+/// The texture coordinates of a face's corners.
 fn texture(mesh: &Mesh, face: u32) -> Option<[DVec2; 3]> {
     let uvs = mesh.corner_uvs.get(face as usize)?;
     let at = |uv: u32| {

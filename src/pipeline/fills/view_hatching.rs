@@ -1,4 +1,4 @@
-//! Hatching of a view: its ground, its tones, and the names that marks carry.
+//! Hatching of a view: ground, tones, and names for marks.
 
 use std::sync::Arc;
 
@@ -22,7 +22,7 @@ use crate::regions::{self, Ground, Look, RegionOptions, Samples, Seen};
 use crate::scene::{Camera, Scene, UpAxis};
 use crate::style::Style;
 
-/// A lit view on its way to hatching.
+/// Lit view, ready to be hatched.
 pub(crate) struct Hatching<'a> {
     pub fills: &'a Fills<'a>,
     pub scene: &'a Scene,
@@ -47,7 +47,7 @@ impl Hatching<'_> {
         (ground, strokes)
     }
 
-    /// Where the camera's frame lies on the page.
+    /// Offset of the camera's frame on the page.
     fn offset(&self) -> Vec2 {
         Vec2::new(self.page.width - self.camera.width, self.page.height - self.camera.height) / 2.0
     }
@@ -56,7 +56,7 @@ impl Hatching<'_> {
         Ground::new(seen, self.style.hatch.crumb, self.page.unit, self.offset())
     }
 
-    /// Calls with all that hatching needs.
+    /// Calls `call` with the context of hatching.
     fn with_context<T>(&self, ground: &Ground, call: impl FnOnce(&HatchContext) -> T) -> T {
         let Self { fills, scene, page, style, .. } = self;
         let offset = self.offset();
@@ -117,7 +117,7 @@ impl Hatching<'_> {
         self.style.hatch.enabled && usize::from(look.bin) < self.style.hatch.blacks
     }
 
-    /// Whether ink on a look would not be seen.
+    /// Whether ink on a look would be invisible.
     fn is_black(&self, look: &Look) -> bool {
         let painted = || {
             let colour = self.fills.lit().shading.colour(look.paint, look.tone);
@@ -126,7 +126,8 @@ impl Hatching<'_> {
         self.is_spot_black(look) || painted()
     }
 
-    /// What is black where, if there is any and blacks are to be parted.
+    /// The ground, divided into black and other cells. `None` if nothing is black or blacks are not
+    /// separated.
     pub fn black_ground(&self, seen: &Seen) -> Option<Ground> {
         let hatch = &self.style.hatch;
         let coarser = |look: &Look| black_or_not(look, self.is_black(look));
@@ -134,7 +135,7 @@ impl Hatching<'_> {
             .then(|| Ground::coarse(seen, coarser, hatch.crumb, self.page.unit, self.offset()))
     }
 
-    /// The outlines of what is painted solid, and what is seen there.
+    /// The outlines of spot blacks, and their looks.
     fn blacks(&self, seen: &Seen) -> Vec<(BezPath, Look)> {
         let style = self.style;
         let coarser = |look: &Look| black_or_not(look, self.is_spot_black(look));
@@ -148,15 +149,15 @@ impl Hatching<'_> {
     }
 }
 
-/// Paint none of whose channels is lighter than this is black.
+/// Greatest channel value of a black paint.
 const BLACKEST: u8 = 0x20;
 
-/// A look to an eye to which all that is not black is one bin.
+/// A look reduced to black or not black.
 fn black_or_not(look: &Look, is_black: bool) -> Look {
     Look { tone: 0, cast: false, bin: u16::from(!is_black), ..*look }
 }
 
-/// A warning where a table asks for more ink than the layers can give.
+/// A warning if a coverage table wants more ink than the layers can give.
 pub(crate) fn too_dark(style: &Style, unit: Unit) -> Option<String> {
     let asked = style.hatch.coverage.iter().skip(style.hatch.blacks).copied().fold(0.0, f64::max);
     let most = hatching::most_covered(&style.hatch, unit);
@@ -170,10 +171,10 @@ pub(crate) fn too_dark(style: &Style, unit: Unit) -> Option<String> {
     })
 }
 
-/// Coverage that differs by this little is the same.
+/// Greatest excess of coverage that gives no warning.
 const SAME_COVERAGE: f64 = 0.02;
 
-/// Guides of a layer that is fixed to the model.
+/// Guides of a layer that is fixed to the model; `None` for other directions.
 fn fixed(
     fills: &Fills,
     ground: &Ground,
@@ -187,8 +188,8 @@ fn fixed(
     let lit = &fills.lit();
     let mesh = lit.mesh;
     let frame = &lit.view.frame;
-    // A pitch as it is where the camera looks, rounded to a power of two, so that small changes of
-    // the view change nothing; two finer sets make up for what is seen at a slant.
+    // The pitch in the model at the camera's target, rounded down to a power of two, so that small camera
+    // moves change nothing. Finer sets fill surfaces seen at a slant.
     let in_model = pitch / frame.scale * if frame.perspective { frame.focus } else { 1.0 };
     let spacing = power_of_two_below(in_model) / FINER;
     let angle = layer.angle.to_radians();
@@ -209,7 +210,7 @@ fn fixed(
     let is_wanted = |level: i64, density: f64| rank(level) * density * pitch < 1.0;
     let curves = match layer.direction {
         Direction::Object => level_curves(lit, offset, cut, is_wanted),
-        // Without texture coordinates it is cut.
+        // Without texture coordinates, planes are used.
         Direction::Uv => level_curves(lit, offset, |face| woven(face).or_else(|| cut(face)), is_wanted),
         Direction::Page | Direction::Surface | Direction::Light => return None,
     };
@@ -223,7 +224,7 @@ fn fixed(
     Some(section_guides::guides(ground, &curves, seen, name, pitch, seed))
 }
 
-/// The normal of the planes that cut a model: level at 0, turned by an angle in radians.
+/// The normal of the planes that cut a model: upwards at 0, tilted by an angle in radians.
 pub(crate) fn cut_of(scene: &Scene, angle: f64) -> DVec3 {
     let up = match scene.up {
         UpAxis::Y => DVec3::Y,
@@ -232,16 +233,16 @@ pub(crate) fn cut_of(scene: &Scene, angle: f64) -> DVec3 {
     up * cos(angle) + (DVec3::X + up.cross(DVec3::X) * SLANT).normalize() * sin(angle)
 }
 
-/// Sets of cuts are this much closer than strokes lie on a surface that faces the eye.
+/// Number of cutting planes per pitch. Surfaces facing the camera use only some of them.
 const FINER: f64 = 4.0;
 
-/// Slanting cuts are turned away from the axes of the model by this much, for walls run along these.
+/// Turn of tilted planes away from the model's axes, because walls often follow these.
 const SLANT: f64 = 0.35;
 
-/// Pieces of one curve that are told apart lie this part of the size of their part from each other.
+/// Cell size for the identity of curve pieces, as a share of their part's size.
 const ROUGHLY: f64 = 0.3;
 
-/// The length in each part of a unit of texture coordinates, on average.
+/// The mean world length of a texture coordinate unit in each part.
 pub(crate) fn texture_scales(mesh: &Mesh) -> Vec<f64> {
     let mut sums: Vec<[f64; 2]> = Vec::new();
     for (face, uvs) in mesh.corner_uvs.iter().enumerate() {
@@ -263,7 +264,7 @@ pub(crate) fn texture_scales(mesh: &Mesh) -> Vec<f64> {
     sums.into_iter().enumerate().map(scale).collect()
 }
 
-/// Distance of the points at which the page is asked for light and directions, px.
+/// Distance between lattice points where light and directions are sampled, px.
 const SAMPLES_PX: f64 = 3.0;
 
 /// The tone of each paint.
@@ -280,6 +281,6 @@ fn tones(fills: &Fills, scene: &Scene, style: &Style) -> Vec<Tone> {
         let table = own.map_or(&style.hatch.coverage, |(_, table)| table);
         Tone::new(lit.shading.levels(PaintId(number as u32), bins), table)
     };
-    // The last one stands in for paints that are unknown.
+    // The last entry stands in for unknown paints.
     (0..=paints.len()).map(of).collect()
 }

@@ -1,6 +1,7 @@
-//! What lines know of the colours beside them: of the surface that they belong to, and of spot blacks.
+//! Colours next to lines: of the surface that a line belongs to, and of spot blacks.
 //!
-//! Asked only where a pen takes the colour of the material, or where blacks are to be parted.
+//! They are sampled only where a pen takes the material's colour, or where lines between blacks are left
+//! white.
 
 use glam::DVec2;
 
@@ -16,10 +17,10 @@ use crate::strokes::{Ink, Pen};
 use crate::style::Style;
 use crate::visibility::{Front, front_faces};
 
-/// Blacks are asked for at places of a line that lie no farther apart than this, px.
+/// Greatest distance between samples of blacks along a line, px.
 const BLACK_STEP_PX: f64 = 1.0;
 
-/// Blacks are followed no farther than this to either side, px.
+/// Greatest distance that blacks are followed to either side, px.
 const BLACK_PX: f64 = 12.0;
 
 /// Whether any line takes the colour of its material.
@@ -29,7 +30,7 @@ pub(crate) fn asks_colours(style: &Style) -> bool {
     shades(options.pen.colour) || options.rules.iter().any(|rule| rule.pen.colour.is_some_and(shades))
 }
 
-/// Tells the chains what is seen beside them.
+/// Samples the colours and blacks next to the chains.
 pub(crate) fn ask(
     chains: &mut [Chain],
     beside: &Beside,
@@ -64,7 +65,7 @@ fn widest(beside: &Beside) -> f64 {
     rules.map(|width| width.in_unit(beside.unit)).fold(width(&options.pen), f64::max)
 }
 
-/// Tells visible chains, point by point, how far blacks reach on both sides of them.
+/// Samples how far blacks extend on both sides of visible chains, point by point.
 fn ask_blacks(chains: &mut [Chain], blacks: &Ground, rings: u32, px: f64) {
     use crate::parallel::prelude::*;
     let is_black = |p| {
@@ -84,7 +85,7 @@ fn ask_blacks(chains: &mut [Chain], blacks: &Ground, rings: u32, px: f64) {
     });
 }
 
-/// Tells chains, point by point, the colour of the surface that they belong to.
+/// Samples the colour of the surface that each chain belongs to, point by point.
 fn ask_colours(chains: &mut [Chain], beside: &Beside, lines: &FeatureLines, painted: Colours, px: f64) {
     let mesh = &beside.surface.mesh;
     let colours = paint_colours(&painted.paints.list, beside.scene, beside.style);
@@ -106,7 +107,8 @@ fn ask_colours(chains: &mut [Chain], beside: &Beside, lines: &FeatureLines, pain
     let fronts = front_faces(mesh, beside.view, &places);
     let mut pairs = fronts.chunks_exact(2).zip(places.chunks_exact(2));
     for chain in chains.iter_mut() {
-        // What is hidden, or belongs to no surface that is seen beside it, has the colour of a face that meets in it.
+        // Hidden chains, and chains whose surface is not visible next to them, take the colour of an adjacent
+        // face of their material.
         let hosts = lines.segments.get(chain.segment as usize).map_or([u32::MAX; 2], |s| s.hosts);
         let is_own = |face: &u32| mesh.face_material.get(*face as usize) == Some(&chain.material);
         let own = hosts.into_iter().find(is_own).and_then(colour_of);
@@ -127,7 +129,7 @@ fn ask_colours(chains: &mut [Chain], beside: &Beside, lines: &FeatureLines, pain
     }
 }
 
-/// Of what is seen on both sides that which is clearly nearer, or both.
+/// The side that is clearly nearer, or both sides.
 fn nearer<T: Copy>(sides: [Option<T>; 2], depth: impl Fn(T) -> f64) -> [Option<T>; 2] {
     let [Some(left), Some(right)] = sides else { return sides };
     let apart = depth(right) - depth(left);
@@ -140,7 +142,7 @@ fn nearer<T: Copy>(sides: [Option<T>; 2], depth: impl Fn(T) -> f64) -> [Option<T
     }
 }
 
-/// How light a colour is.
+/// Luminance of a colour, scaled by 1000 (Rec. 601 weights).
 fn weight(colour: Colour) -> u32 {
     299 * u32::from(colour.r) + 587 * u32::from(colour.g) + 114 * u32::from(colour.b)
 }

@@ -1,8 +1,8 @@
-//! What lines with a hand know of the world beside them: the light on the surface, and how far what lies
-//! behind is from them.
+//! Samples of the scene next to lines, for pens whose strokes depend on them: the light on the surface, and
+//! the depth gap behind the line.
 //!
-//! The eye is asked what it sees at points of the page a little to the left and to the right of each visible
-//! line. Nothing is asked but for pens that want to know.
+//! Visibility is sampled at page points slightly to the left and right of each visible line. Only what the
+//! pens of the style need is sampled.
 
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Vec2};
@@ -19,39 +19,38 @@ use crate::style::Style;
 use crate::view::View;
 use crate::visibility::front_faces;
 
-/// How far beside a line the eye is asked, px.
+/// Distance of the samples from the line, px.
 pub(crate) const BESIDE_PX: f64 = 1.5;
 
-/// Places of a line at which it is asked lie no farther apart than this, px.
+/// Greatest distance between samples along a line, px.
 pub(crate) const STEP_PX: f64 = 3.0;
 
-/// What lies this much farther (part of the frame's longer side, as it is at the line's depth) is as far as
-/// background.
+/// Depth gap that counts as background, as a share of the frame's longer side at the line's depth.
 const FAR_OF_FRAME: f64 = 0.2;
 
-/// Of two surfaces beside a line the nearer one is the line's own if it is so much nearer, in
-/// the same measure.
+/// Least depth difference between the surfaces next to a line, in the same measure. Above it the nearer one
+/// counts as the line's own.
 pub(crate) const NEARER_OF_FRAME: f64 = 0.01;
 
-/// A view, and where it lies on the page.
+/// A view and its position on the page.
 pub(crate) struct Beside<'a> {
     pub scene: &'a Scene,
     pub surface: &'a Surface,
     pub view: &'a View,
     pub style: &'a Style,
-    /// From the camera's frame to the page.
+    /// Offset from the camera's frame to the page.
     pub margin: Vec2,
     pub unit: Unit,
 }
 
-/// What the pens of a style want to know.
+/// Samples that the pens of a style need.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 struct Wanted {
-    /// Depth all along the lines.
+    /// Depth along the lines.
     depth: bool,
-    /// What lies to both sides.
+    /// Surfaces on both sides.
     sides: bool,
-    /// The light there.
+    /// Light on both sides.
     light: bool,
 }
 
@@ -65,7 +64,7 @@ impl Wanted {
         };
         add(&options.pen);
         for rule in &options.rules {
-            // Whatever else a rule's pen starts from, what it adds is known from the rule alone.
+            // The needs of a rule's pen add up, so the default pen with the rule's changes suffices.
             let mut pen = Pen::default();
             rule.pen.apply(&mut pen);
             add(&pen);
@@ -74,8 +73,8 @@ impl Wanted {
     }
 }
 
-/// Numbers of feature segments that last while the eye moves, where there are any: of segments on edges of
-/// the mesh, from the places of their vertices. 0 for all others. None if no pen has a hand.
+/// A camera-independent number for each feature segment, from the positions of its vertices. 0 for segments
+/// that do not lie on mesh edges. Empty if no pen has random effects.
 pub(crate) fn names(lines: &FeatureLines, surface: &Surface, options: &StrokeOptions) -> Vec<u64> {
     let has_hand = |pen: &Pen| pen.hand.is_on() || pen.swell.chance > 0.0;
     let changed = options.rules.iter().any(|rule| {
@@ -96,7 +95,7 @@ pub(crate) fn names(lines: &FeatureLines, surface: &Surface, options: &StrokeOpt
     lines.segments.iter().map(|segment| name(segment.ends)).collect()
 }
 
-/// Tells the chains what their pens want to know.
+/// Samples what the pens of the chains need.
 pub(crate) fn ask(chains: &mut [Chain], beside: &Beside) {
     let wanted = Wanted::of(&beside.style.stroke);
     if wanted == Wanted::default() {
@@ -111,7 +110,7 @@ pub(crate) fn ask(chains: &mut [Chain], beside: &Beside) {
     }
 }
 
-/// Puts points on a chain until none is farther than a step from the next.
+/// Adds points to a chain until neighbours are at most a step apart.
 pub(crate) fn fill(chain: &mut Chain, step: f64, perspective: bool) {
     let n = chain.points.len();
     let sides = if chain.closed { n } else { n.saturating_sub(1) };
@@ -134,7 +133,7 @@ pub(crate) fn fill(chain: &mut Chain, step: f64, perspective: bool) {
     (chain.points, chain.samples) = (points, samples);
 }
 
-/// Between two samples in perspective, 1/depth is linear along the image of a line.
+/// Interpolates two samples in perspective, where 1/depth is linear along the image of a line.
 fn foreshortened(from: Sample, to: Sample, t: f64) -> Sample {
     let mut sample = from.lerp(to, t);
     if from.depth > 0.0 && to.depth > 0.0 {
@@ -143,7 +142,7 @@ fn foreshortened(from: Sample, to: Sample, t: f64) -> Sample {
     sample
 }
 
-/// What is seen at a point beside a line: its depth, and the light there.
+/// The surface visible at a point next to a line: its depth and light.
 #[derive(Debug, Clone, Copy)]
 struct Seen {
     depth: f64,
@@ -174,7 +173,7 @@ impl Beside<'_> {
         }
     }
 
-    /// What is seen at places of the frame; `None` is background.
+    /// The surfaces visible at points of the frame; `None` is background.
     fn seen(&self, places: &[DVec2], light: bool) -> Vec<Option<Seen>> {
         let (mesh, view) = (&self.surface.mesh, self.view);
         let frame = &view.frame;
@@ -184,7 +183,7 @@ impl Beside<'_> {
             return fronts.into_iter().map(|front| front.map(|front| dark(front.nearness))).collect();
         }
         let normals = ShadedNormals::new(mesh, &self.surface.hard, &self.surface.smooth);
-        // What had to be mended is said where surfaces are painted.
+        // Warnings are dropped here; painting reports the same ones.
         let style = self.style;
         let shading = Shading::new(self.scene, &[], mesh, frame, &style.light, &style.tones, &mut Vec::new());
         let textures = Textures::default();
@@ -208,7 +207,7 @@ impl Beside<'_> {
     }
 }
 
-/// Unit vector to the left of a chain at a point, as it runs.
+/// Unit vector to the left of a chain at a point, in its direction of travel.
 pub(crate) fn across(chain: &Chain, i: usize) -> Vec2 {
     let n = chain.points.len();
     let at = |k: usize| -> Point { chain.points[k] };
@@ -222,11 +221,11 @@ pub(crate) fn across(chain: &Chain, i: usize) -> Vec2 {
     if length > 0.0 { Vec2::new(way.y, -way.x) / length } else { Vec2::ZERO }
 }
 
-/// What a point of a line learns from what is seen on both sides of it.
+/// Sets the side, gap and light of a line's sample from the surfaces on both sides.
 fn learn(sample: &mut Sample, left: Option<Seen>, right: Option<Seen>, size: f64) {
     let depth = |seen: Option<Seen>| seen.map_or(f64::INFINITY, |seen| seen.depth);
     let apart = (depth(right) - depth(left)) / (size * NEARER_OF_FRAME).max(f64::MIN_POSITIVE);
-    // Between two backgrounds nothing is nearer.
+    // Between two backgrounds neither side is nearer.
     sample.side = if apart.is_nan() { 0.0 } else { apart.clamp(-1.0, 1.0) };
     let farther = depth(left).max(depth(right)) - sample.depth;
     sample.gap = (farther / (size * FAR_OF_FRAME).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
@@ -259,7 +258,7 @@ mod tests {
         learn(&mut sample, Some(Seen { depth: 10.1, light: 0.75 }), Some(near), 1.0);
         assert_eq!((sample.side, sample.light), (-1.0, 0.25));
         assert!((sample.gap - 0.5).abs() < 1e-12);
-        // A crease: both sides as near, so the light is the mean of both.
+        // A crease: both sides are equally near, so the light is their mean.
         learn(&mut sample, Some(Seen { light: 0.75, ..near }), Some(near), 1.0);
         assert_eq!((sample.side, sample.gap, sample.light), (0.0, 0.0, 0.5));
         learn(&mut sample, None, None, 1.0);

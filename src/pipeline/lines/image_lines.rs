@@ -1,4 +1,4 @@
-//! Lines found in the image, and the maps they are found in.
+//! Lines found in the image, and the maps for finding them.
 
 use std::borrow::Cow;
 
@@ -11,7 +11,7 @@ use crate::view::View;
 use crate::view::raster::Maps;
 use crate::visibility::{self, ViewMap};
 
-/// The maps of a view, as fine as a style has them.
+/// The maps of a view, at the resolution of the style.
 pub(crate) fn maps(surface: &Surface, view: &View, style: &Style, unit: Unit) -> Maps {
     let normals = ShadedNormals::new(&surface.mesh, &surface.hard, &surface.smooth);
     let per_unit = style.lines.image.samples / Length::px(1.0).in_unit(unit);
@@ -24,7 +24,7 @@ pub(crate) fn maps(surface: &Surface, view: &View, style: &Style, unit: Unit) ->
     maps
 }
 
-/// Adds the lines that a style seeks in the image to those found on the surface.
+/// Adds the lines found in the image to those found on the surface.
 pub(crate) fn joined<'a>(
     map: &mut ViewMap,
     lines: &'a FeatureLines,

@@ -1,9 +1,9 @@
-//! The lines of a view: extra lines, chains, and what chains learn from the surfaces around them.
+//! The lines of a view: extra lines, chains, and the samples of surfaces next to chains.
 //!
 //! 1. Joints between parts of one material are removed ([`part_joints`]); lines found in the image are added
 //!    ([`image_lines`]).
 //! 2. Visible and hidden view edges are linked into chains ([`view_chains`]).
-//! 3. Chains sample depth, light and sides ([`chain_samples`]) and colours beside them ([`chain_colours`]).
+//! 3. Chains sample depth, light and sides ([`chain_samples`]) and colours next to them ([`chain_colours`]).
 //! 4. Moving bodies leave motion lines ([`motion_trails`]).
 //!
 //! Files, in reading order: [`part_joints`]; [`image_lines`]; [`view_chains`]; [`chain_samples`];

@@ -1,4 +1,4 @@
-//! Motion lines: the trails of what moves, beside and behind all else.
+//! Motion lines: trails of moving bodies, hidden by everything in front of them.
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
@@ -19,26 +19,27 @@ use crate::surface::Origin;
 use crate::view::{Frame, View};
 use crate::visibility::{self, Beside, ViewMap};
 
-/// What is said where motion lines are asked of a scene of which no moment is drawn.
+/// Warning where motion lines are on, but the scene has no animation time.
 pub(crate) const NO_MOMENT: &str = "no motion lines: nothing moves; give --animation and --time";
 
-/// What is said where things move, and no line of them is seen.
+/// Warning where bodies move, but none of their lines is visible.
 pub(crate) const NONE_SEEN: &str =
     "no motion lines: they are hidden, outside the frame, or slower than motion.speed";
 
-/// The trails of a view.
+/// Motion trails of a view.
 pub(crate) struct Trails<'a> {
     chains: Vec<Chain>,
-    /// For each feature segment, the entry of the style's list that is for its line.
+    /// For each feature segment, the entry of the style's list that applies to its line.
     rules: Vec<Option<usize>>,
-    /// For each feature segment, what tells its line from others at all times.
+    /// For each feature segment, a stable number of its line.
     names: Vec<u64>,
     style: &'a Style,
 }
 
 impl<'a> Trails<'a> {
-    /// The trails that are seen beside a mesh, on a page in a unit; `None` if the style or the scene has none. `centre` moves them
-    /// from the camera's frame to the page.
+    /// The trails that a mesh leaves visible; `None` if the style or the scene has none.
+    ///
+    /// `unit` is the unit of the page. `centre` moves them from the camera's frame to the page.
     pub fn of(
         (mesh, view, camera): (&Mesh, &View, &Camera),
         scene: &Scene,
@@ -70,7 +71,7 @@ impl<'a> Trails<'a> {
         let mut map = visibility::build_beside(mesh, view, camera, &lines, &bodies);
         centre(&mut map);
         let tidy = style.chain.tidy.in_unit(unit);
-        // Trails of different lines are never joined, however near they end.
+        // Trails of different lines are never joined, however close their ends.
         let exact = ChainOptions { tidy: Length::px(0.0), ..style.chain.clone() };
         let mut chains = chains::link(&map, &exact, unit, HiddenLines::None);
         chains
@@ -99,7 +100,8 @@ impl<'a> Trails<'a> {
     }
 }
 
-/// Whether a mover leaves lines: it does anyway, or its lines begin faster on the page than the style asks.
+/// Whether a mover leaves lines: it always does, or its lines start faster on the page than the style's
+/// limit.
 fn leaves_lines(mover: &Mover, options: &MotionOptions, frame: &Frame, origin: DVec3, unit: Unit) -> bool {
     let Some(Speed::Page(least)) = options.speed.filter(|_| !mover.chosen) else { return mover.chosen };
     let way = |trail: &Trail| {
@@ -113,8 +115,10 @@ fn leaves_lines(mover: &Mover, options: &MotionOptions, frame: &Frame, origin: D
     ways.iter().sum::<f64>() / ways.len().max(1) as f64 / seconds > least.in_unit(unit)
 }
 
-/// How many lines each mover draws: none if it leaves none; all if it moves alone. Those that hang together, such as the joints of
-/// an arm, share the lines of one body, the outermost first.
+/// Number of lines of each mover.
+///
+/// A mover that leaves none gets 0, and one that moves alone gets all. Connected movers, such as the joints
+/// of an arm, share the lines of one body, the outermost first.
 fn shares(movers: &[Mover], leaving: &[bool], lines: usize) -> Vec<usize> {
     let above = |mover: usize| movers[mover].above.filter(|above| leaving[*above]);
     let way = |mover: usize| std::iter::successors(Some(mover), |at| above(*at));
@@ -135,7 +139,7 @@ fn shares(movers: &[Mover], leaving: &[bool], lines: usize) -> Vec<usize> {
     shares
 }
 
-/// Adds a trail to the lines; where it stands still it has no length.
+/// Adds a trail to the lines. Points where it stands still are dropped.
 fn add(lines: &mut FeatureLines, mesh: &Mesh, scene: &Scene, mover: &Mover, trail: &Trail) {
     let mut points = trail.points.clone();
     points.dedup();
@@ -161,7 +165,7 @@ fn add(lines: &mut FeatureLines, mesh: &Mesh, scene: &Scene, mover: &Mover, trai
     }));
 }
 
-/// Triangles by themselves.
+/// Separate triangles as a mesh soup.
 fn soup(triangles: &[[DVec3; 3]]) -> Soup {
     let count = triangles.len();
     Soup {

@@ -1,4 +1,4 @@
-//! Joints of parts of one material, where a style leaves them out.
+//! Joints between parts of one material, for styles that omit them.
 
 use rustc_hash::FxHashMap;
 
@@ -9,7 +9,8 @@ use crate::scene::Scene;
 use crate::scene::paints::triangle_paints::{Paint, Paints};
 use crate::style::Style;
 
-/// Takes the joints out of the lines of a view. Drawings with regions keep them as borders of these: returns their numbers, ascending.
+/// Removes joints from the lines of a view. Drawings with regions keep them as region borders; then their
+/// numbers are returned, ascending.
 pub(crate) fn take_out(
     scene: &Scene,
     paints: Option<&Paints>,
@@ -24,7 +25,7 @@ pub(crate) fn take_out(
     joints::take_out(mesh, lines, &kinds(scene, paints), has_regions)
 }
 
-/// For each paint the first one of equal material and colour. A file may list a material twice.
+/// For each paint, the first one of equal material and colour. A file may list a material twice.
 fn kinds(scene: &Scene, paints: Option<&Paints>) -> Vec<u32> {
     let mut named: FxHashMap<(&str, [u8; 4]), Vec<u32>> = FxHashMap::default();
     let mut materials: Vec<u32> = Vec::with_capacity(scene.materials.len());

@@ -1,10 +1,10 @@
-//! The chains of a view, hidden ones without what lies in the ink of others.
+//! The chains of a view. Hidden chains exclude stretches under the ink of others.
 
 use crate::chains::{self, Chain, Rounding};
 use crate::drawing::{Length, Unit};
 use crate::geometry::numbers::tolerance;
 use crate::lines::HiddenLines;
-use crate::mesh::part_extents::{Extent, Extents};
+use crate::mesh::part_metrics::{Extent, Extents};
 use crate::scene::triangle_soup::longest_axis;
 use crate::scene::{Geometry, Part, Scene};
 use crate::strokes::InkWidths;
@@ -13,7 +13,7 @@ use crate::view::Frame;
 use crate::visibility::overlap::hidden_line_precedence::{self, Ink};
 use crate::visibility::{Ahead, ViewEdge, ViewMap};
 
-/// Links the lines of a view, whose ink is `widths` wide; `extents` are those of the parts of the scene.
+/// Links the lines of a view. `widths` gives their ink widths; `extents` are those of the scene's parts.
 pub(crate) fn chains(
     ahead: &Ahead,
     map: &ViewMap,
@@ -30,7 +30,7 @@ pub(crate) fn chains(
     if style.lines.hidden == HiddenLines::None {
         return chains;
     }
-    // Visible lines are drawn on across gaps by what is hidden there: they are linked with all of it.
+    // Visible lines are extended across gaps by the hidden lines there, so they are linked with all of them.
     let px = Length::px(1.0).in_unit(unit);
     let half_width = |edge: &ViewEdge| widths.half(map, edge);
     let ink = Ink { half_width: &half_width, extents, perspective, px };
@@ -42,8 +42,10 @@ pub(crate) fn chains(
     chains
 }
 
-/// How far the rounding of the file moves the corners of each part, at `scale` user units to a unit of the world. Numbers of few decimals may be
-/// rounded to these, also where they could be exact or in single precision.
+/// Displacement of corners by the rounding of the file's numbers, for each part. `scale` is user units per
+/// world unit.
+///
+/// Numbers with few decimals may be rounded to these, even if exact or in single precision.
 fn corner_rounding(scene: &Scene, extents: &Extents, scale: f64) -> Vec<f64> {
     let own = |(extent, part): (&Extent, &Part)| {
         let decimals = |geometry: &Geometry| geometry.decimal_step() * longest_axis(&part.world_from_part);
@@ -53,10 +55,10 @@ fn corner_rounding(scene: &Scene, extents: &Extents, scale: f64) -> Vec<f64> {
     extents.all().iter().zip(&scene.parts).map(|both| own(both) * scale).collect()
 }
 
-/// What is left of a hidden line is drawn if it is this long, px: curves that coincide but for rounding leave crumbs.
+/// Least length of a remaining hidden line, px. Curves that coincide except for rounding leave short pieces.
 const CRUMB_PX: f64 = 1.0;
 
-/// The length of a chain on the page.
+/// Length of a chain on the page.
 fn length(chain: &Chain) -> f64 {
     let sides = chain.points.windows(2).map(|pair| match pair {
         [a, b] => (*b - *a).hypot(),

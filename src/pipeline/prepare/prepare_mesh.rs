@@ -1,4 +1,4 @@
-//! [`Welded`]: the mesh of what a style leaves of a scene.
+//! [`Welded`]: the mesh of the part of a scene that a style draws.
 
 use std::borrow::Cow;
 
@@ -10,7 +10,7 @@ use crate::scene::textures::cutouts;
 use crate::scene::{Scene, Warnings};
 use crate::style::Style;
 
-/// The paints of what a style leaves of a scene, if it asks for any.
+/// The paints of the drawn part of a scene, if the style needs any.
 pub(crate) fn paints_of(left: &Scene, style: &Style) -> Option<Paints> {
     let needs_paints = surface_fills::asks_surface(style) || chain_colours::asks_colours(style);
     let mut paints = needs_paints.then(|| Paints::of(left, &style.textures));
@@ -21,7 +21,7 @@ pub(crate) fn paints_of(left: &Scene, style: &Style) -> Option<Paints> {
     paints
 }
 
-/// What a style leaves of a scene, and the mesh of it.
+/// The part of a scene that a style draws, and its mesh.
 pub(crate) struct Welded<'a> {
     pub scene: Cow<'a, Scene>,
     pub warnings: Warnings,
@@ -36,7 +36,7 @@ impl<'a> Welded<'a> {
         Self { scene, warnings, paints, mesh }
     }
 
-    /// Does so with a scene that nobody else needs: its shapes go when the mesh is made of them.
+    /// Builds the mesh of an owned scene. Its geometry is freed once the mesh is built.
     pub fn of_all(scene: Scene, style: &Style) -> Self {
         let (left, paints, warnings) = left(&scene, style);
         let left = match left {
@@ -49,7 +49,7 @@ impl<'a> Welded<'a> {
     }
 }
 
-/// What a style and the pictures of materials leave of a scene, its paints, and what could not be cut.
+/// The part of a scene that style and texture cut-outs leave, its paints, and warnings about failed cuts.
 fn left<'a>(scene: &'a Scene, style: &Style) -> (Cow<'a, Scene>, Option<Paints>, Warnings) {
     let left = glass::left(scene, style);
     let mut paints = paints_of(&left, style);

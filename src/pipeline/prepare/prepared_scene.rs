@@ -1,4 +1,4 @@
-//! [`Prepared`]: a scene made ready for a style, of which views are drawn.
+//! [`Prepared`]: a scene prepared for a style, ready for drawing views.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use crate::scene::{Camera, Scene, Warnings};
 use crate::style::Style;
 use crate::surface::Patches;
 
-/// A scene made ready for a style: what all its views share.
+/// Scene prepared for a style: everything that its views share.
 ///
 /// ```no_run
 /// use ligne::{drawing::{Page, Unit}, render::Prepared, scene::{Camera, NamedView, Scene}, style::Style};
@@ -34,40 +34,39 @@ use crate::surface::Patches;
 /// ```
 #[derive(Debug)]
 pub struct Prepared<'a> {
-    /// What is drawn of the scene: without what pictures of its materials leave clear.
+    /// The drawn part of the scene, without areas that textures cut out.
     pub(crate) scene: Cow<'a, Scene>,
     pub(crate) warnings: Warnings,
     pub(crate) style: &'a Style,
     pub(crate) sought: LineOptions,
-    /// Where surfaces are painted or hatched, or lines take their colour: the paints of the scene.
+    /// Paints of the scene, if surfaces are painted or hatched, or lines take their colour.
     pub(crate) paints: Option<Arc<Paints>>,
     pub(crate) surface: Surface,
-    /// How many vertices and edges the model has.
+    /// Numbers of vertices and edges of the model.
     pub(crate) counts: [u64; 2],
-    /// For views that need finer triangles it is made anew.
+    /// Rebuilt for views that refine the surface.
     pub(crate) paintable: Option<Paintable>,
     pub(crate) search: LateSearch,
     pub(crate) shadows: LateShadows,
-    /// Where lines are told to stay on the model.
+    /// Anchors of lines on the model, if strokes have to persist.
     pub(crate) anchors: Option<Anchors>,
 }
 
 impl<'a> Prepared<'a> {
-    /// Welds the scene to a mesh and finds where its surface is creased and where it is round.
+    /// Welds the scene into a mesh and finds its creases and rounded areas.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
         on_threads(|| Self::made(Welded::of(scene, style), style, None).0)
     }
 
-    /// Does so for one camera: the surface gets the finer triangles that it needs there at once and for good, which takes less
-    /// memory than to have them beside those of the model.
+    /// Prepares the scene for one camera. The surface is refined for it at once and permanently, which takes
+    /// less memory than a refined copy next to the model.
     #[must_use]
     pub fn for_camera(scene: &'a Scene, style: &'a Style, camera: &Camera) -> Self {
         on_threads(|| Self::made(Welded::of(scene, style), style, Some(camera)).0)
     }
 
-    /// Does so for one camera with a scene that nobody else needs: its shapes go when the mesh is made of them, and are not held
-    /// beside it.
+    /// Prepares an owned scene for one camera. Its geometry is freed once the mesh is built.
     #[must_use]
     pub fn of_scene(scene: Scene, style: &'a Style, camera: &Camera) -> Self {
         on_threads(|| Self::made(Welded::of_all(scene, style), style, Some(camera)).0)

@@ -1,8 +1,8 @@
-//! [`Resting`]: a scene made ready at rest, from which its poses are made ready.
+//! [`Resting`]: a scene prepared at rest, which makes preparing its poses fast.
 //!
-//! What does not change when a figure moves is found once, at rest: which vertices are one and which faces meet at which edge, where the
-//! surface is creased and where it is round, the paints and the pictures they come from, unless materials change. Places, normals,
-//! lines and all that is seen of them are found for every pose.
+//! Results that survive a change of pose are found once at rest: welded vertices and edges, creases, rounded
+//! areas, and paints with their pictures, unless materials change. Positions, normals, lines and visibility
+//! are found for every pose.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ use crate::scene::{Part, Scene};
 use crate::style::Style;
 use crate::surface::Patches;
 
-/// A scene made ready at rest, for drawings whose strokes last while it moves.
+/// Scene prepared at rest, for animations whose strokes persist while it moves.
 ///
 /// ```
 /// use ligne::drawing::{Page, Unit};
@@ -45,12 +45,12 @@ pub struct Resting<'a> {
     style: &'a Style,
     still: Prepared<'a>,
     patches: Option<Patches>,
-    /// None where the mesh cannot be followed: then every pose is made ready from the start.
+    /// `None` if the mesh cannot be tracked. Then every pose is prepared from the start.
     sources: Option<Sources>,
 }
 
 impl<'a> Resting<'a> {
-    /// Makes a scene ready that stands as it is stored.
+    /// Prepares a scene in its stored pose.
     #[must_use]
     pub fn new(scene: &'a Scene, style: &'a Style) -> Self {
         let made = Self::without_anchors(scene, style);
@@ -63,16 +63,16 @@ impl<'a> Resting<'a> {
         Self { scene, style, still, patches, sources }
     }
 
-    /// The scene as it is stored.
+    /// The scene in its stored pose.
     #[must_use]
     pub fn still(&self) -> &Prepared<'a> {
         &self.still
     }
 
-    /// The scene in a pose: the same parts and triangles, elsewhere.
+    /// Prepares a pose of the scene: the same parts and triangles in other positions.
     ///
-    /// Where parts are hidden, what is left is made ready at rest for this pose alone. Where parts have come, or vertices have parted
-    /// that are one at rest, the pose is made ready from the start.
+    /// If the pose hides parts, the rest is prepared at rest for this pose alone. If it adds parts, or
+    /// separates vertices that are welded at rest, it is prepared from the start.
     #[must_use]
     pub fn posed<'b>(&self, posed: &'b Scene) -> Prepared<'b>
     where
@@ -81,8 +81,8 @@ impl<'a> Resting<'a> {
         self.posed_after(posed, std::iter::empty)
     }
 
-    /// The scene in a pose, creased where it was creased a moment ago: `before` tells the poses of earlier moments, the latest first. No
-    /// more of them are asked for than decide about edges that turn by nearly the angle of a crease.
+    /// Prepares a pose with creases that are consistent with recent poses. `before` yields the poses of
+    /// earlier moments, latest first. Only as many are evaluated as edges near the crease angle need.
     #[must_use]
     pub fn posed_after<'b, I: Iterator<Item = Scene>>(
         &self,
@@ -102,7 +102,7 @@ impl<'a> Resting<'a> {
         prepared.anchored(posed, self.scene)
     }
 
-    /// A pose in which the mesh is that at rest, moved.
+    /// Prepares a pose by moving the vertices of the resting mesh; `None` if that is not possible.
     fn following<'b>(
         &self,
         posed: &'b Scene,
@@ -118,7 +118,7 @@ impl<'a> Resting<'a> {
         let soup = scene.to_soup();
         let mut paints = self.still.paints.clone();
         if posed.materials != self.scene.materials {
-            // Another opacity may leave or cut other triangles, which need not be more or less of them.
+            // Another opacity can remove or cut other triangles, even if their number stays the same.
             let rest = self.still.scene.to_soup();
             if rest.triangles != soup.triangles || rest.triangle_material != soup.triangle_material {
                 return None;
@@ -158,12 +158,13 @@ impl<'a> Resting<'a> {
     }
 }
 
-/// A scene at rest without the parts that a pose of it hides; none if it hides none, or is no pose of it.
+/// The resting scene without the parts that a pose hides. `None` if the pose hides none or belongs to another
+/// scene.
 fn left_of(scene: &Scene, posed: &Scene) -> Option<Scene> {
     let mut wanted = posed.parts.iter().peekable();
     let mut parts = scene.parts.clone();
     parts.retain(|part| {
-        // Of parts of one name and shape it does not matter which is left.
+        // Of parts with equal name and geometry, any one may remain.
         let is_next = |next: &&Part| next.name == part.name && next.geometry == part.geometry;
         wanted.next_if(is_next).is_some()
     });
@@ -173,8 +174,10 @@ fn left_of(scene: &Scene, posed: &Scene) -> Option<Scene> {
 }
 
 impl Prepared<'_> {
-    /// With strokes that last while the model moves: they are named after where on the model at rest they are, and what of them
-    /// varies by chance varies over its surface. `posed` is the scene that this was made of, and `rest` the same at rest.
+    /// Adds anchors, so that strokes persist while the model moves. Strokes are named after their position on
+    /// the resting model, and their random effects vary over its surface.
+    ///
+    /// `posed` is the scene of this preparation, and `rest` the same at rest.
     fn anchored(self, posed: &Scene, rest: &Scene) -> Self {
         Self { anchors: Some(Anchors::new(posed, rest)), ..self }
     }

@@ -1,31 +1,31 @@
-//! [`Report`]: what a drawing took and what it holds, as JSON for other programs.
+//! [`Report`]: times and counts of a drawing, as JSON for other programs.
 
 use kurbo::PathEl;
 use serde::Serialize;
 
-/// How long each stage took, in milliseconds; 0 for stages that did not run. Lines are linked while surfaces are painted and hatched: each
-/// counts that time as its own.
+/// Time of each stage in milliseconds; 0 for stages that did not run. Linking runs in parallel with painting
+/// and hatching, and each counts its own time.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct StagesMs {
     /// Reading the model file.
     pub load: f64,
-    /// Welding and finding the edges.
+    /// Welding and finding edges.
     pub topology: f64,
     /// Posing skins and morphs.
     pub pose: f64,
     /// Finding feature lines.
     pub features: f64,
-    /// Deciding what is hidden.
+    /// Deciding visibility.
     pub visibility: f64,
     /// Linking, tidying, smoothing and fitting chains.
     pub chains: f64,
-    /// Giving chains their ink.
+    /// Drawing strokes.
     pub strokes: f64,
     /// Gathering regions.
     pub regions: f64,
-    /// Filling regions with hatches.
+    /// Hatching.
     pub hatching: f64,
-    /// Writing the drawing in its formats.
+    /// Writing the drawing in its file formats.
     pub write: f64,
 }
 
@@ -46,25 +46,25 @@ impl std::ops::AddAssign for StagesMs {
     }
 }
 
-/// How much of everything there was.
+/// Counts of a drawing and its model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[non_exhaustive]
 pub struct Counts {
-    /// Triangles of the model, instances counted each.
+    /// Triangles of the model, with each instance counted.
     pub triangles: u64,
     /// Vertices after welding.
     pub vertices: u64,
     /// Edges of the mesh.
     pub edges: u64,
-    /// Pieces of feature lines.
+    /// Segments of feature lines.
     pub feature_edges: u64,
-    /// Rays that decided what is hidden.
+    /// Rays cast to decide visibility.
     pub ray_tests: u64,
-    /// Contours of rounded surfaces that are curves.
+    /// Contours of rounded surfaces that are smooth curves.
     pub contour_curves: u64,
-    /// Pieces of the polyhedron's contour that are drawn themselves, as no curve is near.
+    /// Pieces of the mesh contour that are drawn themselves, because no smooth curve is near.
     pub contour_bare: u64,
-    /// Pieces of the polyhedron's contour that are left out as folds of a few faces.
+    /// Pieces of the mesh contour that are omitted as folds of a few faces.
     pub contour_folds: u64,
     /// Chains.
     pub chains: u64,
@@ -74,9 +74,9 @@ pub struct Counts {
     pub points: u64,
     /// Regions.
     pub regions: u64,
-    /// Cells of regions in which different looks were seen.
+    /// Region cells where different looks were seen.
     pub leaks: u64,
-    /// Bytes of all outputs together, the report left out.
+    /// Bytes of all outputs together, without the report.
     pub bytes_out: u64,
 }
 
@@ -102,7 +102,7 @@ impl std::ops::AddAssign for Counts {
     }
 }
 
-/// What a drawing took and what it holds.
+/// Times, counts and warnings of a drawing.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 #[non_exhaustive]
 pub struct Report {
@@ -110,12 +110,12 @@ pub struct Report {
     pub stages_ms: StagesMs,
     /// Counts.
     pub counts: Counts,
-    /// Defects that were drawn around, one line each.
+    /// Defects and other problems, one line each.
     pub warnings: Vec<String>,
 }
 
 impl Report {
-    /// The report as JSON, indented, with a line end.
+    /// The report as indented JSON with a final newline.
     #[must_use]
     pub fn to_json(&self) -> String {
         // Numbers and strings always serialise.
@@ -125,8 +125,8 @@ impl Report {
     }
 }
 
-/// Measures stages: the only place that reads a clock, and no drawing depends on it. Where there is no clock,
-/// as in a browser's bare WebAssembly, all stages take no time.
+/// Stopwatch for stages. It is the only reader of a clock, and no drawing depends on it. Without a clock, as
+/// in bare WebAssembly in a browser, all times are 0.
 #[derive(Debug, Clone, Copy)]
 pub struct Stopwatch {
     started: Moment,
@@ -134,14 +134,14 @@ pub struct Stopwatch {
 }
 
 impl Stopwatch {
-    /// A stopwatch that runs from now.
+    /// A stopwatch that starts now.
     #[must_use]
     pub fn start() -> Self {
         let now = Moment::now();
         Self { started: now, lap: now }
     }
 
-    /// Milliseconds since the last lap (or the start), and the start of the next.
+    /// Milliseconds since the last lap or the start. Starts the next lap.
     pub fn lap_ms(&mut self) -> f64 {
         let now = Moment::now();
         let lap = now.seconds_since(self.lap);
@@ -156,7 +156,7 @@ impl Stopwatch {
     }
 }
 
-/// What a clock shows.
+/// Reading of a clock.
 #[cfg(not(all(target_family = "wasm", target_os = "unknown")))]
 #[derive(Debug, Clone, Copy)]
 struct Moment(std::time::Instant);
@@ -172,7 +172,7 @@ impl Moment {
     }
 }
 
-/// What a clock would show.
+/// Reading of a clock on platforms without one.
 #[cfg(all(target_family = "wasm", target_os = "unknown"))]
 #[derive(Debug, Clone, Copy)]
 struct Moment;

@@ -1,8 +1,14 @@
 //! [`reason`]: why a drawing has no mark.
 //!
-//! What could be drawn is narrowed down, in the order of the pipeline: what the scene holds, what of it has an area or a
-//! length, what the style asks for, what lies before the camera, what lies in its frame, and what is not seen edge-on. The
-//! first step that leaves nothing is the reason.
+//! The candidates are narrowed down in pipeline order:
+//! 1. contents of the scene;
+//! 2. those with an area or a length;
+//! 3. those that the style draws;
+//! 4. those in front of the camera;
+//! 5. those in its frame;
+//! 6. those not seen edge-on.
+//!
+//! The first step that leaves nothing is the reason.
 
 use glam::DVec3;
 
@@ -12,13 +18,13 @@ use crate::scene::Scene;
 use crate::style::Style;
 use crate::view::{Frame, View};
 
-/// Whether layers show nothing of a model: no mark, or those of the paper alone.
+/// Whether layers show nothing of a model: no mark except those of the paper.
 pub(crate) fn shows_nothing(layers: &[Layer]) -> bool {
     let is_paper = |kind: LayerKind| matches!(kind, LayerKind::Paper | LayerKind::Tooth);
     layers.iter().all(|layer| is_paper(layer.kind) || layer.marks.is_empty())
 }
 
-/// Why a drawing is empty, as a sentence; `has_chains` if lines are in sight.
+/// The reason why a drawing is empty, as a sentence. `has_chains` says whether lines are visible.
 pub(crate) fn reason(scene: &Scene, (mesh, view): (&Mesh, &View), style: &Style, has_chains: bool) -> String {
     let why = of_scene(scene, mesh).or_else(|| of_style(style)).or_else(|| of_view(mesh, view)).unwrap_or(
         if has_chains {
@@ -30,7 +36,7 @@ pub(crate) fn reason(scene: &Scene, (mesh, view): (&Mesh, &View), style: &Style,
     format!("the drawing is empty: {why}")
 }
 
-/// The reason in the scene.
+/// The reason in the scene, if it is there.
 fn of_scene(scene: &Scene, mesh: &Mesh) -> Option<&'static str> {
     if scene.parts.is_empty() {
         return Some("the scene has no parts");
@@ -52,14 +58,14 @@ fn of_scene(scene: &Scene, mesh: &Mesh) -> Option<&'static str> {
     })
 }
 
-/// The reason in the style.
+/// The reason in the style, if it is there.
 fn of_style(style: &Style) -> Option<&'static str> {
     let has_lines = style.lines.enabled && !style.lines.kinds.is_empty();
     let draws = has_lines || style.region.enabled || style.hatch.enabled || style.motion.enabled;
     (!draws).then_some("the style draws neither lines nor surfaces")
 }
 
-/// Where the model is instead of in the frame.
+/// The reason in the view, if it is there: the position of the model.
 fn of_view(mesh: &Mesh, view: &View) -> Option<&'static str> {
     let frame = &view.frame;
     let faces = mesh.triangles.iter().zip(&mesh.face_normals).filter(|(_, normal)| **normal != [0.0; 3]);
@@ -81,7 +87,7 @@ fn of_view(mesh: &Mesh, view: &View) -> Option<&'static str> {
     }
     for wire in &mesh.wires {
         let points = image(view, &wire.vertices);
-        // A wire that the near plane cuts may go on in the frame.
+        // A wire cut by the near plane may continue in the frame.
         let cut = points.iter().filter(|p| p.z.is_nan()).count();
         before |= cut < points.len();
         let is_inside = cut < points.len() && (cut > 0 || is_in_frame(frame, &points));
@@ -100,7 +106,7 @@ fn image(view: &View, vertices: &[u32]) -> Vec<DVec3> {
     vertices.iter().filter_map(|v| view.points.get(*v as usize).copied()).collect()
 }
 
-/// Whether the box round some points of the image meets the frame.
+/// Whether the bounding box of image points overlaps the frame.
 fn is_in_frame(frame: &Frame, points: &[DVec3]) -> bool {
     let low = points.iter().copied().fold(DVec3::INFINITY, DVec3::min);
     let high = points.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max);

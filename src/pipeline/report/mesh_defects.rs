@@ -1,11 +1,11 @@
-//! What is wrong with a mesh, as warnings.
+//! Mesh defects as warnings.
 
 use std::collections::BTreeMap;
 
 use crate::mesh::{EdgeFaces, Mesh, PartId};
 use crate::scene::{Scene, Warnings};
 
-/// The defects that cleaning found and drew around, counted and named by part.
+/// The defects that cleaning found, counted and named by part.
 #[must_use]
 pub fn of_mesh(mesh: &Mesh, scene: &Scene) -> Warnings {
     let mut warnings = Warnings::default();
@@ -23,9 +23,10 @@ pub fn of_mesh(mesh: &Mesh, scene: &Scene) -> Warnings {
     warnings
 }
 
-/// Number of edges at which the faces of one part cannot be paired to surfaces: as many have to
-/// run along the edge one way as the other. Where parts touch, or solids of one part, each has its
-/// own pair of faces, and nothing is wrong.
+/// Number of edges per part where the faces cannot be paired into surfaces.
+///
+/// Along a manifold edge equal numbers of faces run in both directions. Where parts or solids touch, each has
+/// its own pair of faces, which is no defect.
 fn non_manifold_by_part(mesh: &Mesh) -> BTreeMap<PartId, u64> {
     let mut counts: BTreeMap<PartId, u64> = BTreeMap::new();
     for edge in 0..mesh.edges.len() {

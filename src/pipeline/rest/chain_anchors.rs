@@ -1,7 +1,7 @@
-//! [`Anchors`]: where on the model at rest the points of lines are, so that strokes last while it moves.
+//! [`Anchors`]: positions of line points on the model at rest, so that strokes persist while the model moves.
 //!
-//! A point of a chain is put back from the page into the world; the nearest triangle of its part says what place on the
-//! surface that is, and the same triangle of the part at rest where this place rests.
+//! A point of a chain is unprojected from the page into the world. The closest triangle of its part gives its
+//! position on the surface. The same triangle of the resting part gives its rest position.
 
 use std::sync::Arc;
 
@@ -16,17 +16,17 @@ use crate::mesh::bvh::nearest_tree::NearestTree;
 use crate::mesh::normals::triangle_area::has_own_area;
 use crate::scene::{Camera, Geometry, Part, Projection, Scene};
 
-/// The parts of a posed scene, and how they rest.
+/// Parts of a posed scene, with their rest positions.
 #[derive(Debug)]
 pub(crate) struct Anchors {
-    /// One a geometry of the scene that parts show.
+    /// One entry per geometry of the scene.
     resting: Vec<Resting>,
     parts: Vec<Posed>,
-    /// What tells parts apart.
+    /// A stable number for each part.
     names: Vec<u64>,
 }
 
-/// A geometry as it rests.
+/// Geometry at rest.
 #[derive(Debug)]
 struct Resting {
     triangles: Arc<[[DVec3; 3]]>,
@@ -34,20 +34,21 @@ struct Resting {
     diagonal: f64,
 }
 
-/// A part as it is posed.
+/// Part in its pose.
 #[derive(Debug)]
 struct Posed {
     geometry: usize,
     tree: NearestTree,
-    /// World units in a diagonal of its geometry.
+    /// World units per diagonal of its geometry.
     size: f64,
-    /// Where its geometry rests in the world, and whether every corner is there now.
+    /// Transform from the geometry at rest to the world, and whether every corner now lies there.
     rest: DAffine3,
     rests: bool,
 }
 
 impl Anchors {
-    /// Of a scene and the same at rest: geometries of one number have the same triangles.
+    /// The anchors of a posed scene and the same scene at rest. Geometries with equal numbers must have the
+    /// same triangles.
     pub fn new(posed: &Scene, rest: &Scene) -> Self {
         let resting: Vec<Resting> = rest.geometries.par_iter().map(Resting::new).collect();
         let part = |(number, part): (usize, &Part)| {
@@ -71,14 +72,15 @@ impl Anchors {
         Self { resting, parts, names }
     }
 
-    /// Tells chains, which lie in the frame of a camera moved by `margin`, where on the model they are, and names them.
+    /// Sets the anchor of every chain sample and names the chains. `margin` is the offset of the camera's
+    /// frame on the page.
     pub fn ask(&self, chains: &mut [Chain], camera: &Camera, margin: kurbo::Vec2) {
         let [right, up, forward] = camera.axes();
         let perspective = match camera.projection {
             Projection::Perspective { fov_y_deg } => Some(tan(fov_y_deg.to_radians() / 2.0)),
             Projection::Orthographic { .. } => None,
         };
-        // World units in a unit of the page, at a depth.
+        // World units per page unit, at a depth.
         let unit = |depth: f64| match (perspective, camera.projection) {
             (Some(tangent), _) => 2.0 * tangent * depth / camera.height,
             (None, Projection::Orthographic { height }) => height / camera.height,
@@ -97,24 +99,24 @@ impl Anchors {
         chain_identity::name(chains, &self.names);
     }
 
-    /// Whether all stands as it rests.
+    /// Whether every part is in its rest position.
     pub fn rests(&self) -> bool {
         self.parts.iter().all(|part| part.rests)
     }
 
-    /// Where a point near a part rests, world.
+    /// The rest position of a point near a part, world.
     pub fn at_rest(&self, part: PartId, world: DVec3) -> Option<DVec3> {
         let part = self.parts.get(part.index())?;
         let (place, _) = self.resting_place(part, world)?;
         Some(part.rest.transform_point3(place))
     }
 
-    /// Where on a part a point near it is.
+    /// The anchor of a point near a part.
     pub fn place(&self, part: PartId, world: DVec3) -> Option<Anchor> {
         self.anchor(self.parts.get(part.index())?, world, 1.0)
     }
 
-    /// Where a point near a part is on its geometry at rest.
+    /// The position of a point near a part on its resting geometry.
     fn resting_place(&self, part: &Posed, world: DVec3) -> Option<(DVec3, &Resting)> {
         let resting = self.resting.get(part.geometry)?;
         let nearest = part.tree.nearest(world)?;
@@ -122,7 +124,7 @@ impl Anchors {
         Some((*a * nearest.weights.x + *b * nearest.weights.y + *c * nearest.weights.z, resting))
     }
 
-    /// Where a point near a part is on it; a unit of the page is `unit` long there.
+    /// The anchor of a point near a part. `unit` is the length of a page unit there.
     fn anchor(&self, part: &Posed, world: DVec3, unit: f64) -> Option<Anchor> {
         let (place, resting) = self.resting_place(part, world).filter(|_| unit > 0.0)?;
         let place = (place - resting.middle) / resting.diagonal;
@@ -134,7 +136,7 @@ impl Anchors {
 impl Resting {
     fn new(geometry: &Geometry) -> Self {
         let triangles = corners(geometry);
-        // Faces without area are not drawn, and count only where there are no others.
+        // Faces without area are not drawn. They count only if there are no others.
         let counted = bounds(triangles.iter().filter(|corners| has_own_area(**corners)));
         let (low, high) = counted.or_else(|| bounds(triangles.iter())).unwrap_or_default();
         let diagonal = (high - low).length();
@@ -143,13 +145,13 @@ impl Resting {
     }
 }
 
-/// The box around the corners of triangles that are numbers.
+/// The bounding box of triangle corners, without non-finite ones.
 fn bounds<'a>(triangles: impl Iterator<Item = &'a [DVec3; 3]>) -> Option<(DVec3, DVec3)> {
     let finite = triangles.flatten().filter(|p| p.is_finite());
     finite.map(|p| (*p, *p)).reduce(|(low, high), (p, _)| (low.min(p), high.max(p)))
 }
 
-/// The corners of all triangles of a geometry; of those that refer to nothing none is a number.
+/// The corners of all triangles of a geometry. Invalid indices give NaN.
 fn corners(geometry: &Geometry) -> Vec<[DVec3; 3]> {
     let corner = |vertex: u32| geometry.positions.get(vertex as usize).copied().unwrap_or(DVec3::NAN);
     geometry.triangles.iter().map(|triangle| triangle.map(corner)).collect()

@@ -1,4 +1,5 @@
-//! [`AtRest`]: where the vertices of a posed mesh rest, so that what is laid through the model moves with it.
+//! [`AtRest`]: rest positions of the vertices of a posed mesh, so that patterns laid through the model move
+//! with it.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -7,15 +8,15 @@ use super::chain_anchors::Anchors;
 use crate::chains::Anchor;
 use crate::mesh::{Mesh, PartId};
 
-/// A posed mesh as it rests.
+/// Posed mesh with its rest positions.
 pub(crate) struct AtRest<'a> {
     anchors: &'a Anchors,
-    /// World places, one a vertex.
+    /// Rest positions in world space, one per vertex.
     places: Vec<DVec3>,
 }
 
 impl<'a> AtRest<'a> {
-    /// None where all stands as it rests.
+    /// `None` if every part is in its rest position.
     pub fn new(anchors: &'a Anchors, mesh: &Mesh) -> Option<Self> {
         if anchors.rests() {
             return None;
@@ -35,13 +36,13 @@ impl<'a> AtRest<'a> {
         Some(Self { anchors, places: mesh.positions.par_iter().zip(parts).map(rest).collect() })
     }
 
-    /// Where the corners of a face rest, world; `None` for numbers that are none.
+    /// The rest positions of a face's corners, world. `None` for invalid vertex numbers.
     pub fn corners(&self, triangle: [u32; 3]) -> Option<[DVec3; 3]> {
         let [a, b, c] = triangle.map(|vertex| self.places.get(vertex as usize).copied());
         Some([a?, b?, c?])
     }
 
-    /// Where on its part a point of the posed surface is, world.
+    /// The anchor of a point on the posed surface of a part, world.
     pub fn anchor(&self, part: PartId, world: DVec3) -> Option<Anchor> {
         self.anchors.place(part, world)
     }

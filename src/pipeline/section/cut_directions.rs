@@ -1,4 +1,4 @@
-//! [`long_sides`]: the directions of the long straight sides of a cut face in the picture.
+//! [`long_sides`]: directions of the long straight sides of a cut face in the picture.
 
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
@@ -7,23 +7,24 @@ use crate::edit::section::CutFaces;
 use crate::geometry::numbers::portable_math::atan2;
 use crate::scene::{Camera, Projection, Scene};
 
-/// Lines within this angle of a side count as parallel to it, degrees.
+/// Angle within which hatching counts as parallel to a side, degrees.
 pub(crate) const PARALLEL_DEG: f64 = 10.0;
 
-/// Sides whose directions differ by less than this run in one direction, degrees: what rounding leaves of them.
+/// Greatest difference between sides of one direction, degrees. It covers rounding.
 const ONE_DIRECTION_DEG: f64 = 0.1;
 
-/// A direction is long if its sides together have at least this share of the length of the longest direction. All sides of a regular
-/// polygon are long, and none of the small steps of a rounding beside a straight side.
+/// Least total length of a long direction as a share of the longest direction. All sides of a regular polygon
+/// are long. The small steps of a rounding next to a straight side are not.
 const LONG_SHARE: f64 = 0.5;
 
-/// The directions of the long sides of cut faces as cameras see them: degrees from the horizontal, counter-clockwise, 0 to 180.
+/// The directions of the long sides of cut faces in the pictures of the cameras: degrees from the horizontal,
+/// counter-clockwise, 0 to 180.
 pub(crate) fn long_sides(scene: &Scene, faces: &CutFaces, cameras: &[Camera]) -> Vec<f64> {
     let border = border(scene, faces);
     cameras.iter().flat_map(|camera| long_directions(&border, camera)).collect()
 }
 
-/// The sides of the faces that no two of their triangles share, world.
+/// The sides of the faces that belong to only one of their triangles, world.
 fn border(scene: &Scene, faces: &CutFaces) -> Vec<[DVec3; 2]> {
     let Some(part) = scene.parts.get(faces.part) else { return Vec::new() };
     let Some(shape) = scene.geometry_of(part) else { return Vec::new() };
@@ -42,7 +43,7 @@ fn border(scene: &Scene, faces: &CutFaces) -> Vec<[DVec3; 2]> {
     sides.into_iter().filter_map(|[a, b]| Some([place(a)?, place(b)?])).collect()
 }
 
-/// The long directions of sides as a camera sees them.
+/// The long directions of sides in the picture of a camera.
 fn long_directions(sides: &[[DVec3; 2]], camera: &Camera) -> Vec<f64> {
     let [right, up, forward] = camera.axes();
     let place = |p: DVec3| {
@@ -60,7 +61,7 @@ fn long_directions(sides: &[[DVec3; 2]], camera: &Camera) -> Vec<f64> {
     };
     let mut sides: Vec<(f64, f64)> = sides.iter().filter_map(side).collect();
     sides.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
-    // Each with the direction of the longest side and the length of all.
+    // Each direction is that of its longest side, with the total length.
     let mut directions: Vec<(f64, f64)> = Vec::new();
     let mut first = f64::NEG_INFINITY;
     let mut longest = 0.0;
@@ -78,7 +79,7 @@ fn long_directions(sides: &[[DVec3; 2]], camera: &Camera) -> Vec<f64> {
             }
         }
     }
-    // Level sides lie at both ends of the order.
+    // Directions near 0 and near 180 degrees are one.
     if let [first, .., last] = directions.as_slice()
         && first.0 + 180.0 - last.0 < ONE_DIRECTION_DEG
     {

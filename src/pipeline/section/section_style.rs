@@ -1,4 +1,5 @@
-//! [`hatched`], [`hatched_for`], [`trailed`]: styles that also hatch the faces along which a scene is cut open, and draw trails of parts.
+//! [`hatched`], [`hatched_for`], [`trailed`]: styles that also hatch the cut faces of a scene and draw the
+//! trails of moved parts.
 
 use super::cut_directions::{PARALLEL_DEG, long_sides};
 use crate::drawing::{Length, Unit};
@@ -26,15 +27,15 @@ pub fn trailed(style: &Style) -> Style {
     style
 }
 
-/// Width of trail lines.
+/// Width of trail lines, mm.
 const TRAIL_MM: f64 = 0.25;
 
-/// The distance of lines on cut faces, and their width.
+/// Spacing of hatching lines on cut faces, and their width, mm.
 const SPACING_MM: f64 = 2.0;
 const WIDTH_MM: f64 = 0.18;
 
-/// Degrees that the lines of cut parts are turned by, and by how much they are farther apart: neighbours differ in one of both
-/// (ISO 128-50, 6.2).
+/// Angles (degrees) and spacing factors of the hatching of cut parts. Neighbours differ in at least one of
+/// them (ISO 128-50, 6.2).
 const KINDS: [(f64, f64); 8] = [
     (45.0, 1.0),
     (135.0, 1.0),
@@ -46,17 +47,17 @@ const KINDS: [(f64, f64); 8] = [
     (120.0, 1.0),
 ];
 
-/// More angles, for parts of which long sides run along 45 and 135 degrees.
+/// Additional angles, for parts with long sides along 45 and 135 degrees.
 const ANGLES: [f64; 6] = [60.0, 150.0, 15.0, 105.0, 75.0, 165.0];
 
-/// By how much the lines of parts at these angles are farther apart.
+/// Spacing factors of hatching at the additional angles.
 const SPACINGS: [f64; 3] = [1.0, 1.7, 0.6];
 
-/// How many ways of hatching there are: those of [`KINDS`], and [`ANGLES`] and all whole degrees at each of [`SPACINGS`].
+/// Number of kinds of hatching: [`KINDS`], then [`ANGLES`] and all whole degrees, each with every factor of
+/// [`SPACINGS`].
 const ALL_KINDS: usize = KINDS.len() + (ANGLES.len() + 180) * SPACINGS.len();
 
-/// The angle of the lines of a kind, degrees, and by how much they are farther apart. The last kinds are whole degrees, those near 45 and
-/// 135 first.
+/// Angle (degrees) and spacing factor of a kind. The last kinds are whole degrees, starting near 45 and 135.
 fn lines_of(kind: usize) -> (f64, f64) {
     let kind = kind % ALL_KINDS;
     let Some(more) = kind.checked_sub(KINDS.len()) else { return KINDS[kind] };
@@ -69,9 +70,11 @@ fn lines_of(kind: usize) -> (f64, f64) {
     (angle, farther)
 }
 
-/// The same as [`hatched`] for views of a scene that was cut open: on a part the lines have another angle where they would run within 10
-/// degrees along its long sides as any of the cameras sees them, if there is such an angle. Neighbouring parts still differ. The numbers of
-/// the faces and the names of their materials are changed to match.
+/// Like [`hatched`], for particular views of a cut scene.
+///
+/// If the hatching of a part would run within 10 degrees of its long sides in the picture of any camera,
+/// another angle is used where one exists. Neighbouring parts still differ. The kinds of the faces and the
+/// names of their materials are updated.
 ///
 /// Source: ISO 128-50:2001, 4.
 #[must_use]
@@ -87,7 +90,7 @@ pub fn hatched_for(style: &Style, scene: &mut Scene, faces: &mut [CutFaces], cam
         };
         let near = done.iter().filter(|other| are_neighbours(&faces[own], &faces[**other]));
         let taken: Vec<usize> = near.map(|other| faces[*other].kind).collect();
-        // A pattern of the style itself has the angle that it has.
+        // A pattern that the style defines itself keeps its angle.
         let is_right = |kind: &usize| {
             !taken.contains(kind)
                 && (has_pattern(style, &material_name(*kind)) || !runs_along(lines_of(*kind).0))
@@ -103,14 +106,16 @@ pub fn hatched_for(style: &Style, scene: &mut Scene, faces: &mut [CutFaces], cam
     with_kinds(style, faces)
 }
 
-/// Whether a style has a pattern for a material.
+/// Whether a style has its own pattern for a material.
 fn has_pattern(style: &Style, name: &str) -> bool {
     style.patterns.iter().any(|own| own.material != Glob::new("*") && own.material.matches(name))
 }
 
-/// The style with thin lines at 45 degrees on the cut faces of a section, at other angles or distances on neighbouring parts, and with
-/// outlines of these faces as wide as the widest lines of the style. A pattern
-/// that the style itself has for the material of such faces (`cut 1`, `cut 2` and so on) is left as it is.
+/// The style with thin hatching on the cut faces of a section, at 45 degrees or at other angles and spacings
+/// on neighbouring parts.
+///
+/// The outlines of these faces are as wide as the widest lines of the style. A pattern that the style itself
+/// has for their material (`cut 1`, `cut 2` and so on) is kept.
 ///
 /// Source: ISO 128-50:2001, Basic conventions for representing areas on cuts and sections, 4 and 6.
 #[must_use]
@@ -127,7 +132,7 @@ fn with_kinds(style: &Style, faces: &[CutFaces]) -> Style {
         return style;
     }
     if !style.hatch.enabled {
-        // What is seen where is asked for; nothing but cut faces is hatched.
+        // Patterns need the hatching pass, but nothing except cut faces is hatched.
         style.hatch.enabled = true;
         style.hatch.layers.clear();
         style.hatch.coverage.clear();
@@ -154,7 +159,7 @@ fn with_kinds(style: &Style, faces: &[CutFaces]) -> Style {
             ..Pattern::default()
         });
     }
-    // Their outlines are as wide as any line of the style.
+    // Outlines are as wide as the widest line of the style.
     let always = |rule: &&Rule| {
         rule.when.part.is_none() && rule.when.material.is_none() && rule.when.hidden != Some(true)
     };

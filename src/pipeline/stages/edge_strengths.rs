@@ -1,5 +1,5 @@
-//! The visible view edges by how strong they are: creases by how much they turn, lines inside by how
-//! pronounced they are, and all that knows no strength in grey.
+//! The visible view edges by strength: creases by their angle, inner lines by their strength, and kinds
+//! without strength in grey.
 
 use super::stage_marks::{PALE, Runs, line};
 use super::{Made, layers};
@@ -8,7 +8,7 @@ use crate::drawing::{Layer, LayerKind};
 use crate::lines::LineKind;
 use crate::visibility::ViewEdge;
 
-/// From weak to strong: ever darker, so that it can be read without its colours.
+/// Colours from weak to strong. They darken steadily, so that the order can be read without hues.
 const RAMP: [Colour; 6] = [
     Colour::rgb(0xf2, 0xae, 0x2e),
     Colour::rgb(0xe8, 0x7a, 0x3e),
@@ -18,7 +18,7 @@ const RAMP: [Colour; 6] = [
     Colour::rgb(0x26, 0x18, 0x5a),
 ];
 
-/// A view edge's step on the ramp; `None` where its kind has no strength.
+/// A view edge's step on the ramp; `None` if its kind has no strength.
 fn step(made: &Made, edge: &ViewEdge) -> Option<usize> {
     let share = match edge.kind {
         LineKind::Crease => f64::from(edge.strength) / 180.0,
@@ -31,7 +31,7 @@ fn step(made: &Made, edge: &ViewEdge) -> Option<usize> {
     Some(((share * RAMP.len() as f64).max(0.0) as usize).min(RAMP.len() - 1))
 }
 
-/// What the marks of a step say.
+/// Title of the marks of a step.
 fn note(kind: LineKind, step: usize) -> String {
     let share = |k: usize| k as f64 / RAMP.len() as f64;
     if kind == LineKind::Crease {
@@ -41,7 +41,7 @@ fn note(kind: LineKind, step: usize) -> String {
     }
 }
 
-/// Weak ones first, so that strong ones lie over them.
+/// Draws weak edges first, so that strong ones lie over them.
 pub(crate) fn draw(made: &Made) -> Vec<Layer> {
     let mut steps: Vec<Option<usize>> = vec![None];
     steps.extend((0..RAMP.len()).map(Some));

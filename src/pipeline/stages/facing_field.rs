@@ -1,5 +1,5 @@
-//! n·v on the faces in front: bands of colour, warm where the surface faces the eye and cool where it
-//! is averted, with the zero set between them as a dark line.
+//! n·v on the front faces: bands of colour, warm where the surface faces the camera and cool where it is
+//! averted. The zero set between them is a dark line.
 
 use kurbo::{BezPath, Point, Vec2};
 
@@ -12,12 +12,12 @@ use crate::lines;
 use crate::view::raster::painter_order::back_to_front;
 use crate::view::raster::{FaceBuffer, Screen};
 
-/// Where one band ends and the next begins.
+/// Borders between bands.
 const LEVELS: [f64; 9] = [-0.8, -0.6, -0.4, -0.2, 0.0, 0.2, 0.4, 0.6, 0.8];
-/// Which of them is zero.
+/// Index of the zero level.
 const ZERO: u16 = 4;
 
-/// Colours of the bands, from the most averted.
+/// Colours of the bands, most averted first.
 const COLOURS: [Colour; 10] = [
     Colour::rgb(0x1d, 0x3c, 0x6e),
     Colour::rgb(0x2c, 0x5a, 0x96),
@@ -31,7 +31,8 @@ const COLOURS: [Colour; 10] = [
     Colour::rgb(0xfd, 0xee, 0xd9),
 ];
 
-/// Flat faces have no field; greys tell how much they turn to the eye, bluish ones are averted.
+/// Colours of flat faces, which have no smooth field: greys by their angle to the camera, and a bluish grey
+/// for averted ones.
 const FLAT: [Colour; 4] = [
     Colour::rgb(0xb4, 0xb4, 0xb0),
     Colour::rgb(0xcc, 0xcc, 0xc8),
@@ -40,13 +41,13 @@ const FLAT: [Colour; 4] = [
 ];
 const FLAT_AVERTED: Colour = Colour::rgb(0x86, 0x94, 0xa6);
 
-/// By how much a piece is widened, px: neighbours overlap by a hair, so that no paper shines through.
+/// Widening of pieces, px. Neighbours overlap slightly, so that no paper shows between them.
 const WIDEN_PX: f64 = 0.4;
 
-/// Corners whose sides turn by more than this cosine (120 degrees) are cut off when widened.
+/// Cosine of the turn above which a widened corner is bevelled, 120 degrees.
 const SHARP_COSINE: f64 = -0.5;
 
-/// The faces in front, painted from back to front, and the zero set over them.
+/// Draws the front faces from back to front, with the zero set over them.
 pub(crate) fn draw(made: &Made) -> Vec<Layer> {
     let (mesh, view) = (&made.surface.mesh, made.view);
     let cut = cut(mesh, &made.surface.smooth, &lines::facing(made.surface, view), &LEVELS);
@@ -78,13 +79,13 @@ fn flat_colour(made: &Made, face: u32) -> Colour {
     if !made.view.facing[face as usize] {
         return FLAT_AVERTED;
     }
-    // Along the axis of view, so that the triangles of one plane are alike.
+    // The view axis is used instead of the eye direction, so that triangles of one plane are alike.
     let normal = glam::Vec3::from_array(made.surface.mesh.face_normals[face as usize]).as_dvec3();
     let cosine = -normal.dot(made.view.frame.forward);
     FLAT[((cosine.max(0.0) * FLAT.len() as f64) as usize).min(FLAT.len() - 1)]
 }
 
-/// Paints a polygon; what is painted alike in turn is one mark.
+/// Paints a polygon. Consecutive polygons of one colour share a mark.
 fn paint(
     marks: &mut Vec<Mark>,
     made: &Made,
@@ -122,8 +123,8 @@ fn on_page(made: &Made, cut: &SurfaceCut, corner: u32) -> Option<Point> {
     (!point.z.is_nan()).then(|| Point::new(point.x, point.y) + made.margin())
 }
 
-/// A polygon with its sides moved out, always in the same sense, so that polygons that overlap in one
-/// path fill together.
+/// A polygon with its sides moved outwards, always in the same orientation, so that overlapping polygons in
+/// one path fill together.
 fn widened(points: &[Point], by: f64) -> Vec<Point> {
     let n = points.len();
     let twice_area: f64 = (0..n).map(|k| points[k].to_vec2().cross(points[(k + 1) % n].to_vec2())).sum();
@@ -147,7 +148,7 @@ fn widened(points: &[Point], by: f64) -> Vec<Point> {
     out
 }
 
-/// The zero set where the face that it crosses is in front, or no other face is.
+/// The zero set where its face is in front, or no face is.
 fn zero_set(made: &Made, cut: &SurfaceCut, buffer: &FaceBuffer) -> Option<BezPath> {
     let mesh = &made.surface.mesh;
     let per_unit = buffer.columns as f64 / made.view.frame.width;

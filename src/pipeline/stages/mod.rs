@@ -26,20 +26,20 @@ use crate::view::View;
 use crate::visibility::{Ahead, ViewMap};
 use stage_marks::{HUES, line, polyline};
 
-/// All that the stages of one drawing made.
+/// Results of the stages of one drawing.
 pub(crate) struct Made<'a> {
     pub surface: &'a Surface,
     pub view: &'a View,
     pub lines: &'a FeatureLines,
     pub ahead: &'a Ahead<'a>,
-    /// In the middle of the page.
+    /// View map, centred on the page.
     pub map: &'a ViewMap,
     pub chains: &'a [Chain],
     pub style: &'a Style,
     pub page: &'a Page,
 }
 
-/// What one stage made.
+/// Draws the result of one stage.
 pub(crate) fn draw(stage: Stage, made: &Made) -> Vec<Layer> {
     match stage {
         Stage::Field => facing_field::draw(made),
@@ -53,22 +53,22 @@ pub(crate) fn draw(stage: Stage, made: &Made) -> Vec<Layer> {
 }
 
 impl Made<'_> {
-    /// From the camera's frame to the page.
+    /// Offset from the camera's frame to the page.
     fn margin(&self) -> Vec2 {
         margin(&self.view.frame, self.page)
     }
 
-    /// So many px in the unit of the page.
+    /// A length in px, converted to the page's unit.
     fn px(&self, px: f64) -> f64 {
         Length::px(px).in_unit(self.page.unit)
     }
 
-    /// Width of a thin line.
+    /// Width of thin lines.
     fn thin(&self) -> f64 {
         self.px(0.8)
     }
 
-    /// What of a feature segment lies on the page, from its start to its end.
+    /// The part of a feature segment inside the page, from its start to its end.
     fn segment(&self, segment: u32) -> Option<[Point; 2]> {
         let mesh = &self.surface.mesh;
         let ends = self.lines.segments[segment as usize].ends;
@@ -80,12 +80,12 @@ impl Made<'_> {
     }
 }
 
-/// One colour a kind of line.
+/// Colour of a kind of line.
 fn kind_colour(kind: LineKind) -> Colour {
     HUES[kind as usize % HUES.len()]
 }
 
-/// All feature lines, hidden or not, one colour a kind.
+/// All feature lines, hidden or not, with one colour per kind.
 fn of_lines(made: &Made) -> Vec<Layer> {
     let marks = (0..made.lines.segments.len() as u32).filter_map(|s| {
         let kind = made.lines.segments[s as usize].kind;
@@ -94,8 +94,8 @@ fn of_lines(made: &Made) -> Vec<Layer> {
     layers([(LayerKind::Lines, marks.collect())])
 }
 
-/// Every view edge by itself: visible ones in a colour of their kind, hidden ones pale, so that
-/// the layers show what hides what.
+/// Every view edge separately. Visible edges have the colour of their kind. Hidden ones are pale, in a layer
+/// below.
 fn of_view_map(made: &Made) -> Vec<Layer> {
     let (mut hidden, mut visible) = (Vec::new(), Vec::new());
     for edge in &made.map.edges {
@@ -106,7 +106,7 @@ fn of_view_map(made: &Made) -> Vec<Layer> {
     layers([(LayerKind::HiddenLines, hidden), (LayerKind::Lines, visible)])
 }
 
-/// Every chain in the next of eight colours.
+/// Every chain, in eight colours that repeat.
 fn of_chains(made: &Made) -> Vec<Layer> {
     let (mut hidden, mut visible) = (Vec::new(), Vec::new());
     for (i, chain) in made.chains.iter().enumerate() {
@@ -117,7 +117,7 @@ fn of_chains(made: &Made) -> Vec<Layer> {
     layers([(LayerKind::HiddenLines, hidden), (LayerKind::Lines, visible)])
 }
 
-/// A line among the visible ones, or pale and thin among the hidden ones.
+/// Adds a line to the visible ones, or, pale and thin, to the hidden ones.
 fn push(
     path: kurbo::BezPath,
     colour: Colour,
@@ -136,7 +136,7 @@ fn push(
     }
 }
 
-/// The layers that hold anything, back to front.
+/// The layers that have marks, back to front.
 fn layers<const N: usize>(of: [(LayerKind, Vec<Mark>); N]) -> Vec<Layer> {
     of.into_iter()
         .filter(|(_, marks)| !marks.is_empty())

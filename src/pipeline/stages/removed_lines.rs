@@ -1,4 +1,4 @@
-//! The finished lines in grey, and over them what was left out on the way, one colour a reason.
+//! The finished lines in grey, and over them the lines removed on the way, with one colour per reason.
 
 use super::stage_marks::{HUES, PALE, line, polyline};
 use super::{Made, layers};
@@ -23,7 +23,7 @@ fn note(reason: Reason) -> &'static str {
     }
 }
 
-/// What remains, and what tidying left out.
+/// The remaining lines, and the lines that tidying removed.
 pub(crate) fn draw(made: &Made) -> Vec<Layer> {
     let style = made.style;
     let (chains, removed) =

@@ -1,22 +1,22 @@
-//! [`Stage`]: the stages whose result can be drawn in place of the finished drawing.
+//! [`Stage`]: pipeline stages whose results can be drawn in place of the finished drawing.
 
-/// A stage whose result can be drawn, for looking into the pipeline.
+/// Stage whose result can be drawn, for inspecting the pipeline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Stage {
-    /// n·v on the faces in front, in bands of colour parted by its zero set.
+    /// n·v on the front faces, in bands of colour separated by its zero set.
     Field,
-    /// The zero sets as they are traced, hidden or not, and where visibility may change.
+    /// Zero sets as traced, hidden or not, and the edges where visibility may change.
     Zeros,
-    /// All feature lines as they were found, hidden or not.
+    /// All feature lines as found, hidden or not.
     Lines,
-    /// The view map: every view edge by itself, with its invisibility.
+    /// The view map: every view edge separately, with its invisibility.
     ViewMap,
-    /// The visible view edges, coloured by how strong they are.
+    /// The visible view edges, coloured by strength.
     Strengths,
-    /// The chains, before they get their pens.
+    /// The chains, before they get pens.
     Chains,
-    /// The chains in grey, and what was left out on the way to them.
+    /// The chains in grey, and the lines removed on the way.
     Removed,
 }
 
@@ -39,7 +39,7 @@ impl Stage {
         }
     }
 
-    /// The stage of that name.
+    /// The stage of a name on the command line.
     #[must_use]
     pub fn parse(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|stage| stage.name() == name)

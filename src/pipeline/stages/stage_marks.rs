@@ -1,4 +1,4 @@
-//! The marks that pictures of stages are made of, and their colours.
+//! Marks and colours for pictures of stages.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use kurbo::{BezPath, Point};
 use crate::colour::srgb::Colour;
 use crate::drawing::{Cap, Join, Mark, Paint, Provenance, StrokePaint};
 
-/// Hues that are easily told apart, for things that lie side by side.
+/// Hues that are easy to distinguish, for adjacent things.
 pub(crate) const HUES: [Colour; 8] = [
     Colour::rgb(0xd6, 0x27, 0x28),
     Colour::rgb(0x1f, 0x77, 0xb4),
@@ -19,7 +19,7 @@ pub(crate) const HUES: [Colour; 8] = [
     Colour::rgb(0x17, 0xbe, 0xcf),
 ];
 
-/// What lies there for orientation only.
+/// Colour of things that are drawn for orientation only.
 pub(crate) const PALE: Colour = Colour::rgb(0xb4, 0xb4, 0xb4);
 
 /// A line of constant width.
@@ -44,14 +44,14 @@ fn provenance(classes: &[&'static str], note: Option<&str>) -> Provenance {
     Provenance { classes: classes.to_vec(), note: note.map(Arc::from), ..Provenance::default() }
 }
 
-/// The path through some points.
+/// The polyline through the points.
 pub(crate) fn polyline(points: &[Point]) -> BezPath {
     let mut path = BezPath::new();
     add(&mut path, points);
     path
 }
 
-/// Adds a line through some points to a path.
+/// Adds a polyline through the points to a path.
 pub(crate) fn add(path: &mut BezPath, points: &[Point]) {
     if let Some((first, others)) = points.split_first() {
         path.move_to(*first);
@@ -59,7 +59,7 @@ pub(crate) fn add(path: &mut BezPath, points: &[Point]) {
     }
 }
 
-/// Segments that follow each other in a list, as the polylines they make.
+/// Joins consecutive segments of a list into polylines.
 #[derive(Debug, Default)]
 pub(crate) struct Runs {
     finished: BezPath,
@@ -67,7 +67,7 @@ pub(crate) struct Runs {
 }
 
 impl Runs {
-    /// Goes on with a segment: the same line where it begins where the last one ended.
+    /// Adds a segment. It continues the last line if it starts where that line ends.
     pub fn push(&mut self, [a, b]: [Point; 2]) {
         if self.points.last() != Some(&a) {
             self.end_line();
@@ -80,7 +80,7 @@ impl Runs {
         add(&mut self.finished, &std::mem::take(&mut self.points));
     }
 
-    /// All lines as one path; `None` where there is none.
+    /// All lines as one path; `None` if there are none.
     pub fn finish(mut self) -> Option<BezPath> {
         self.end_line();
         (!self.finished.elements().is_empty()).then_some(self.finished)

@@ -1,4 +1,4 @@
-//! The zero sets as they are traced, before anything is hidden, and the edges that say what is seen of them.
+//! The zero sets as traced, before hiding, and the mesh edges that decide their visibility.
 
 use super::stage_marks::{PALE, Runs, line};
 use super::{Made, layers};
@@ -6,13 +6,13 @@ use crate::colour::srgb::Colour;
 use crate::drawing::{Layer, LayerKind};
 use crate::lines::{LineKind, Role};
 
-/// Edges that say what of a contour is seen.
+/// Colour of mesh contour edges, which decide the visibility of smooth contours.
 const WITNESS: Colour = Colour::rgb(0xd6, 0x27, 0x28);
-/// Contours that run forward, and those that run backward between one cusp and the next.
+/// Colours of contours that run forward, and of those that run backward between two cusps.
 const FORWARD: Colour = Colour::rgb(0x1a, 0x1a, 0x1a);
 const BACKWARD: Colour = Colour::rgb(0x9b, 0x3f, 0xc4);
 
-/// Contours from curve to curve, lines inside, witnesses, all else pale.
+/// Draws contours along their curves, inner lines, mesh contour edges, and everything else pale.
 pub(crate) fn draw(made: &Made) -> Vec<Layer> {
     let mut lines = Vec::new();
     let mut on_curve = vec![false; made.lines.segments.len()];

@@ -1,4 +1,4 @@
-//! From the camera's frame to the page: the frame lies in its middle.
+//! Page transform: centres the camera's frame on the page.
 
 use kurbo::{Rect, Size, Vec2};
 
@@ -16,7 +16,7 @@ pub(crate) fn centre_on_page(map: &mut ViewMap, frame: &Frame, page: &Page) {
     }
 }
 
-/// From the camera's frame to the page.
+/// Offset from the camera's frame to the page.
 pub(crate) fn margin(frame: &Frame, page: &Page) -> Vec2 {
     Vec2::new(page.width - frame.width, page.height - frame.height) / 2.0
 }

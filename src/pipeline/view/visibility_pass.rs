@@ -1,4 +1,4 @@
-//! [`OnView`]: a view of which is known what is seen of its lines.
+//! [`OnView`]: a view with the visibility of its lines.
 
 use crate::drawing::{Length, Unit};
 use crate::lines::{self, FeatureLines, Known, Surface, Textures};
@@ -12,19 +12,19 @@ use crate::scene::Camera;
 use crate::view::View;
 use crate::visibility::{self, ViewMap};
 
-/// A view whose lines are seen or hidden.
+/// View with the visibility of its lines decided.
 pub(crate) struct OnView<'a> {
     pub surface: &'a Surface,
     pub view: &'a View,
     pub lines: &'a FeatureLines,
-    /// The numbers of tone borders without a change of tone, and of joints that are left out, ascending.
+    /// Numbers of tone borders without a change of tone, and of omitted joints, ascending.
     pub unchanged: Vec<u32>,
-    /// Where lines or surfaces have colours.
+    /// Set if lines or surfaces use colours.
     pub textures: Option<&'a Textures>,
-    /// Where surfaces are painted or hatched.
+    /// Set if surfaces are painted or hatched.
     pub fills: Option<&'a Fills<'a>>,
     pub map: ViewMap,
-    /// What is seen through materials that are not opaque.
+    /// Lines and surfaces visible through transparent materials.
     pub behind: Option<Behind<'a>>,
     pub report: Report,
     pub watch: Stopwatch,
@@ -32,7 +32,7 @@ pub(crate) struct OnView<'a> {
 }
 
 impl Prepared<'_> {
-    /// Decides what is seen of the lines of a view.
+    /// Decides the visibility of the lines of a view and calls `call` with the result.
     pub(crate) fn on_view<T: Send>(
         &self,
         camera: &Camera,
@@ -50,7 +50,7 @@ impl Prepared<'_> {
 
         let refined = self.surface.refined_for(camera, self.search.cones_of_next_view(&self.surface));
         let surface = refined.as_ref().map_or(&self.surface, |finer| &finer.surface);
-        // Finer triangles are those of this view alone.
+        // Refined triangles belong to this view only.
         let paint = || {
             let whole = self.paintable.as_ref().filter(|_| refined.is_some())?;
             Some(whole.finer(surface, paints.as_deref()?))
@@ -63,7 +63,7 @@ impl Prepared<'_> {
         report.stages_ms.topology = watch.lap_ms();
 
         let panes = glass::Panes::of(surface, scene, style);
-        // Through glass one sees more.
+        // Through glass more is visible.
         let is_clear = panes.is_none();
         let in_sight =
             is_clear.then(|| self.search.in_sight(surface, &view, finer.as_ref(), sought)).flatten();
@@ -84,9 +84,9 @@ impl Prepared<'_> {
         let of = |paints| Textures::new(&surface.mesh, &view, paints, px, &style.lines);
         let textures = paints.as_deref().map(of);
         let colours = paints.as_deref().zip(textures.as_ref());
-        // What one sees through casts no shadow.
+        // Transparent faces cast no shadow.
         let casting = panes.as_ref().map_or(&surface.mesh, glass::Panes::clear);
-        // Shadows on faces that this view has cut are its own.
+        // Shadows on faces that this view has split are not shared.
         let late = refined.is_none().then_some(&self.shadows);
         let fills = paintable.zip(colours).map(|(paintable, (paints, textures))| {
             let colours = Colours { paints, textures };

@@ -1,27 +1,29 @@
-//! Fewer points: borders that come in short pieces, one a face, keep only the points that bend them.
+//! Border simplification (Douglas-Peucker): chains of short border segments keep only the points that bend
+//! them.
 //!
-//! Source: Douglas and Peucker, "Algorithms for the reduction of the number of points required to
-//! represent a digitized line or its caricature", 1973. What the borders are cut into costs more than
-//! all that is done before, and a hundredth of a px is not seen.
+//! Later steps cost far more per segment than this one, and an error of a hundredth of a px is invisible.
+//! Source: Douglas and Peucker, "Algorithms for the reduction of the number of points required to represent a
+//! digitized line or its caricature", 1973.
 
 use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::snap_rounding::{Border, GridPoint};
 
-/// Segments of the grid, and what each parts.
+/// Segments on the grid, with the kind of border.
 pub(crate) type Segments = Vec<([GridPoint; 2], Border)>;
 
 const NONE: u32 = u32::MAX;
 
-/// Lines with fewer points: none moves farther than the `tolerance` of its border (steps of the
-/// grid), and points where lines meet or end stay.
+/// Simplifies lines of segments. Points where lines meet or end stay.
+///
+/// `tolerance` is the largest error for a kind of border, grid steps.
 pub(crate) fn thinned(segments: &Segments, tolerance: impl Fn(Border) -> f64) -> Segments {
     let lines = Lines::new(segments);
     let mut done = vec![false; segments.len()];
     let mut out = Segments::new();
     let mut points = Vec::new();
-    // Lines between places where others meet first, then what closes on itself.
+    // Lines between junctions first, then closed lines.
     for closed in [false, true] {
         for first in 0..segments.len() {
             for end in 0..2 {
@@ -37,14 +39,14 @@ pub(crate) fn thinned(segments: &Segments, tolerance: impl Fn(Border) -> f64) ->
             }
         }
     }
-    // Neither sense nor order of the lines shows.
+    // The result does not depend on the direction or order of the lines.
     out.iter_mut().for_each(|(ends, _)| ends.sort_unstable());
     out.par_sort_unstable();
     out
 }
 
-/// Turns a line so that it begins at its lesser end; a ring begins at its least point and goes on to the lesser
-/// of its neighbours.
+/// Gives a line a direction that depends on its points only. A line starts at its smaller end. A ring starts
+/// at its smallest point and continues to the smaller neighbour.
 fn make_canonical(points: &mut Vec<GridPoint>) {
     let last = points.len() - 1;
     if points[0] != points[last] {
@@ -62,14 +64,14 @@ fn make_canonical(points: &mut Vec<GridPoint>) {
     points.push(points[0]);
 }
 
-/// Segments by their ends.
+/// Segments by their end points.
 struct Lines<'a> {
     segments: &'a Segments,
-    /// Numbers of the ends of each segment.
+    /// Point ids of the ends of each segment.
     ends: Vec<[u32; 2]>,
-    /// The first two segments at each point.
+    /// First two segments at each point.
     at: Vec<[u32; 2]>,
-    /// How many there are.
+    /// Number of segment ends at each point.
     count: Vec<u32>,
 }
 
@@ -101,7 +103,7 @@ impl<'a> Lines<'a> {
         lines
     }
 
-    /// Whether a line goes on at a point: two segments of one kind meet there, and no more.
+    /// Whether a line continues at a point: exactly two segments meet there, of the same kind.
     fn goes_on(&self, point: u32) -> bool {
         let [a, b] = self.at[point as usize];
         self.count[point as usize] == 2
@@ -109,7 +111,7 @@ impl<'a> Lines<'a> {
             && self.segments[a as usize].1 == self.segments[b as usize].1
     }
 
-    /// The points of the line that sets out with a segment from one of its ends.
+    /// Points of the line that starts with a segment from one of its ends.
     fn follow(&self, first: usize, end: usize, done: &mut [bool], points: &mut Vec<GridPoint>) {
         let (mut segment, mut from) = (first, end);
         points.push(self.segments[first].0[end]);
@@ -131,7 +133,7 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// Adds the segments of a line without the points that it does not need.
+/// Adds the segments of a simplified line.
 fn simplify(points: &[GridPoint], tolerance: f64, border: Border, out: &mut Segments) {
     let last = points.len() - 1;
     let mut kept = vec![false; points.len()];
@@ -139,7 +141,7 @@ fn simplify(points: &[GridPoint], tolerance: f64, border: Border, out: &mut Segm
     kept[last] = true;
     let mut open = vec![(0, last)];
     if points[0] == points[last] {
-        // A ring is cut at the point farthest from where it begins.
+        // A ring is split at the point farthest from its start.
         let away = |k: &usize| square(points[*k], points[0]);
         let far = (1..last).max_by(|a, b| away(a).cmp(&away(b)).then(b.cmp(a))).unwrap_or(0);
         kept[far] = true;
@@ -170,7 +172,7 @@ fn square(a: GridPoint, b: GridPoint) -> i64 {
     (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
 }
 
-/// The distance of a point from a segment, squared.
+/// Squared distance from a point to a segment.
 fn distance2(p: GridPoint, a: GridPoint, b: GridPoint) -> f64 {
     let [way, to] = [b, p].map(|q| [(q[0] - a[0]) as f64, (q[1] - a[1]) as f64]);
     let length2 = way[0] * way[0] + way[1] * way[1];
@@ -186,7 +188,7 @@ mod tests {
 
     #[test]
     fn straight_lines_keep_their_ends_and_meetings() {
-        // A line in ten pieces, met by another one in its middle.
+        // A line of ten segments, and another that meets its middle.
         let mut segments: Segments =
             (0..10).map(|k| ([[10 * k, 0], [10 * k + 10, 0]], Border::Soft)).collect();
         segments.push(([[50, 0], [50, 40]], Border::Soft));

@@ -1,38 +1,39 @@
-//! [`PieceTiles`]: which pieces of borders pass a tile of the page, so that only neighbours are compared.
+//! [`PieceTiles`]: border pieces by the tiles of the page that they pass, so that only neighbours are
+//! compared.
 
 use rustc_hash::FxHashMap;
 
 use crate::geometry::lists::csr_lists::{Grouped, grouped};
 
-/// A point of the grid that pieces lie on.
+/// Point of the grid.
 pub(crate) type GridPoint = [i64; 2];
 
-/// Pieces in a tile, on average over the page, much of which is empty.
+/// Average number of pieces per tile, over the whole page.
 const PIECES_A_TILE: usize = 1;
 
-/// Most tiles across, about.
+/// Approximate maximum number of tiles along an axis.
 const MOST_TILES: usize = 1000;
 
-/// Pieces by the tiles of the page that they pass.
+/// Grid of tiles with the border pieces that pass each of them.
 #[derive(Default)]
 pub(crate) struct PieceTiles {
     low: GridPoint,
-    /// Tiles are as wide and as high as these powers of two.
+    /// Width and height of tiles, as powers of two.
     shift: [u32; 2],
     across: GridPoint,
     first: Grouped<u32>,
-    /// Those that were added later; few.
+    /// Pieces that were added later; few.
     later: FxHashMap<u32, Vec<u32>>,
 }
 
 impl PieceTiles {
-    /// Tiles of the box around some points, and as many pieces between these.
+    /// Tiles of the bounding box of the points, filled with `count` pieces.
     pub fn new(points: &[GridPoint], count: usize, ends: impl Fn(u32) -> [GridPoint; 2]) -> Self {
         let low = [0, 1].map(|k| points.iter().map(|p| p[k]).min().unwrap_or_default());
         let high = [0, 1].map(|k| points.iter().map(|p| p[k]).max().unwrap_or_default());
         let across = ((count / PIECES_A_TILE) as f64).sqrt() as usize;
         let across = across.clamp(1, MOST_TILES) as i64;
-        // The power of two next to the size that is asked for.
+        // Power of two nearest to the wanted size.
         let shift = [0, 1].map(|k| {
             let size = (high[k] - low[k]) / across + 1;
             let below = size.ilog2();
@@ -48,7 +49,7 @@ impl PieceTiles {
         Self { first, ..tiles }
     }
 
-    /// Adds one more piece, and calls `touch` for each tile that it passes.
+    /// Adds a piece, and calls `touch` for each tile that it passes.
     pub fn add(&mut self, number: u32, ends: [GridPoint; 2], mut touch: impl FnMut(u32)) {
         let mut passed = Vec::new();
         self.each(ends, |tile| passed.push(tile));
@@ -58,17 +59,17 @@ impl PieceTiles {
         }
     }
 
-    /// How many tiles there are.
+    /// Number of tiles.
     pub fn count(&self) -> usize {
         self.first.count()
     }
 
-    /// The pieces that pass a tile.
+    /// Pieces that pass a tile.
     pub fn of(&self, tile: u32) -> impl Iterator<Item = u32> + '_ {
         self.first.of(tile as usize).iter().chain(self.later.get(&tile).into_iter().flatten()).copied()
     }
 
-    /// The tiles within `reach` of a point.
+    /// Tiles within `reach` of a point.
     pub fn around(&self, p: GridPoint, reach: f64) -> impl Iterator<Item = u32> + '_ {
         let reach = reach.ceil() as i64;
         let range = |k: usize| self.place(p[k] - reach, k)..=self.place(p[k] + reach, k);
@@ -84,7 +85,7 @@ impl PieceTiles {
         (row * self.across[0] + column) as u32
     }
 
-    /// Calls for each tile that a piece passes, or comes near.
+    /// Visits each tile that a piece passes or touches.
     fn each(&self, [mut a, mut b]: [GridPoint; 2], mut call: impl FnMut(u32)) {
         if a[1] > b[1] {
             std::mem::swap(&mut a, &mut b);
@@ -94,7 +95,7 @@ impl PieceTiles {
             let (x, y) = if first == last {
                 (a[0], b[0])
             } else {
-                // The part of the piece within this row, and a step more.
+                // The part of the piece within this row, plus a margin.
                 let top = self.low[1] + (row << self.shift[1]) - 2;
                 let bottom = self.low[1] + ((row + 1) << self.shift[1]) + 2;
                 let rise = (b[1] - a[1]).max(1) as f64;

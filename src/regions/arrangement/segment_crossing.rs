@@ -1,17 +1,17 @@
-//! [`Passing`]: where two pieces of borders meet, and where a point is beside one, exact in integers of the grid.
+//! [`Passing`]: exact integer tests for crossings and contacts of border pieces on the grid.
 
 use super::grid_tiles::GridPoint;
 
-/// A point this near to a piece (steps of the grid, squared) lies on it.
+/// Largest squared distance of a point that lies on a piece, grid steps squared.
 const ON_PIECE: f64 = 0.5;
 
-/// A piece in a tile, with all that is asked of it in one place.
+/// Border piece in a tile, with everything that the tests need.
 pub(crate) struct Passing {
     ends: [GridPoint; 2],
     low: GridPoint,
     high: GridPoint,
     pub number: u32,
-    /// The number of the first piece that it is a part of.
+    /// Number of the original piece that it was cut from.
     origin: u32,
 }
 
@@ -22,7 +22,7 @@ impl Passing {
         Self { ends, low: of(i64::min), high: of(i64::max), number, origin }
     }
 
-    /// Whether the boxes of two pieces are no more than a step apart.
+    /// Whether the bounding boxes of two pieces are at most one step apart.
     #[inline]
     pub fn is_near(&self, other: &Self) -> bool {
         let apart =
@@ -30,9 +30,9 @@ impl Passing {
         !(apart(0) | apart(1))
     }
 
-    /// Where two pieces must be cut.
+    /// Adds the points where two pieces have to be cut.
     pub fn meet(&self, other: &Self, cuts: &mut Vec<(u32, GridPoint)>) {
-        // Where they cross is rounded on the first of them: that is the one whose border came first.
+        // The crossing is rounded along the piece whose original came first.
         let order = |piece: &Self| (piece.origin, piece.number);
         let [first, second] = if order(self) < order(other) { [self, other] } else { [other, self] };
         let ([i, j], [a, b], [c, d]) = ([first.number, second.number], first.ends, second.ends);
@@ -59,28 +59,28 @@ impl Passing {
     }
 }
 
-/// Twice the area of a triangle, positive where it turns from x to y.
+/// Twice the signed area of a triangle, positive if it turns from x to y.
 pub(crate) fn orient(a: GridPoint, b: GridPoint, c: GridPoint) -> i64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// How far along a piece a point lies, times the piece's length.
+/// Dot product of a piece with the vector from its start to a point.
 pub(crate) fn dot(a: GridPoint, b: GridPoint, p: GridPoint) -> i64 {
     (b[0] - a[0]) * (p[0] - a[0]) + (b[1] - a[1]) * (p[1] - a[1])
 }
 
-/// Whether a point lies on a piece, and is none of its ends.
+/// Whether a point lies on a piece and is not one of its ends.
 pub(crate) fn lies_on(a: GridPoint, b: GridPoint, p: GridPoint) -> bool {
     let length2 = dot(a, b, b);
     let off = orient(a, b, p) as f64;
-    // Most points are far away.
+    // Early exit, since most points are far away.
     if off * off > ON_PIECE * length2 as f64 || p == a || p == b {
         return false;
     }
     (1..length2).contains(&dot(a, b, p))
 }
 
-/// The point of a piece that is nearest to a point, on the grid, and its distance squared.
+/// Squared distance to the nearest point of a piece, rounded to the grid, and that point.
 pub(crate) fn foot(a: GridPoint, b: GridPoint, p: GridPoint) -> (f64, GridPoint) {
     let t = (dot(a, b, p) as f64 / (dot(a, b, b) as f64).max(1.0)).clamp(0.0, 1.0);
     let at = |k: usize| a[k] + ((b[k] - a[k]) as f64 * t).round() as i64;
@@ -89,7 +89,7 @@ pub(crate) fn foot(a: GridPoint, b: GridPoint, p: GridPoint) -> (f64, GridPoint)
     (x * x + y * y, foot)
 }
 
-/// The distance squared of a point from the box around a piece.
+/// Squared distance from a point to the bounding box of a piece.
 pub(crate) fn beside(a: GridPoint, b: GridPoint, p: GridPoint) -> f64 {
     let gap = |k: usize| (a[k].min(b[k]) - p[k]).max(p[k] - a[k].max(b[k])).max(0) as f64;
     gap(0) * gap(0) + gap(1) * gap(1)

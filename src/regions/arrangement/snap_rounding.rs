@@ -1,10 +1,12 @@
-//! [`Noded`]: straight pieces of borders on a fine grid, cut so that they meet in shared points only.
+//! [`Noded`]: border pieces on a fine grid that meet in shared points only (snap rounding).
 //!
-//! Points lie on a grid and all tests are exact in integers. Pieces are cut where they cross or where
-//! a point lies on them, the new points go to the grid, and that is repeated until nothing crosses:
-//! rounding may bring new crossings, though seldom. Source: the idea of iterated snap rounding
-//! (Halperin and Packer, "Iterated snap rounding", Computational Geometry 23, 2002), here with points
-//! that draw pieces near them in place of hot pixels.
+//! 1. Points lie on an integer grid, so all tests are exact.
+//! 2. Pieces are cut where they cross or where a point lies on them. New points are rounded to the grid.
+//! 3. Rounding may cause new crossings, though rarely. The step is repeated until nothing crosses.
+//! 4. Free ends are extended to the nearest piece within reach.
+//!
+//! Source: iterated snap rounding (Halperin and Packer, "Iterated snap rounding", Computational Geometry 23,
+//! 2002). Deviation: points attract the pieces near them, in place of hot pixels.
 
 use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
@@ -13,16 +15,16 @@ pub(crate) use super::grid_tiles::GridPoint;
 use super::grid_tiles::PieceTiles;
 use super::segment_crossing::{Passing, beside, dot, foot};
 
-/// What a piece of border lies on and parts. Stronger ones first.
+/// Kind of a border: the things it separates, and whether its line is smooth. Stronger kinds come first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(crate) enum Border {
-    /// Parts two surfaces, along straight edges.
+    /// Separates two surfaces, along a sharp line.
     Hard,
-    /// Parts two surfaces, where one of them is smooth.
+    /// Separates two surfaces, one of them smooth.
     Soft,
-    /// Parts two tones of one surface, along straight edges.
+    /// Separates two tones of one surface, along a sharp line.
     HardTone,
-    /// Parts two tones of a smooth surface.
+    /// Separates two tones of a smooth surface.
     SoftTone,
 }
 
@@ -32,36 +34,36 @@ impl Border {
         matches!(self, Self::Soft | Self::SoftTone)
     }
 
-    /// Whether the same surface goes on beyond it.
+    /// Whether the same surface continues on its other side.
     pub const fn is_tone(self) -> bool {
         matches!(self, Self::HardTone | Self::SoftTone)
     }
 }
 
-/// A piece of a border between two points, by their numbers.
+/// Border piece between two points, by their ids.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct NodedPiece {
-    /// The lesser number first.
+    /// Smaller id first.
     pub ends: [u32; 2],
-    /// What it parts.
+    /// Kind of border.
     pub border: Border,
 }
 
-/// Pieces that meet in shared points only.
+/// Border pieces that meet in shared points only.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Noded {
     pub points: Vec<GridPoint>,
-    /// In order of their ends, no two alike.
+    /// Sorted by their ends, without duplicates.
     pub pieces: Vec<NodedPiece>,
 }
 
-/// Rounds of cutting at most. What still crosses then is left to the triangulation, which leaves
-/// one of both out.
+/// Maximum number of rounds. The triangulation leaves out one of two pieces that still cross.
 const MOST_ROUNDS: u32 = 16;
 
-/// Cuts segments of a grid. Ends that hang free, but no farther than `reach` from another piece, are
-/// led on to it: tone borders end at the faces' own contour, which lies a little inside or outside of
-/// the smooth one.
+/// Cuts segments on the grid until they meet in shared points only.
+///
+/// Free ends within `reach` of another piece are extended to it. Tone borders end at the contour of the
+/// faces, which lies slightly off the smooth contour.
 pub(crate) fn node(segments: &[([GridPoint; 2], Border)], reach: f64) -> Noded {
     let mut noded = Noder::with_capacity(segments.len());
     for ([a, b], border) in segments {
@@ -72,7 +74,7 @@ pub(crate) fn node(segments: &[([GridPoint; 2], Border)], reach: f64) -> Noded {
     noded.cut_all((0..noded.tiles.count() as u32).collect());
     let touched = noded.bridge(reach);
     noded.cut_all(touched);
-    // Points are numbered by where they are, so that what follows does not depend on what else there is.
+    // Point ids follow position, so the result does not depend on the order of the input.
     let mut sorted: Vec<(GridPoint, u32)> = noded.points.iter().copied().zip(0..).collect();
     sorted.par_sort_unstable();
     let mut numbers = vec![0; sorted.len()];
@@ -85,7 +87,7 @@ pub(crate) fn node(segments: &[([GridPoint; 2], Border)], reach: f64) -> Noded {
         piece.ends = piece.ends.map(|end| numbers[end as usize]);
         piece.ends.sort_unstable();
     }
-    // Where two pieces coincide, the stronger border stays.
+    // Where two pieces coincide, the stronger border is kept.
     pieces.par_sort_unstable();
     pieces.dedup_by_key(|piece| piece.ends);
     Noded { points, pieces }
@@ -96,17 +98,17 @@ struct Noder {
     points: Vec<GridPoint>,
     number: FxHashMap<GridPoint, u32>,
     pieces: Vec<NodedPiece>,
-    /// The number of the first piece that each is a part of.
+    /// Original piece that each piece was cut from.
     origins: Vec<u32>,
     /// Whether each piece was cut into others.
     is_cut: Vec<bool>,
-    /// Pieces from this number on are new since the last round; the others are known not to meet.
+    /// First piece that is new since the last round. Older pieces do not meet each other.
     first_new: u32,
     tiles: PieceTiles,
 }
 
 impl Noder {
-    /// With room for so many pieces that hang together.
+    /// A noder with capacity for the given number of connected pieces.
     fn with_capacity(pieces: usize) -> Self {
         let mut noder = Self::default();
         noder.points.reserve(pieces);
@@ -143,7 +145,7 @@ impl Noder {
         (0..).zip(&self.pieces).filter(|(number, _)| !self.is_cut[*number as usize])
     }
 
-    /// Cuts pieces until none meet; those that are new pass these tiles.
+    /// Cuts pieces until none meet, starting with the given tiles.
     fn cut_all(&mut self, mut touched: Vec<u32>) {
         for _ in 0..MOST_ROUNDS {
             if touched.is_empty() {
@@ -154,7 +156,7 @@ impl Noder {
         self.first_new = self.pieces.len() as u32;
     }
 
-    /// Adds the pieces from a number on to their tiles, and tells which these are.
+    /// Adds the pieces from `first` on to their tiles, and returns these tiles.
     fn touch(&mut self, first: u32) -> Vec<u32> {
         let mut touched = Vec::new();
         for piece in first..self.pieces.len() as u32 {
@@ -166,7 +168,7 @@ impl Noder {
         touched
     }
 
-    /// Leads free ends on to the nearest piece; the tiles that the new pieces pass.
+    /// Extends free ends to the nearest piece. Returns the tiles of the new pieces.
     fn bridge(&mut self, reach: f64) -> Vec<u32> {
         let mut uses = vec![(0u32, Border::Hard); self.points.len()];
         for (_, piece) in self.whole() {
@@ -189,7 +191,7 @@ impl Noder {
                     let [a, b] = self.ends(k);
                     let most = nearest.map_or(reach * reach, |(distance2, _)| distance2);
                     let is_own = self.pieces[k as usize].ends.contains(end);
-                    // Its box is no farther away than the piece.
+                    // The bounding box is at least as near as the piece.
                     if self.is_cut[k as usize] || is_own || beside(a, b, *p) > most {
                         continue;
                     }
@@ -214,7 +216,8 @@ impl Noder {
         self.touch(self.first_new)
     }
 
-    /// One round: cuts new pieces and what they meet in these tiles; the tiles that the parts of them pass.
+    /// Runs one round in the given tiles: cuts new pieces and those that they meet. Returns the tiles of
+    /// their parts.
     fn cut(&mut self, touched: &[u32]) -> Vec<u32> {
         const TILES: usize = 256;
         let in_tiles = |tiles: &[u32]| {
@@ -262,7 +265,7 @@ mod tests {
     use super::super::segment_crossing::{lies_on, orient};
     use super::*;
 
-    /// Points anywhere in a square, always the same.
+    /// Pseudo-random points in a square.
     fn scattered(count: usize, size: i64) -> Vec<GridPoint> {
         let mut state = 12_345_u64;
         let mut next = || {

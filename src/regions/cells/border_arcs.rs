@@ -1,38 +1,42 @@
-//! [`Arc`]: a stretch of the border between two patches, and the loops of arcs around each patch.
+//! Border arcs between two patches, and the loops of arcs around each patch.
+//!
+//! 1. Sides of triangles between two patches become half edges, sorted by their start.
+//! 2. Half edges are followed from node to node into arcs; the rest are closed arcs. A node is a point where
+//!    three or more patches meet, or where a patch touches itself.
+//! 3. At each node the loop of a patch continues with the first half edge met while turning through the
+//!    patch.
 
 use super::triangulation::{OUTSIDE, Triangulation};
 use crate::regions::arrangement::snap_rounding::Border;
 
-/// The patch of what is not painted.
+/// Marks the part of the page that is not painted, in place of a patch.
 pub(crate) const OUTSIDE_PATCH: u32 = u32::MAX;
 
-/// A stretch of border between two patches, from one node to the next: a point where three or more
-/// patches meet. Neighbours share it, so that they can have neither gap nor overlap.
+/// Border between two patches, from one node to the next. Both patches use it, so there is neither gap nor
+/// overlap.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RawArc {
-    /// Points of the triangulation; a closed arc does not repeat the first.
+    /// Point ids in the triangulation. A closed arc does not repeat the first one.
     pub points: Vec<u32>,
-    /// Whether the piece after each point lies on a smooth surface.
+    /// Whether the side after each point lies on a smooth surface.
     pub soft: Vec<bool>,
     pub closed: bool,
-    /// The patch on the left, as x turns to y, and that on the right; [`OUTSIDE_PATCH`] where nothing is
-    /// painted.
+    /// Patch on the left (turning from x to y) and on the right; [`OUTSIDE_PATCH`] where nothing is painted.
     pub sides: [u32; 2],
 }
 
-/// An arc as part of a loop, and whether it is run through from its first point to its last.
+/// Arc in a loop, and whether it is passed from its first point to its last.
 pub(crate) type Use = (u32, bool);
 
-/// The arcs between patches with different owners, and around each patch its loops, the patch on
-/// their left.
+/// Arcs between patches, and the loops around each patch.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Borders {
     pub arcs: Vec<RawArc>,
-    /// The loops around each patch.
+    /// Loops around each patch, with the patch on their left.
     pub loops: Vec<Vec<Vec<Use>>>,
 }
 
-/// One side of a triangle on a border, with the patch on its left.
+/// Side of a triangle on a border, with the patch on its left.
 #[derive(Debug, Clone, Copy)]
 struct HalfEdge {
     from: u32,
@@ -42,7 +46,7 @@ struct HalfEdge {
     soft: bool,
 }
 
-/// Traces the borders between `patches` (one a triangle, numbers below `count`).
+/// Traces the borders between `patches` (one per triangle, numbers below `count`).
 pub(crate) fn trace(cut: &Triangulation, patches: &[u32], count: usize) -> Borders {
     let mut halves: Vec<HalfEdge> = Vec::new();
     for (triangle, corners) in cut.triangles.iter().enumerate() {
@@ -76,7 +80,7 @@ pub(crate) fn trace(cut: &Triangulation, patches: &[u32], count: usize) -> Borde
 
 struct Tracer<'a> {
     cut: &'a Triangulation,
-    /// Sides on borders, by their first point.
+    /// Half edges, sorted by their first point.
     halves: Vec<HalfEdge>,
     starts: Vec<u32>,
 }
@@ -88,7 +92,7 @@ impl Tracer<'_> {
         self.starts[point as usize] as usize..self.starts[point as usize + 1] as usize
     }
 
-    /// Where three patches or more meet, or a patch touches itself.
+    /// Whether more or fewer than two half edges start at the point.
     fn is_node(&self, point: u32) -> bool {
         self.from(point).len() != 2
     }
@@ -99,11 +103,11 @@ impl Tracer<'_> {
         own.binary_search_by_key(&to, |half| half.to).ok().map(|k| range.start + k)
     }
 
-    /// The arcs, and for each half edge the arc it is part of, and whether it runs along it.
+    /// All arcs, and for each half edge its arc and whether it runs along it.
     fn arcs(&self) -> (Vec<RawArc>, Vec<Use>) {
         let mut arcs = Vec::new();
         let mut arc_of: Vec<Use> = vec![(UNSET, false); self.halves.len()];
-        // Arcs between nodes first, then what closes on itself.
+        // Arcs between nodes first, then closed arcs.
         for closed in [false, true] {
             for first in 0..self.halves.len() {
                 if arc_of[first].0 != UNSET || (!closed && !self.is_node(self.halves[first].from)) {
@@ -147,8 +151,7 @@ impl Tracer<'_> {
         }
     }
 
-    /// The loops around each patch: at a node the border goes on with the first side that is met
-    /// when turning from where it came through the patch.
+    /// Loops around each patch.
     fn loops(&self, arcs: &[RawArc], arc_of: &[Use], count: usize) -> Vec<Vec<Vec<Use>>> {
         let mut loops: Vec<Vec<Vec<Use>>> = vec![Vec::new(); count];
         let mut done = vec![[false; 2]; arcs.len()];
@@ -178,15 +181,14 @@ impl Tracer<'_> {
         loops
     }
 
-    /// The half edge with which a border that comes from `before` goes on at `node`, with `patch` on
-    /// its left.
+    /// Half edge that continues the border from `before` past `node`, with `patch` on its left.
     fn turn(&self, before: u32, node: u32, patch: u32) -> Option<usize> {
         let point = |v: u32| self.cut.points[v as usize];
         let origin = point(node);
         let direction = |v: u32| [point(v)[0] - origin[0], point(v)[1] - origin[1]];
         let back = direction(before);
         let own = self.from(node).filter(|k| self.halves[*k].left == patch);
-        // The least turn from the way back against the sense in which x turns to y.
+        // The smallest turn from the way back, from y to x.
         own.min_by(|a, b| {
             let (a, b) = (direction(self.halves[*a].to), direction(self.halves[*b].to));
             backward(back, a, b)
@@ -194,11 +196,11 @@ impl Tracer<'_> {
     }
 }
 
-/// Orders directions by how far they are from `back`, turning from y to x; `back` itself comes last.
+/// Orders directions by their angle from `back`, turning from y to x; `back` itself comes last.
 fn backward(back: [i64; 2], a: [i64; 2], b: [i64; 2]) -> std::cmp::Ordering {
     let cross = |u: [i64; 2], v: [i64; 2]| u[0] * v[1] - u[1] * v[0];
     let dot = |u: [i64; 2], v: [i64; 2]| u[0] * v[0] + u[1] * v[1];
-    // 0: up to half a turn, 1: exactly half, 2: beyond, 3: a whole turn.
+    // 0: less than half a turn; 1: exactly half; 2: more than half; 3: a full turn.
     let part = |d: [i64; 2]| match (cross(back, d), dot(back, d)) {
         (c, _) if c < 0 => 0,
         (0, d) if d < 0 => 1,

@@ -1,4 +1,4 @@
-//! [`insertion_order`]: in which order points are put into a triangulation.
+//! [`insertion_order`]: insertion order of points into the triangulation (BRIO).
 
 use crate::parallel::prelude::*;
 
@@ -7,13 +7,15 @@ use crate::mesh::order::morton_curve::spread;
 use crate::parallel::task_size::GRAIN;
 use crate::regions::arrangement::snap_rounding::GridPoint;
 
-/// How many bits of a coordinate a place along the curve has room for.
+/// Bits per coordinate in a Morton code.
 const BITS: u32 = 21;
 
-/// The numbers of points, as if drawn by lot, so that few sides turn over however the points lie, but in rounds of twice
-/// as many, each in an order along a space-filling curve, so that a point is near the one before it.
+/// Biased randomized insertion order of points.
 ///
-/// Most points of a page lie along curves, where an order by place or by distance would turn far more sides.
+/// Points are assigned to rounds at random, each about twice as large as the one before. Random order keeps
+/// the number of edge flips low for any input. Within a round points follow a space-filling curve, so that
+/// each is near the one before. Sorting all points by position would cause far more flips, since most points
+/// of a page lie along curves.
 ///
 /// Source: Amenta, Choi and Rote, "Incremental constructions con BRIO", SoCG 2003.
 pub(crate) fn insertion_order(points: &[GridPoint]) -> Vec<u32> {
@@ -36,7 +38,7 @@ pub(crate) fn insertion_order(points: &[GridPoint]) -> Vec<u32> {
         .with_min_len(GRAIN)
         .enumerate()
         .map(|(number, point)| {
-            // Half of all are in the last round, a quarter in the one before.
+            // The last round holds half of the points, the one before it a quarter, and so on.
             let lot = hash(0, &[number as u64]).trailing_zeros();
             (u64::BITS - lot, along(point), number as u32)
         })
@@ -57,7 +59,7 @@ mod tests {
         let mut sorted = order.clone();
         sorted.sort_unstable();
         assert!(sorted.into_iter().eq(0..4096));
-        // The last round has about half of them, and one lies two or three steps from the next.
+        // The last round has about half of the points, each two or three steps from the next.
         let steps = order[2300..].windows(2).map(|pair| {
             let [a, b] = [pair[0], pair[1]].map(|number| points[number as usize]);
             (0..2).map(|axis| a[axis].abs_diff(b[axis]) / 1_000_000_007).sum::<u64>()

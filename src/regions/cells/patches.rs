@@ -1,24 +1,25 @@
-//! [`Patches`]: triangles of one look that hang together, without crumbs.
+//! [`Patches`]: connected triangles of equal label, with small patches merged into their neighbours.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::triangulation::{OUTSIDE, Triangulation};
 
-/// Triangles of one look that hang together.
+/// Connected triangles of equal label.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Patches {
-    /// The patch of each triangle.
+    /// Patch of each triangle.
     pub of: Vec<u32>,
-    /// The look of each patch.
+    /// Label of each patch.
     pub looks: Vec<u32>,
-    /// Twice the area of each patch, steps of the grid squared.
+    /// Twice the area of each patch, squared grid steps.
     pub area2: Vec<f64>,
 }
 
-/// Gathers the triangles of one look, and gives patches of less than `crumb2` (twice the area) to
-/// the neighbour with which they share most of their border: the smallest first. The
-/// look `background` takes none, for a model must not have holes; patches that have only background
-/// around them stay.
+/// Collects triangles of equal label into patches, and merges small ones into a neighbour.
+///
+/// A patch with less than `crumb2` (twice the area) goes to the neighbour with the longest shared border,
+/// smallest patch first. The label `background` receives none, since a model must not get holes. Patches with
+/// only background around them stay.
 pub(crate) fn gather(cut: &Triangulation, looks: &[u32], background: u32, crumb2: f64) -> Patches {
     let (of, count) = cut.flooded(|a, _, b| looks[a] == looks[b]);
     let mut patches = Patches { of, looks: vec![0; count], area2: vec![0.0; count] };
@@ -36,14 +37,14 @@ pub(crate) fn gather(cut: &Triangulation, looks: &[u32], background: u32, crumb2
         }
     }
     let mut merging = Merging { into: (0..count as u32).collect(), shared, background };
-    // Areas as bits, which order positive numbers.
+    // Areas as bits, which sort like positive numbers.
     let mut small: BTreeSet<(u64, u32)> = (0..count as u32)
         .filter(|p| patches.area2[*p as usize] < crumb2)
         .map(|p| (patches.area2[p as usize].to_bits(), p))
         .collect();
     while let Some((_, crumb)) = small.pop_first() {
         let Some(to) = merging.neighbour(crumb, &patches) else { continue };
-        // Patches of one look on both sides of a crumb become one.
+        // Patches of one label on both sides of a small patch are joined.
         let mut joined = vec![crumb];
         joined.extend(merging.alike(crumb, to, &patches));
         for patch in joined {
@@ -65,7 +66,7 @@ pub(crate) fn gather(cut: &Triangulation, looks: &[u32], background: u32, crumb2
 
 struct Merging {
     into: Vec<u32>,
-    /// For each patch that stands, the lengths of the borders with its neighbours.
+    /// For each remaining patch, the lengths of its borders with neighbours.
     shared: Vec<BTreeMap<u32, f64>>,
     background: u32,
 }
@@ -78,7 +79,7 @@ impl Merging {
         patch
     }
 
-    /// The neighbour with the longest border that is not background.
+    /// Neighbour with the longest shared border, background excluded.
     fn neighbour(&self, crumb: u32, patches: &Patches) -> Option<u32> {
         let is_background = |p: u32| patches.looks[p as usize] == self.background;
         let others = self.shared[crumb as usize].iter().filter(|(other, _)| !is_background(**other));
@@ -89,7 +90,7 @@ impl Merging {
         longest.map(|(other, _)| other)
     }
 
-    /// The neighbours of a crumb that look like the patch it goes to.
+    /// Neighbours of a small patch with the label of the patch it is merged into.
     fn alike(&self, crumb: u32, to: u32, patches: &Patches) -> Vec<u32> {
         let look = patches.looks[to as usize];
         let others = self.shared[crumb as usize].keys().copied();

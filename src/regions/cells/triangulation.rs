@@ -1,8 +1,7 @@
-//! [`Triangulation`]: the page cut along borders, in triangles that know their neighbours.
+//! [`Triangulation`]: the page as triangles with neighbours, cut along the borders.
 //!
-//! Triangles with no border between them make up a *cell*, all of which looks alike. A triangulation
-//! needs no closed borders: where a line breaks off before it meets the next one, triangles close
-//! the gap.
+//! Triangles without a border between them form a *cell*, which should look the same everywhere. Borders need
+//! not be closed: where a line ends before it meets the next one, triangles close the gap.
 
 use crate::parallel::prelude::*;
 use spade::handles::{FixedFaceHandle, InnerTag};
@@ -11,25 +10,25 @@ use spade::{ConstrainedDelaunayTriangulation, HasPosition, Point2, Triangulation
 use super::insertion_order::insertion_order;
 use crate::regions::arrangement::snap_rounding::{Border, GridPoint, Noded};
 
-/// In [`Triangulation::neighbours`]: beyond the page.
+/// Entry of [`Triangulation::neighbours`] outside the page.
 pub(crate) const OUTSIDE: u32 = u32::MAX;
 
-/// Triangles that one task looks at, at least.
+/// Minimum number of triangles per task.
 const GRAIN: usize = 1 << 9;
 
-/// Triangles between borders.
+/// Constrained Delaunay triangulation of the page.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Triangulation {
     pub points: Vec<GridPoint>,
-    /// Corners of each triangle, turning from x to y.
+    /// Point ids of each triangle's corners, turning from x to y.
     pub triangles: Vec<[u32; 3]>,
-    /// The triangle beyond each side 0-1, 1-2, 2-0.
+    /// Neighbour across each side 0-1, 1-2, 2-0.
     pub neighbours: Vec<[u32; 3]>,
-    /// What borders these sides are; `None` where the cell goes on.
+    /// Border on each side; `None` inside a cell.
     pub borders: Vec<[Option<Border>; 3]>,
 }
 
-/// A point and its number.
+/// Point with its id.
 #[derive(Clone, Copy)]
 struct Corner {
     position: Point2<f64>,
@@ -45,10 +44,10 @@ impl HasPosition for Corner {
 }
 
 impl Triangulation {
-    /// The Delaunay triangulation under these borders; empty where they enclose nothing.
+    /// Builds the Delaunay triangulation constrained by the borders; empty if there is no triangle.
     ///
-    /// Triangles are in the order of their corners, each with its first corner in front: nothing of how they were
-    /// found shows in their numbers.
+    /// Triangles are sorted by their corners, and each starts with its smallest corner, so their numbers do
+    /// not depend on how they were found.
     pub fn new(noded: Noded) -> Self {
         let Some(built) = triangulated(&noded) else { return Self::default() };
         let with_corners = |face: FixedFaceHandle<InnerTag>| {
@@ -85,36 +84,36 @@ impl Triangulation {
         Self { triangles, neighbours, borders, points: noded.points }
     }
 
-    /// Twice the area of a triangle, in steps of the grid.
+    /// Twice the area of a triangle, squared grid steps.
     pub fn area2(&self, triangle: usize) -> f64 {
         let [a, b, c] = self.corners(triangle);
         (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
     }
 
-    /// The corners of a triangle.
+    /// Corner positions of a triangle, grid steps.
     pub fn corners(&self, triangle: usize) -> [[f64; 2]; 3] {
         self.triangles[triangle].map(|v| self.points[v as usize].map(|x| x as f64))
     }
 
-    /// The length of a side.
+    /// Length of a side, grid steps.
     pub fn side(&self, triangle: usize, side: usize) -> f64 {
         let corners = self.corners(triangle);
         let (a, b) = (corners[side], corners[(side + 1) % 3]);
         ((b[0] - a[0]) * (b[0] - a[0]) + (b[1] - a[1]) * (b[1] - a[1])).sqrt()
     }
 
-    /// How wide a triangle is: the diameter of the circle inside it.
+    /// Diameter of the inscribed circle of a triangle, grid steps.
     pub fn width(&self, triangle: usize) -> f64 {
         let around: f64 = (0..3).map(|side| self.side(triangle, side)).sum();
         if around > 0.0 { 2.0 * self.area2(triangle) / around } else { 0.0 }
     }
 
-    /// The cell of each triangle, numbered in the order of their first triangles, and their number.
+    /// Cell of each triangle, numbered by first triangle, and the number of cells.
     pub fn cells(&self) -> (Vec<u32>, usize) {
         self.flooded(|triangle, side, _| self.borders[triangle][side].is_none())
     }
 
-    /// Numbers the sets of triangles that are joined where `joins(triangle, side, neighbour)`.
+    /// Connected components of triangles, joined where `joins(triangle, side, neighbour)`, and their number.
     pub fn flooded(&self, joins: impl Fn(usize, usize, usize) -> bool) -> (Vec<u32>, usize) {
         let mut set = vec![OUTSIDE; self.triangles.len()];
         let mut count = 0;
@@ -143,7 +142,7 @@ impl Triangulation {
     }
 }
 
-/// The Delaunay triangulation of points under borders; `None` where a point is beyond all numbers.
+/// Delaunay triangulation of points and border pieces; `None` if a coordinate is out of range.
 fn triangulated(noded: &Noded) -> Option<ConstrainedDelaunayTriangulation<Corner>> {
     let points = noded.points.len();
     let mut built = ConstrainedDelaunayTriangulation::<Corner>::with_capacity(points, 3 * points, 2 * points);
@@ -161,7 +160,7 @@ fn triangulated(noded: &Noded) -> Option<ConstrainedDelaunayTriangulation<Corner
         last = Some(vertex);
     }
     for piece in &noded.pieces {
-        // Nothing crosses any more; should rounding have left a crossing, one of both is left out.
+        // Borders no longer cross. Should rounding have left a crossing, one of the two is left out.
         if let [Some(from), Some(to)] = piece.ends.map(|end| vertices[end as usize]) {
             built.try_add_constraint(from, to);
         }
@@ -169,7 +168,7 @@ fn triangulated(noded: &Noded) -> Option<ConstrainedDelaunayTriangulation<Corner
     Some(built)
 }
 
-/// Which of a triangle's corners has the least number.
+/// Index of a triangle's smallest corner.
 fn least([a, b, c]: [u32; 3]) -> usize {
     if a < b && a < c { 0 } else { 1 + usize::from(c < b) }
 }
@@ -185,7 +184,7 @@ mod tests {
         let mut points: Vec<GridPoint> =
             (0..300).map(|k| [0, 1].map(|axis| (hash(1, &[k, axis]) % 1000 + 1) as i64)).collect();
         points.extend([[0, 0], [0, 1001], [1001, 0], [1001, 1001]]);
-        // The diagonal meets none of them between its ends, or it would be cut there.
+        // Points on the diagonal would cut it.
         points.retain(|[x, y]| x != y || [0, 1001].contains(x));
         points.sort_unstable();
         points.dedup();

@@ -1,17 +1,17 @@
-//! [`BorderPiece`]: a straight piece of border between cells of a ground.
+//! [`BorderPiece`]: a straight border piece between two cells of the page.
 
 use kurbo::Point;
 
-/// A straight piece of border.
+/// Straight border piece between two cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BorderPiece {
-    /// Its ends.
+    /// End points.
     pub ends: [Point; 2],
-    /// The cells on both sides: first that to the right of its way as the page is seen (y down).
+    /// Cells on both sides, the one on the right on the page (y down) first.
     pub sides: [u32; 2],
-    /// Whether it parts two surfaces, not only light from shade; strokes end there.
+    /// Whether it separates two surfaces, not only light from shade. Strokes end there.
     pub parts_surfaces: bool,
 }
 
-/// The cell of paper.
+/// Number of the paper cell.
 pub const PAPER: u32 = 0;

@@ -1,8 +1,8 @@
-//! [`Ground`]: the page as hatching is laid on it: what is seen where, and where strokes end.
+//! [`Ground`]: the page as hatching needs it: what is visible where, and where strokes end.
 //!
-//! Borders are those of the triangulation itself, exact to a hundredth of a px; they are not smoothed
-//! again, and need no polygons: a stroke is cut where it crosses a piece of border, and the piece knows
-//! what lies on its two sides.
+//! Borders are the sides of the triangulation, accurate to a hundredth of a px. They are not smoothed again,
+//! and no polygons are built. A stroke is cut where it crosses a border piece, which stores the cells on both
+//! its sides.
 
 use std::collections::BTreeMap;
 
@@ -17,37 +17,37 @@ use crate::regions::cells::triangulation::{OUTSIDE, Triangulation};
 use crate::regions::labels::labelled_page::Seen;
 use crate::regions::labels::surface_label::{Look, NOTHING};
 
-/// A part of the page that looks alike to hatching and hangs together.
+/// Connected part of the page that looks the same to hatching.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cell {
-    /// What is seen; tones of fills do not count, and are 0. Of no meaning in cell 0, which is paper.
+    /// Label; tones of fills are set to 0. Meaningless in cell 0, which is paper.
     pub look: Look,
-    /// The stretch of visible surface that it is part of: cells of one facet are parted by borders of
-    /// light and shade only. 0 for paper.
+    /// Stretch of visible surface that contains the cell; 0 for paper. Cells of one facet differ in light and
+    /// shade only.
     pub facet: u32,
-    /// Its area, user units squared.
+    /// Area, user units squared.
     pub area: f64,
 }
 
-/// What is seen where, and the borders between.
+/// Cells of the page, and the border pieces between them.
 #[derive(Debug, Clone, Default)]
 pub struct Ground {
-    /// The cells; the first is paper.
+    /// All cells. The first is paper.
     pub cells: Vec<Cell>,
-    /// The borders: where the cells on both sides differ, or surfaces part.
+    /// Border pieces between different cells or surfaces.
     pub pieces: Vec<BorderPiece>,
-    /// Number of facets; facet 0 is paper.
+    /// Number of facets. Facet 0 is paper.
     pub facets: u32,
     grid: PieceTiles,
 }
 
 impl Ground {
-    /// The ground of a page that is seen, moved on the page by `offset`. Cells of less area than a square
-    /// of side `crumb` go to a neighbour.
+    /// Cells of a labelled page, moved by `offset`. Cells with less area than a square of side `crumb` go to
+    /// a neighbour.
     #[must_use]
     pub fn new(seen: &Seen, crumb: Length, unit: Unit, offset: Vec2) -> Self {
         let cut = &seen.cut;
-        // Cast shadows are dark enough to be hatched as they are, and colours do not matter.
+        // Hatching ignores tones and marks of cast shadows: the bins include shadows already.
         let (looks, table) = seen.seen_as(|look| Look { tone: 0, cast: false, ..*look });
         let part = |triangle: usize| {
             looks[triangle]
@@ -61,7 +61,7 @@ impl Ground {
         Self::gathered(seen, &looks, &table, &facet_of, crumb, unit, offset)
     }
 
-    /// The ground to an eye that tells tones and colours apart, but no bins of hatching.
+    /// Cells that differ in tone and colour, but not in hatching bin.
     #[must_use]
     pub fn toned(seen: &Seen, crumb: Length, unit: Unit, offset: Vec2) -> Self {
         let (looks, table) = seen.seen_as(|look| Look { bin: 0, ..*look });
@@ -72,7 +72,7 @@ impl Ground {
         Self::gathered(seen, &looks, &table, &facet_of, crumb, unit, offset)
     }
 
-    /// The ground under a coarser eye, by which different looks may count as one; all of it is one facet.
+    /// Cells after relabelling by `coarser`, which may make labels equal. All cells form one facet.
     pub(crate) fn coarse(
         seen: &Seen,
         coarser: impl Fn(&Look) -> Look,
@@ -84,7 +84,7 @@ impl Ground {
         Self::gathered(seen, &looks, &table, &vec![0; looks.len()], crumb, unit, offset)
     }
 
-    /// The ground of triangles whose looks and facets are known.
+    /// Builds cells and border pieces from triangles with known labels and facets.
     fn gathered(
         seen: &Seen,
         looks: &[u32],
@@ -141,7 +141,7 @@ impl Ground {
         ground
     }
 
-    /// A ground of given cells and pieces, for tests and for pages without a model; the first cell is
+    /// A ground with the given cells and pieces, for tests and for pages without a model. The first cell is
     /// paper.
     #[must_use]
     pub fn of_pieces(cells: Vec<Cell>, pieces: Vec<BorderPiece>) -> Self {
@@ -154,7 +154,7 @@ impl Ground {
         for (triangle, corners) in cut.triangles.iter().enumerate() {
             for side in 0..3 {
                 let next = cut.neighbours[triangle][side];
-                // Each side once: by the lesser of its triangles.
+                // Each side once: from the triangle with the smaller number.
                 if next != OUTSIDE && (next as usize) < triangle {
                     continue;
                 }
@@ -167,7 +167,7 @@ impl Ground {
                 let facet = |cell: u32| self.cells[cell as usize].facet;
                 let parts_surfaces = parts || facet(own) != facet(other);
                 let ends = [corners[side], corners[(side + 1) % 3]].map(&point);
-                // Triangles turn from x to y: their inside is to the right as the page is seen.
+                // Triangles turn from x to y, so their inside is on the right on the page.
                 self.pieces.push(BorderPiece { ends, sides: [own, other], parts_surfaces });
             }
         }
@@ -179,13 +179,13 @@ impl Ground {
         self.grid.cell_at(&self.pieces, p)
     }
 
-    /// The cells at the points of a lattice, row by row from its first point.
+    /// Cells at the points of a lattice, row by row from its first point.
     #[must_use]
     pub fn raster(&self, first: Point, pitch: f64, columns: usize, rows: usize) -> Vec<u32> {
         let mut meets: Vec<Vec<(f64, u32)>> = vec![Vec::new(); rows];
         for piece in &self.pieces {
             let [a, b] = piece.ends;
-            // Of the cells on both sides that which lies to the right on the page.
+            // The cell on the right of the piece on the page.
             let cell = piece.sides[usize::from(b.y > a.y)];
             let (top, bottom) = (a.y.min(b.y), a.y.max(b.y));
             let row = |y: f64| ((y - first.y) / pitch).ceil().max(0.0) as usize;
@@ -210,14 +210,14 @@ impl Ground {
         cells
     }
 
-    /// The numbers of the pieces within `reach` of a point and some beyond it, ascending.
+    /// Numbers of the pieces within `reach` of a point, ascending. May include some that are farther away.
     #[must_use]
     pub fn pieces_near(&self, p: Point, reach: f64) -> Vec<u32> {
         self.grid.near(p - Vec2::new(reach, reach), p + Vec2::new(reach, reach))
     }
 
-    /// Where a segment crosses pieces, in order: the part of the way, and the piece's number, and whether it
-    /// is crossed from its first side to its second.
+    /// Crossings of a segment with border pieces, in order: the parameter, the piece's number, and whether
+    /// the segment passes from its first side to its second.
     pub(crate) fn crossings(&self, from: Point, to: Point, out: &mut Vec<(f64, u32, bool)>) {
         let first = out.len();
         self.grid.visit(from, to, |number| {
@@ -246,13 +246,12 @@ const fn paper() -> Cell {
     Cell { look, facet: 0, area: 0.0 }
 }
 
-/// On which side of the way from `a` to `b` a point lies: true for the right as the page is seen, and for
-/// points on it.
+/// Whether a point lies to the right of the line from `a` to `b` on the page, or on it.
 fn is_right(a: Point, b: Point, p: Point) -> bool {
     (b - a).cross(p - a) >= 0.0
 }
 
-/// Where a segment crosses a piece, and whether from its first side to its second.
+/// Parameter of a segment's crossing with a piece, and whether it passes from the first side to the second.
 fn crossing(piece: &BorderPiece, from: Point, to: Point) -> Option<(f64, bool)> {
     let [a, b] = piece.ends;
     let (side_a, side_b) = (is_right(from, to, a), is_right(from, to, b));
@@ -260,7 +259,7 @@ fn crossing(piece: &BorderPiece, from: Point, to: Point) -> Option<(f64, bool)> 
         return None;
     }
     let (off_from, off_to) = ((b - a).cross(from - a), (b - a).cross(to - a));
-    // The first point of a segment counts to it, its last to the next one.
+    // The first point of a segment belongs to it, and the last to the next segment.
     if (off_from >= 0.0) == (off_to >= 0.0) {
         return None;
     }

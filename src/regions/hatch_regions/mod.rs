@@ -1,4 +1,4 @@
-//! Hatch regions: areas of the page for hatching, and the border pieces at which strokes end.
+//! Hatch regions: areas of the page for hatching, and the border pieces where strokes end.
 //!
 //! 1. Triangles of one label form cells; cells that only light and shade separate form a facet.
 //! 2. Each side of a triangle between two cells is a border piece that stores the cells on both its sides.

@@ -1,11 +1,11 @@
-//! [`PieceTiles`]: pieces of border by the tiles of the page that they pass.
+//! [`PieceTiles`]: border pieces, indexed by the tiles of the page that they pass.
 
 use kurbo::{Point, Vec2};
 
 use super::border_piece::{BorderPiece, PAPER};
 use crate::geometry::lists::csr_lists::{Grouped, grouped};
 
-/// Pieces by the tiles of the page that they pass.
+/// Grid of square tiles with the border pieces that pass each of them.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct PieceTiles {
     low: Vec2,
@@ -14,10 +14,10 @@ pub(crate) struct PieceTiles {
     pieces: Grouped<u32>,
 }
 
-/// Pieces in a tile, on average.
+/// Average number of pieces per tile.
 const PIECES_A_TILE: usize = 2;
 
-/// Most tiles across.
+/// Maximum number of tiles along an axis.
 const MOST_TILES: f64 = 256.0;
 
 impl PieceTiles {
@@ -40,7 +40,7 @@ impl PieceTiles {
         grid
     }
 
-    /// Calls for each tile that a segment passes; those outside of the grid are left out.
+    /// Visits each tile inside the grid that a segment passes.
     fn pass(&self, from: Point, to: Point, mut call: impl FnMut(usize)) {
         let at = |p: Point| (p.to_vec2() - self.low) * self.tiles_per_unit;
         let (mut a, mut b) = (at(from), at(to));
@@ -54,7 +54,7 @@ impl PieceTiles {
         let way = b - a;
         let (first, last) = (a.y.max(0.0) as usize, (b.y.max(0.0) as usize).min(rows - 1));
         for row in first..=last {
-            // The stretch of the segment in this row, a little widened against rounding.
+            // The range of the segment in this row, slightly widened against rounding.
             let x_at =
                 |y: f64| if way.y > 0.0 { a.x + way.x * ((y - a.y) / way.y).clamp(0.0, 1.0) } else { a.x };
             let (x0, x1) = if way.y > 0.0 { (x_at(row as f64), x_at(row as f64 + 1.0)) } else { (a.x, b.x) };
@@ -68,7 +68,7 @@ impl PieceTiles {
         }
     }
 
-    /// Calls for the pieces in the tiles that a segment passes, for some more than once.
+    /// Visits the pieces in the tiles that a segment passes, some of them more than once.
     pub fn visit(&self, from: Point, to: Point, mut call: impl FnMut(u32)) {
         self.pass(from, to, |tile| self.pieces.of(tile).iter().for_each(|number| call(*number)));
     }
@@ -92,7 +92,7 @@ impl PieceTiles {
         found
     }
 
-    /// The cell at a point: what the next piece to its left has on this side.
+    /// Cell at a point: the cell on the right of the next piece to the left.
     pub fn cell_at(&self, pieces: &[BorderPiece], p: Point) -> u32 {
         let at = (p.to_vec2() - self.low) * self.tiles_per_unit;
         let [columns, rows] = self.across;
@@ -109,10 +109,10 @@ impl PieceTiles {
                     continue;
                 }
                 let x = a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y));
-                // One that crosses this height farther left is met again there.
+                // A piece that crosses this height farther left is found in a later tile.
                 let here = (x - self.low.x) * self.tiles_per_unit >= column as f64 - WIDENED;
                 if here && x <= p.x && nearest.is_none_or(|(most, _)| x > most) {
-                    // A piece that runs down the page has the point on its left.
+                    // The point lies to the left of a piece that runs down the page.
                     nearest = Some((x, piece.sides[usize::from(b.y > a.y)]));
                 }
             }
@@ -124,5 +124,5 @@ impl PieceTiles {
     }
 }
 
-/// Tiles are widened by this part of themselves against rounding.
+/// Margin against rounding, in tiles.
 const WIDENED: f64 = 1e-6;

@@ -1,4 +1,4 @@
-//! What each triangle between borders looks like: all of a cell looks alike, unless its border leaks.
+//! Label of each triangle. All triangles of a cell share one label, unless the cell's border has a gap.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -9,23 +9,26 @@ use rustc_hash::FxHashMap;
 use crate::geometry::lists::csr_lists::grouped_pairs;
 use crate::regions::cells::triangulation::{OUTSIDE, Triangulation};
 
-/// Cells that one task decides on.
+/// Cells per task.
 const CELLS: usize = 1 << 8;
 
-/// What the triangles of a cell look like.
+/// Labels of the triangles of a cell.
 enum CellLooks {
-    /// All alike.
+    /// One label for all.
     Alike(u32),
-    /// Each of them, since its borders leak.
+    /// One label per triangle, because the border has a gap.
     Each(Vec<u32>),
 }
 
-/// Decides on a look for each triangle from what is seen in the middle of each (`seen`, numbers
-/// below `looks`). A cell looks like most of its area. Only where a part of it wider than `wide` is
-/// seen to differ do its borders leak; then each triangle keeps its own look, and narrow ones, which
-/// cannot be trusted beside a border, take that of the neighbour over their longest side.
+/// Labels each triangle, given what is seen at its centre (`seen`).
 ///
-/// Gives the looks and the number of cells that leak.
+/// - A cell takes the label that covers most of its area.
+/// - If a triangle wider than `wide` differs, the cell's border has a gap. Then each wide triangle keeps its
+///   own label.
+/// - Narrow triangles are unreliable next to a border. They take the label of the neighbour across their
+///   longest side.
+///
+/// Returns the labels and the number of cells with a gap.
 pub(crate) fn decide(cut: &Triangulation, seen: &[u32], wide: f64) -> (Vec<u32>, u64) {
     let (cell_of, count) = cut.cells();
     let triangles = cell_of.iter().enumerate().map(|(triangle, cell)| (*cell as usize, triangle as u32));
@@ -51,7 +54,7 @@ pub(crate) fn decide(cut: &Triangulation, seen: &[u32], wide: f64) -> (Vec<u32>,
     (looks, leaks)
 }
 
-/// Decides on the looks of a cell, which has a triangle.
+/// Labels a non-empty cell.
 fn of_cell(cut: &Triangulation, triangles: &[u32], seen: &[u32], wide: f64) -> CellLooks {
     let mut areas: Vec<(u32, f64)> = Vec::new();
     for triangle in triangles {
@@ -62,7 +65,7 @@ fn of_cell(cut: &Triangulation, triangles: &[u32], seen: &[u32], wide: f64) -> C
             None => areas.push((look, area)),
         }
     }
-    // The greatest area; of equal ones the first seen.
+    // The label of largest total area; the first one among equals.
     let (most, _) =
         areas.iter().fold(
             (OUTSIDE, f64::NEG_INFINITY),
@@ -78,13 +81,13 @@ fn of_cell(cut: &Triangulation, triangles: &[u32], seen: &[u32], wide: f64) -> C
     }
 }
 
-/// The looks of the triangles of a cell where the narrow ones have those of wide ones, handed on over the longest sides first: a
-/// sliver shares its long sides with what is around it, and but a short one with what it would be a spike of.
+/// Labels of a cell with a gap: narrow triangles inherit from wide ones, across the longest sides first. A
+/// sliver shares its long sides with its surroundings.
 fn spread(cut: &Triangulation, triangles: &[u32], wide: f64, seen: &[u32]) -> Vec<u32> {
     let is_wide = |triangle: &u32| cut.width(*triangle as usize) > wide;
     let sure: Vec<u32> = triangles.iter().copied().filter(is_wide).collect();
     let mut known: FxHashMap<u32, u32> = sure.iter().map(|t| (*t, seen[*t as usize])).collect();
-    // Lengths as bits, which order positive numbers; of equal ones the first triangles.
+    // Lengths as bits, which sort like positive numbers; ties are broken by triangle numbers.
     let mut open = BinaryHeap::new();
     let reach = |from: u32, known: &FxHashMap<u32, u32>, open: &mut BinaryHeap<_>| {
         for side in 0..3 {
@@ -114,7 +117,7 @@ mod tests {
 
     #[test]
     fn slivers_look_like_what_is_along_them() {
-        // A sliver with its short side at a light triangle on the left, and dark ones along its long sides.
+        // A sliver with its short side on a light triangle, and dark triangles along its long sides.
         let points = vec![[0, 0], [0, 20], [10, 9], [10, 11], [200, 10], [210, -200], [210, 220]];
         let cut = Triangulation::new(Noded { points, pieces: Vec::new() });
         let is_light = |corners: [u32; 3]| corners.iter().all(|corner| *corner < 4);
@@ -130,7 +133,7 @@ mod tests {
 
     #[test]
     fn slivers_beyond_slivers_look_like_what_is_wide_beyond_all_of_them() {
-        // Rows of slivers below two wide triangles, of which only one has the side along the rows.
+        // Rows of slivers below two wide triangles. One of the two shares its long side with the rows.
         let rows = [0, 2, 4, 200].into_iter();
         let points: Vec<[i64; 2]> = rows.flat_map(|y| [[0, y], [200, y]]).collect();
         let cut = Triangulation::new(Noded { points, pieces: Vec::new() });

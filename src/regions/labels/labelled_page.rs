@@ -1,4 +1,4 @@
-//! [`Seen`]: the page in triangles, and what the eye sees in each.
+//! [`Seen`]: the page as labelled triangles.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
@@ -17,39 +17,40 @@ use crate::regions::cells::triangulation::Triangulation;
 use crate::view::Frame;
 use crate::visibility::ViewMap;
 
-/// The page in triangles, and what the eye sees in each: regions of colour and what hatching is laid on
-/// are both read from it, so that they can never disagree.
+/// The page as labelled triangles. Regions of colour and hatching are both derived from it, so they cannot
+/// disagree.
 #[derive(Debug, Clone)]
 pub struct Seen {
     pub(crate) cut: Triangulation,
-    /// What each triangle looks like: [`NOTHING`], or the number of a look plus 1.
+    /// Label of each triangle: [`NOTHING`], or an index into `table` plus 1.
     pub(crate) looks: Vec<u32>,
     pub(crate) table: Vec<Look>,
-    /// User units in a step of the triangulation's grid.
+    /// User units per grid step of the triangulation.
     pub(crate) step: f64,
-    /// Cells in which different looks were seen, because a line around them breaks off.
+    /// Number of cells with different labels, because a line around them has a gap.
     pub leaks: u64,
 }
 
-/// The visible lines that may part looks and the edge of the page, on a grid.
+/// Visible lines that may separate labels, and the edge of the page, on the grid.
 #[derive(Debug, Clone)]
 pub struct PageBorders(Segments);
 
 impl PageBorders {
-    /// Those of a view map, before it is moved on the page, in the frame of its camera.
+    /// Lines of a view map in its camera frame, before it is moved on the page.
     #[must_use]
     pub fn of(map: &ViewMap, frame: &Frame) -> Self {
         Self(segments(map, [frame.width, frame.height], step(frame)))
     }
 }
 
-/// User units in a step of the grid.
+/// User units per grid step.
 fn step(frame: &Frame) -> f64 {
     frame.width.max(frame.height) / tolerance::REGION_STEPS
 }
 
-/// Cuts the page along borders and asks what is seen. `shadowed`, if anything casts shadows, tells which lights do not reach points
-/// of faces.
+/// Triangulates the page along the borders, and labels the triangles.
+///
+/// `shadowed` returns a mask of the lights that do not reach each point; `None` if nothing casts shadows.
 #[must_use]
 pub fn see(
     lit: &Lit,
@@ -85,13 +86,13 @@ pub fn see(
 }
 
 impl Seen {
-    /// Whether anything is seen that looks so.
+    /// Whether any label satisfies the test.
     pub(crate) fn shows(&self, is_so: impl Fn(&Look) -> bool) -> bool {
         self.table.iter().any(is_so)
     }
 
-    /// The looks of the triangles under a coarser eye, by which different looks may count as one: their
-    /// numbers as in [`Seen::looks`], and the table that these point to.
+    /// Labels after relabelling by `coarser`, which may make labels equal: indices as in [`Seen::looks`], and
+    /// their table.
     pub(crate) fn seen_as(&self, coarser: impl Fn(&Look) -> Look) -> (Vec<u32>, Vec<Look>) {
         let of: Vec<Look> = self.table.iter().map(coarser).collect();
         let mut table = of.clone();
@@ -129,7 +130,7 @@ fn segments(map: &ViewMap, page: [f64; 2], step: f64) -> Segments {
     segments
 }
 
-/// Whether the surface may look different on both sides of lines of a kind.
+/// Whether a line of this kind may separate two labels.
 fn may_part(kind: LineKind) -> bool {
     use LineKind::{Artist, Border, Contour, Crease, Intersection, Isophote, Material};
     matches!(kind, Contour | Border | Crease | Material | Intersection | Isophote | Artist)

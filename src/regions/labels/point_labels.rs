@@ -1,4 +1,4 @@
-//! [`seen_at`]: what is seen at points of the image.
+//! [`seen_at`]: labels of points of the image.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
@@ -8,18 +8,19 @@ use super::surface_label::{Darkened, Look, NOTHING};
 use crate::lines::Lit;
 use crate::visibility::{Front, front_faces};
 
-/// Points that one task looks at: they lie near each other, and look alike.
+/// Points per task. Consecutive points are close together and mostly look alike.
 const TASK: usize = 1 << 9;
 
-/// What some points look like: the looks that are among them, and for each point [`NOTHING`], or the number of one plus 1.
+/// Labels of a batch of points: the distinct labels, and for each point [`NOTHING`] or an index plus 1.
 struct Looks {
     looks: Vec<Look>,
     numbers: Vec<u32>,
 }
 
-/// What is seen at points of the image: for each [`NOTHING`], or the number of its look in the table of looks plus 1. `shadowed`, if anything casts shadows, tells which lights do not reach points of faces.
+/// Labels points of the image: for each [`NOTHING`], or an index into the table plus 1.
 ///
-/// There are as many points as the page has triangles, so that nothing is kept of each but what it looks like.
+/// `shadowed` returns a mask of the lights that do not reach each point; `None` if nothing casts shadows.
+/// There is a point for each triangle of the page, so only the index is stored per point.
 pub(crate) fn seen_at(
     lit: &Lit,
     points: &[DVec2],
@@ -60,7 +61,7 @@ pub(crate) fn seen_at(
 impl Looks {
     fn of(seen: impl Iterator<Item = Option<Look>>) -> Self {
         let (mut looks, mut known) = (Vec::new(), FxHashMap::default());
-        // Neighbours mostly look the same.
+        // Consecutive points mostly have the same label.
         let mut last = (None, NOTHING);
         let numbers = seen.map(|look| {
             if look != last.0 {
@@ -79,7 +80,7 @@ impl Looks {
     }
 }
 
-/// What a face looks like at a point of it.
+/// Label of a face at a point on it.
 fn look(lit: &Lit, face: u32, at: DVec3, shadowed: u32, darkened: Darkened) -> Look {
     let mesh = lit.mesh;
     let (material, paint) = (mesh.face_material[face as usize], lit.paint(face, at));

@@ -1,32 +1,32 @@
-//! [`Look`]: what a part of the page looks like.
+//! [`Look`]: the label of a part of the page: part, material, paint, tone and hatching bin.
 
 use crate::mesh::{MaterialId, PaintId, PartId};
 
-/// What a part of the page looks like.
+/// Appearance of a part of the page. Neighbouring triangles of equal label belong to one region.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Look {
-    /// The part of the model that is seen.
+    /// Part that is seen.
     pub part: PartId,
-    /// Its material.
+    /// Material of the part.
     pub material: MaterialId,
-    /// What it is painted with: its material, or that in the colour of its texture.
+    /// Paint: the material, or the material in a colour of its texture.
     pub paint: PaintId,
-    /// Its tone, 0 the darkest.
+    /// Tone; 0 is the darkest.
     pub tone: u16,
-    /// The bin of light in which it is hatched, 0 the darkest; 0 where nothing is hatched.
+    /// Hatching bin; 0 is the darkest, and used where nothing is hatched.
     pub bin: u16,
-    /// Whether it is as dark as it is because something else is between it and a light.
+    /// Whether a cast shadow lowers the tone.
     pub cast: bool,
 }
 
-/// Which looks cast shadows darken: colours and hatching each have a switch of their own.
+/// Effects of cast shadows: fills and hatching each have a switch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Darkened {
-    /// The tones of fills.
+    /// Tones of fills.
     pub tones: bool,
-    /// The bins of hatching.
+    /// Hatching bins.
     pub bins: bool,
 }
 
-/// In lists of looks: only paper is seen.
+/// In lists of labels: only paper is seen.
 pub(crate) const NOTHING: u32 = 0;

@@ -1,4 +1,4 @@
-//! [`Axes`]: which way strokes are to run at the points of a lattice, as the surface or its light there has it.
+//! [`Axes`]: the stroke direction at each lattice point, from the surface's curvature or its light.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
@@ -7,32 +7,32 @@ use super::flat_faces::flat;
 use super::page_lattice::{Probe, Samples};
 use crate::geometry::numbers::portable_math::{cos, sin};
 
-/// What is asked of each point beside the facet and the light.
+/// Source of the stroke directions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Asked {
-    /// Nothing more.
+    /// No directions, only light.
     Light,
-    /// The direction in which the surface bends most, turned by an angle (radians) in its own plane.
+    /// Direction of largest curvature, rotated by an angle (radians) in the surface.
     Bend(f64),
-    /// The direction in which the light changes most, turned by an angle (radians) on the page.
+    /// Direction of the light's gradient, rotated by an angle (radians) on the page.
     Shade(f64),
 }
 
-/// A line without sense at a point of the page: the cosine and sine of twice its angle (from x to y),
-/// times how sure it is, 0 to 1.
+/// Undirected line at a point of the page: cosine and sine of twice its angle (from x to y), times its
+/// confidence, 0 to 1.
 pub type Axis = [f32; 2];
 
-/// The directions at the points of a lattice.
+/// Stroke directions at the points of a lattice.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Axes {
-    /// One a point.
+    /// One per point.
     pub of: Vec<Axis>,
-    /// Which of them hold whatever lies around: those of wide flat faces.
+    /// Whether a point's direction is independent of its neighbours; true on wide flat faces.
     pub hold: Vec<bool>,
 }
 
 impl Samples {
-    /// The directions that are asked for, one a point.
+    /// Stroke directions from the given source, one per point.
     #[must_use]
     pub fn axes(&self, probe: &Probe, asked: Asked) -> Axes {
         let (mut of, angle) = match asked {
@@ -40,7 +40,7 @@ impl Samples {
             Asked::Bend(angle) => (probe.bends(self, angle), angle),
             Asked::Shade(angle) => (self.shades(angle), angle),
         };
-        // Over flat faces light from afar does not change, but that of lamps does.
+        // On flat faces distant light is constant, but the light of lamps changes.
         let follows_light = matches!(asked, Asked::Shade(_))
             && probe.lit.shading.bins().is_some_and(|bins| probe.lit.shading.is_local(bins));
         let mut hold = if asked == Asked::Light || follows_light {
@@ -64,7 +64,7 @@ impl Samples {
         Axes { of, hold }
     }
 
-    /// Where the light changes most on the page.
+    /// Directions of the light's gradient on the page, by central differences within a facet.
     fn shades(&self, angle: f64) -> Vec<Axis> {
         let light = |k: usize, next: usize| {
             (self.facets[k] == self.facets[next]).then(|| f64::from(self.lights[next]))
@@ -97,15 +97,15 @@ impl Samples {
     }
 }
 
-/// Light that changes by this much from point to point shows its direction for sure.
+/// Smallest change of light between neighbouring points that gives a direction full confidence.
 const STEEP: f64 = 0.02;
 
-/// The sureness of directions that nothing but a habit asks for.
+/// Confidence of default directions.
 const HABIT: f64 = 0.004;
 
 impl Probe<'_> {
-    /// Directions in which the surface bends most, from how its normals change from point to point once they
-    /// are smoothed: bends smaller than what strokes could follow do not count.
+    /// Directions of largest curvature, from finite differences of the smoothed normals. Bends that are too
+    /// small for strokes to follow are smoothed away.
     fn bends(&self, samples: &Samples, angle: f64) -> Vec<Axis> {
         let lit = self.lit;
         let frame = &lit.view.frame;
@@ -139,7 +139,7 @@ impl Probe<'_> {
             .collect()
     }
 
-    /// The unit normals at all points, each evened out over its neighbours on the facet.
+    /// Unit normals at all points, smoothed over neighbours on the same facet.
     fn smooth_normals(&self, samples: &Samples) -> Vec<DVec3> {
         samples.spread(self.normals.clone(), EVENED, |_, own, around| {
             let sum: DVec3 = around.into_iter().flatten().sum();
@@ -147,8 +147,8 @@ impl Probe<'_> {
         })
     }
 
-    /// The level direction of a surface on the page: hands draw walls with level strokes. On level surfaces
-    /// that of the page.
+    /// Horizontal direction of a surface, projected to the page; default for walls. Horizontal surfaces use
+    /// the page's horizontal.
     fn level(&self, at: DVec3, normal: DVec3) -> DVec2 {
         let frame = &self.lit.view.frame;
         let level = frame.up.cross(normal);
@@ -159,18 +159,18 @@ impl Probe<'_> {
     }
 }
 
-/// Directions are carried to the page over this length, px.
+/// Step length for projecting directions to the page, px.
 const STEP_PX: f64 = 1e-2;
 
-/// Rounds in which normals are evened out: over about five points of the lattice.
+/// Rounds of smoothing normals; they act over about five lattice points.
 const EVENED: usize = 40;
 
-/// The direction on the page in which a surface bends most, turned by an angle in the surface, and how sure
-/// it is; from the ways on the surface that a step of the lattice to the right and one down make, and
-/// from the changes of the normal along them.
+/// Direction of largest curvature on the page, rotated by an angle in the surface, and its confidence.
 ///
-/// Both fundamental forms are taken in the coordinates of the page; where II v = k I v, v is a principal
-/// direction (do Carmo, Differential Geometry of Curves and Surfaces, section 3.3).
+/// `ways` are the surface steps that correspond to one lattice step right and one down, and `turns` the
+/// changes of the normal along them. Both fundamental forms are taken in page coordinates: where II v = k I
+/// v, v is a principal direction. Source: do Carmo, Differential Geometry of Curves and Surfaces, section
+/// 3.3.
 fn bend(ways: [DVec3; 2], turns: [DVec3; 2], angle: f64, size: f64) -> Option<(DVec2, f64)> {
     let [g11, g12, g22] = [ways[0].dot(ways[0]), ways[0].dot(ways[1]), ways[1].dot(ways[1])];
     let m12 = f64::midpoint(turns[0].dot(ways[1]), turns[1].dot(ways[0]));
@@ -191,17 +191,17 @@ fn bend(ways: [DVec3; 2], turns: [DVec3; 2], angle: f64, size: f64) -> Option<(D
         return None;
     }
     let first = first / long;
-    // The other one, at a right angle in the surface.
+    // The other principal direction, at a right angle in the surface.
     let second = DVec2::new(-(first.x * g12 + first.y * g22), first.x * g11 + first.y * g12) / area2.sqrt();
     let (s, c) = (sin(angle), cos(angle));
     let sure = 2.0 * apart / (2.0 * (mean.abs() + apart)).max(f64::MIN_POSITIVE);
     Some((first * c - second * s, sure * (k1.abs() * size / BENDS).min(1.0)))
 }
 
-/// Surfaces that face straight up or down, but for this cosine, have no level direction.
+/// Sine of the slope below which a surface counts as horizontal.
 const LEVEL: f64 = 0.05;
 
-/// A surface that bends by this angle (radians) over the longer side of the frame bends for sure.
+/// Smallest bend over the longer side of the frame that gives a direction full confidence, radians.
 const BENDS: f64 = 2.0;
 
 fn turned(v: DVec2, angle: f64) -> DVec2 {
@@ -209,7 +209,7 @@ fn turned(v: DVec2, angle: f64) -> DVec2 {
     DVec2::new(v.x * c + v.y * s, v.y * c - v.x * s)
 }
 
-/// The line along a vector, whose length counts as well.
+/// Double-angle form of the line along a vector, with the given confidence.
 fn along(v: DVec2, sure: f64) -> Axis {
     let length2 = v.length_squared();
     if length2 <= 0.0 || !length2.is_finite() {

@@ -1,22 +1,26 @@
-//! Which points of a lattice lie on wide flat faces: such faces have no bends of their own, and those of what
-//! lies beside them say nothing about them.
+//! Flat faces: which lattice points lie on wide flat faces. Stroke directions of their neighbours do not
+//! apply there.
+//!
+//! 1. Connected points of one facet with nearly equal normals form a patch.
+//! 2. A patch is wide if some point is at least three points away from everything else.
+//! 3. Patches that continue each other without an edge are slightly curved, and thus not flat.
 
 use glam::DVec3;
 
 use super::page_lattice::Samples;
 
-/// Normals of neighbours on a flat face differ by less than this.
+/// Largest difference between the normals of neighbours on a flat face.
 const SAME: f64 = 1e-3;
 
-/// Normals all over a flat face differ from that of its first point by less than this: what bends ever so
-/// gently is not flat.
+/// Largest difference between normals on a flat face and the normal of its first point. It excludes gently
+/// curved faces.
 const ALL_SAME: f64 = 0.01;
 
-/// A wide face has a point that is as many points of the lattice away from all that is not the face.
+/// Minimum distance, in lattice points, from the innermost point of a wide face to its border.
 const WIDE: u16 = 3;
 
-/// Whether each point of the lattice is on a wide flat face: one of a patch of neighbours on one facet that
-/// share their normal, as it is before it is evened out. `normals` are zero where nothing is seen.
+/// Whether each lattice point lies on a wide flat face. `normals` are not smoothed, and zero where no surface
+/// is seen.
 pub(crate) fn flat(samples: &Samples, normals: &[DVec3]) -> Vec<bool> {
     let (patches, count) = patches(samples, normals);
     let depths = depths(samples, &patches);
@@ -24,7 +28,7 @@ pub(crate) fn flat(samples: &Samples, normals: &[DVec3]) -> Vec<bool> {
     for (patch, depth) in patches.iter().zip(&depths) {
         is_flat[*patch as usize] |= *patch != 0 && *depth >= WIDE;
     }
-    // Patches that go on in each other without an edge bend, if ever so gently.
+    // Patches that continue each other without an edge are slightly curved.
     for k in 0..patches.len() {
         let beside =
             [(k % samples.columns + 1 < samples.columns).then_some(k + 1), Some(k + samples.columns)];
@@ -44,7 +48,7 @@ fn near(normals: &[DVec3], a: usize, b: usize, far: f64) -> bool {
     (normals[a] - normals[b]).length_squared() < far * far
 }
 
-/// The patch of each point, from 1; 0 where nothing is seen. And how many there are.
+/// Patch of each point, from 1 (0 where no surface is seen), and the number of patches.
 fn patches(samples: &Samples, normals: &[DVec3]) -> (Vec<u32>, u32) {
     let (columns, rows) = (samples.columns, samples.rows);
     let mut patches = vec![0; normals.len()];
@@ -80,8 +84,8 @@ fn patches(samples: &Samples, normals: &[DVec3]) -> (Vec<u32>, u32) {
     (patches, count)
 }
 
-/// How many points it is from each point to the next one of another patch or beyond the page, diagonals
-/// counted as one.
+/// Distance from each point to the next one outside its patch, in lattice points, with diagonal steps counted
+/// as one.
 fn depths(samples: &Samples, patches: &[u32]) -> Vec<u16> {
     let (columns, rows) = (samples.columns, samples.rows);
     let mut depths = vec![u16::MAX; patches.len()];
@@ -111,7 +115,7 @@ fn depths(samples: &Samples, patches: &[u32]) -> Vec<u16> {
 mod tests {
     use super::*;
 
-    /// A page of one facet, whose normal at each point is given.
+    /// Flat points of a page with one facet and the given normals.
     fn page(columns: usize, rows: usize, normal: impl Fn(usize, usize) -> DVec3) -> Vec<bool> {
         let count = columns * rows;
         let samples = Samples { columns, rows, facets: vec![1; count], ..Samples::default() };
@@ -130,9 +134,9 @@ mod tests {
     fn what_bends_or_is_narrow_is_not_flat() {
         let along = |angle: f64| DVec3::new(angle, 0.0, 1.0).normalize();
         assert!(!page(20, 20, |column, _| along(0.02 * column as f64)).contains(&true));
-        // Too gently to be seen from point to point.
+        // A bend too gentle to detect between neighbours.
         assert!(!page(60, 20, |column, _| along(0.0008 * column as f64)).contains(&true));
-        // Strips of a round tower.
+        // Strips of a tessellated cylinder.
         assert!(!page(40, 40, |column, _| along(0.1 * (column / 4) as f64)).contains(&true));
     }
 }

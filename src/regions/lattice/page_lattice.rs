@@ -1,8 +1,7 @@
-//! [`Samples`]: the page asked at the points of a lattice: which facet is seen there, and how much light falls
-//! on it.
+//! [`Samples`]: facet and light at the points of a lattice on the page.
 //!
-//! They give strokes their direction, width and density; where strokes end is decided by the borders of the
-//! [`Ground`], never here.
+//! They determine the direction, width and density of strokes. Where strokes end is decided by the borders of
+//! the [`Ground`] only.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
@@ -14,39 +13,41 @@ use crate::mesh::FaceId;
 use crate::regions::Ground;
 use crate::visibility::front_faces;
 
-/// The page asked at the points of a lattice, row by row.
+/// Samples of the page at the points of a lattice, row by row.
 #[derive(Debug, Clone, Default)]
 pub struct Samples {
-    /// Distance of the points, page units.
+    /// Distance between points, page units.
     pub pitch: f64,
-    /// The first point.
+    /// First point.
     pub origin: Point,
-    /// Points in a row.
+    /// Points per row.
     pub columns: usize,
     /// Number of rows.
     pub rows: usize,
-    /// The cell of the ground at each point.
+    /// Cell of the ground at each point.
     pub cells: Vec<u32>,
-    /// Its facet; 0 = paper.
+    /// Facet at each point; 0 = paper.
     pub facets: Vec<u32>,
-    /// The diffuse light on it; 0 on paper.
+    /// Diffuse light at each point; 0 on paper.
     pub lights: Vec<f32>,
 }
 
-/// What faces and light say of each point.
+/// Surface points and normals at the lattice points.
 pub struct Probe<'a> {
     pub(crate) lit: &'a Lit<'a>,
-    /// The point of the surface at each point of the lattice where one is seen: its face and place.
+    /// Visible surface point at each lattice point: its face and position.
     pub(crate) hits: Vec<Option<(u32, DVec3)>>,
-    /// The normal there; zero where no surface is seen.
+    /// Shading normal; zero where no surface is seen.
     pub(crate) normals: Vec<DVec3>,
-    /// The normal of the face itself where it stands for no rounded surface.
+    /// Face normal where the face is not part of a rounded surface; otherwise the shading normal.
     pub(crate) as_built: Vec<DVec3>,
 }
 
 impl Samples {
-    /// Asks at points `pitch` apart. `shadowed` tells which lights do not reach points of faces, and `is_round`
-    /// which faces stand for a rounded surface; `offset` moves the image on the page.
+    /// Samples the page at points `pitch` apart.
+    ///
+    /// `shadowed` returns a mask of the lights that do not reach each point. `is_round` says which faces are
+    /// part of a rounded surface. `offset` moves the image on the page.
     pub fn new<'a>(
         lit: &'a Lit,
         ground: &Ground,
@@ -96,7 +97,7 @@ impl Samples {
             .with_min_len(1 << 10)
             .map(|hit| hit.map_or(DVec3::ZERO, |(face, at)| lit.at(face, at).normal))
             .collect();
-        // However light is blended over the faces of a polyhedron, they are flat.
+        // Faces of a polyhedron are flat, even where their light is interpolated.
         let own = |face: u32| DVec3::from_array(lit.mesh.face_normals[face as usize].map(f64::from));
         let as_built = hits
             .iter()
@@ -109,13 +110,13 @@ impl Samples {
         (samples, Probe { lit, hits, normals, as_built })
     }
 
-    /// The point of a number.
+    /// Position of point `k`.
     #[must_use]
     pub fn point(&self, k: usize) -> Point {
         self.origin + Vec2::new((k % self.columns) as f64, (k / self.columns) as f64) * self.pitch
     }
 
-    /// The four points around a point of the page, and their weights; none beyond the page.
+    /// The four lattice points around a position and their bilinear weights. Positions outside are clamped.
     #[must_use]
     pub fn around(&self, p: Point) -> [(usize, f64); 4] {
         let at = (p - self.origin) / self.pitch;
@@ -132,8 +133,10 @@ impl Samples {
         ]
     }
 
-    /// Values that are made anew for a number of rounds, each from what it was and from those of its neighbours
-    /// to the left, to the right, above and below; `None` for those on another facet.
+    /// Iterates a function over the lattice for a number of rounds.
+    ///
+    /// `anew` gets the point's index, its value, and the values of its left, right, upper and lower
+    /// neighbours (`None` on another facet).
     #[must_use]
     pub fn spread<T: Copy + Send + Sync>(
         &self,
@@ -164,7 +167,7 @@ impl Samples {
         now
     }
 
-    /// The light on a facet at a point of the page; `None` where the facet is not seen nearby.
+    /// Interpolated light on a facet at a position; `None` if the facet is not seen nearby.
     #[must_use]
     pub fn light(&self, facet: u32, p: Point) -> Option<f64> {
         let own = self.around(p).into_iter().filter(|(k, _)| self.facets[*k] == facet);
@@ -176,11 +179,11 @@ impl Samples {
     }
 }
 
-/// Points whose weight would vanish still count a little, so that there is always one.
+/// Minimum weight of a sample, so that the sum of weights is never zero.
 const FAINT: f64 = 1e-6;
 
 impl Lit<'_> {
-    /// The point of a face at a place on it.
+    /// Surface point of a face at a position on it.
     pub(crate) fn at(&self, face: u32, at: DVec3) -> SurfacePoint {
         self.point(face, self.mesh.weights(FaceId(face), at))
     }

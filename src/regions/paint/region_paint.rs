@@ -1,4 +1,4 @@
-//! Regions painted: one closed path for each, in the layers `fills` and `shadows`.
+//! Region paths: one closed path per region, in the layers `fills` and `shadows`.
 
 use std::sync::Arc;
 
@@ -10,25 +10,25 @@ use crate::drawing::{Layer, LayerKind, Mark, Paint, Provenance, Unit};
 use crate::light::Shading;
 use crate::regions::{Look, Region, RegionOptions, Regions, Seams};
 
-/// What painting needs beside regions: names, colours, the unit.
+/// Names, colours and unit, as needed for painting.
 #[derive(Debug, Clone, Copy)]
 pub struct PaintContext<'a> {
     /// Unit of the page.
     pub unit: Unit,
-    /// Where the regions' frame lies on the page.
+    /// Position of the regions' frame on the page.
     pub offset: Vec2,
-    /// Names of the parts, by [`crate::mesh::PartId`].
+    /// Part names, indexed by [`crate::mesh::PartId`].
     pub parts: &'a [Arc<str>],
-    /// Names of the materials, by [`crate::mesh::MaterialId`].
+    /// Material names, indexed by [`crate::mesh::MaterialId`].
     pub materials: &'a [Arc<str>],
-    /// The colours of tones.
+    /// Colours of tones.
     pub shading: &'a Shading,
 }
 
-/// The layers `fills` and `shadows`; empty ones are absent.
+/// Paints regions into the layers `fills` and `shadows`. Empty layers are left out.
 ///
-/// Narrow regions come first. With [`Seams::Underlap`] each reaches a little under those that are
-/// painted after it; wide ones have room for that, and nothing peeps out on their other side.
+/// Narrow regions come first. With [`Seams::Underlap`] each extends a little under those painted after it.
+/// Wide regions have room for that, so nothing shows on their other side.
 #[must_use]
 pub fn paint(regions: &Regions, context: &PaintContext, options: &RegionOptions) -> Vec<Layer> {
     let lengths: Vec<f64> = regions.borders.par_iter().with_min_len(16).map(|b| length(&b.path)).collect();
@@ -36,7 +36,7 @@ pub fn paint(regions: &Regions, context: &PaintContext, options: &RegionOptions)
     let key = |k: u32| {
         let region = &regions.regions[k as usize];
         let around: f64 = region.loops.iter().flatten().map(|(border, _)| lengths[*border as usize]).sum();
-        // Bits order positive numbers.
+        // Bits sort like positive numbers.
         (region.look.cast, (region.area / around.max(f64::MIN_POSITIVE)).to_bits(), k)
     };
     order.sort_by_cached_key(|k| key(*k));
@@ -67,8 +67,7 @@ pub fn paint(regions: &Regions, context: &PaintContext, options: &RegionOptions)
     layers.into_iter().filter(|layer| !layer.marks.is_empty()).collect()
 }
 
-/// The outlines of regions that are picked, each up to its borders, but for a `reach` under those of them
-/// that come after it: where two are painted alike, no paper shines through between them.
+/// Outlines of the picked regions, extended by `reach` under picked neighbours that come later.
 pub(crate) fn outlines(
     regions: &Regions,
     offset: Vec2,
@@ -87,7 +86,7 @@ pub(crate) fn outlines(
         .collect()
 }
 
-/// The length of a path, by the chords of its pieces and of their handles.
+/// Approximate length of a path: for each curve, the mean of its chord and its control polygon.
 fn length(path: &BezPath) -> f64 {
     let way = |a: Point, b: Point| (b - a).hypot2().sqrt();
     let of = |segment: PathSeg| match segment {
@@ -113,7 +112,7 @@ fn mark(region: &Region, path: BezPath, context: &PaintContext) -> Mark {
     Mark { path, paint, provenance: provenance(look, context) }
 }
 
-/// Where a region that looks so is from.
+/// Provenance of a region with the given label.
 pub(crate) fn provenance(look: Look, context: &PaintContext) -> Provenance {
     let name = |name: &Arc<str>| (!name.is_empty()).then(|| Arc::clone(name));
     Provenance {
@@ -129,7 +128,7 @@ pub(crate) fn provenance(look: Look, context: &PaintContext) -> Provenance {
     }
 }
 
-/// The loops of a region, pushed outward by `reach` along borders with regions painted after it.
+/// Loops of a region, offset outward by `reach` along borders with regions painted later.
 fn outline(regions: &Regions, number: u32, rank: &[u32], reach: f64) -> BezPath {
     let mut path = BezPath::new();
     for uses in &regions.regions[number as usize].loops {
@@ -151,7 +150,7 @@ fn outline(regions: &Regions, number: u32, rank: &[u32], reach: f64) -> BezPath 
     path
 }
 
-/// Adds an open or closed piece to the loop that is being drawn.
+/// Appends an open or closed piece to the current loop.
 pub(crate) fn append(path: &mut BezPath, piece: &BezPath, begun: &mut bool) {
     let mut at = match path.elements().last() {
         Some(last) if *begun => last.end_point(),
@@ -164,7 +163,7 @@ pub(crate) fn append(path: &mut BezPath, piece: &BezPath, begun: &mut bool) {
                 *begun = true;
                 at = Some(p);
             }
-            // The end of the border before, or near to it where that was pushed outward.
+            // The end of the previous border, or close to it if that was offset.
             PathEl::MoveTo(p) | PathEl::LineTo(p) => {
                 if at != Some(p) {
                     path.line_to(p);
@@ -180,13 +179,13 @@ pub(crate) fn append(path: &mut BezPath, piece: &BezPath, begun: &mut bool) {
     }
 }
 
-/// A path moved by `reach` to its left as the page is seen (y down), which is outward. Sharp corners
-/// are cut off or crossed over, so that their sides stay as far away as all others.
+/// Offsets a path by `reach` to its left on the page (y down), which is outward. Sharp corners are cut off or
+/// crossed over, so their sides keep the full distance.
 fn pushed(path: &BezPath, reach: f64, closed: bool) -> BezPath {
     let segments: Vec<PathSeg> = path.segments().collect();
     let directions: Vec<[Vec2; 2]> = segments.iter().map(ends).collect();
     let n = segments.len();
-    // How far the start and the end of a segment move, given the direction of the one next to it.
+    // Offset of an end of a segment, given the direction of the adjacent one.
     let shift =
         |own: Vec2, next: Option<Vec2>| next.and_then(|next| mitre(own, next)).unwrap_or(normal(own)) * reach;
     let mut out = BezPath::new();
@@ -233,12 +232,12 @@ fn unit(v: Vec2) -> Vec2 {
     if length > 0.0 { v / length } else { Vec2::ZERO }
 }
 
-/// To the side that lies outside of a region whose border runs this way.
+/// Unit vector to the outside of a region whose border has this direction.
 fn normal(way: Vec2) -> Vec2 {
     Vec2::new(way.y, -way.x)
 }
 
-/// The shift of a blunt corner between two directions by which both its sides move by one.
+/// Mitre of a blunt corner: the offset that moves both sides by one.
 fn mitre(a: Vec2, b: Vec2) -> Option<Vec2> {
     let middle = unit(normal(a) + normal(b));
     let cosine = middle.dot(normal(a));
@@ -251,7 +250,7 @@ mod tests {
 
     #[test]
     fn a_square_grows_on_all_sides() {
-        // Turning from x to y: the inside is on the left of the numbers, the right as seen.
+        // Turns from x to y, so the inside is on the right on the page.
         let square = BezPath::from_vec(vec![
             PathEl::MoveTo(Point::new(0.0, 0.0)),
             PathEl::LineTo(Point::new(10.0, 0.0)),

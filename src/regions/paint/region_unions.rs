@@ -1,4 +1,4 @@
-//! [`unions`]: the outlines of what several regions cover together, along the borders that they share with others.
+//! [`unions`]: outlines of several regions together, along the borders that they share with others.
 
 use kurbo::{Affine, BezPath, Point, Vec2};
 use rustc_hash::FxHashMap;
@@ -6,8 +6,9 @@ use rustc_hash::FxHashMap;
 use super::region_paint::append;
 use crate::regions::Regions;
 
-/// The outline of all regions of each class, exactly up to their borders with others; `class` tells that of a region by its number,
-/// and there are `count` of them. Moved by `offset`.
+/// Outline of all regions of each class, exactly along their borders with others, and moved by `offset`.
+///
+/// `class` returns the class of a region, below `count`.
 pub(crate) fn unions(
     regions: &Regions,
     count: usize,
@@ -16,7 +17,7 @@ pub(crate) fn unions(
 ) -> Vec<BezPath> {
     let classes: Vec<Option<u32>> = (0..regions.regions.len() as u32).map(class).collect();
     let of = |side: Option<u32>| side.and_then(|region| classes.get(region as usize).copied().flatten());
-    // For each class the borders between it and others, run through with the class to the right as the page is seen.
+    // For each class, its borders with others, passed with the class on the right on the page.
     let mut around: Vec<Vec<(usize, bool)>> = vec![Vec::new(); count];
     for (number, border) in regions.borders.iter().enumerate() {
         let [right, left] = border.sides.map(of);
@@ -102,7 +103,7 @@ mod tests {
             area: 50.0,
             loops: vec![],
         };
-        // The right half, clockwise as the page is seen, and the left one, and what parts them.
+        // The right half, clockwise on the page, the left half, and the line between them.
         let right = line(&[[5.0, 0.0], [10.0, 0.0], [10.0, 10.0], [5.0, 10.0]]);
         let left = line(&[[5.0, 0.0], [0.0, 0.0], [0.0, 10.0], [5.0, 10.0]]);
         let middle = line(&[[5.0, 0.0], [5.0, 10.0]]);

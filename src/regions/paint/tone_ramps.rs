@@ -1,8 +1,12 @@
-//! [`Ramp`]: bands of light that lie side by side along straight, parallel borders are one region, painted in a gradient.
+//! [`Ramp`]: bands of light with straight, parallel borders, joined into one region with a gradient.
 //!
-//! Where light is all but linear in one direction, as on a cylinder, its steps end in lines that run the same way. Bands are
-//! joined as long as every border between two of them stays within a tolerance of one line across the gradient, and no band
-//! reaches beyond its own borders: then no point is painted a step lighter or darker than its band would be.
+//! Where light is almost linear in one direction, as on a cylinder, its steps end in parallel lines. Bands
+//! are joined under two conditions:
+//!
+//! - Every border between two bands stays within a tolerance of one line across the gradient.
+//! - No band extends past its own borders.
+//!
+//! Then no point is painted a step lighter or darker than its band would be.
 
 use std::collections::BTreeMap;
 
@@ -15,16 +19,17 @@ use crate::regions::cells::patches::Patches;
 use crate::regions::cells::triangulation::Triangulation;
 use crate::regions::labels::surface_label::Look;
 
-/// How tones follow each other along a line.
+/// Tones along a direction.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ramp {
-    /// The direction in which it grows lighter, of length 1.
+    /// Unit direction of increasing tone.
     pub way: Vec2,
-    /// Where a tone ends, as far along `way` as its border is, and that tone and the next; rising.
+    /// For each border, ascending: its position along `way`, and the tones before and after it.
     pub steps: Vec<(f64, [u16; 2])>,
 }
 
-/// The colours of a ramp on a page on which its frame lies at an offset. Half way between two tones lies the border between them.
+/// Gradient of a ramp, on a page where the ramp's frame lies at `offset`. The border of two tones is halfway
+/// between them.
 pub(crate) fn gradient(ramp: &Ramp, colour: impl Fn(u16) -> Colour, offset: Vec2) -> Gradient {
     let mut shades: Vec<(f64, [f64; 3])> = Vec::with_capacity(ramp.steps.len() + 2);
     let mut alpha = 255;
@@ -55,9 +60,9 @@ pub(crate) fn gradient(ramp: &Ramp, colour: impl Fn(u16) -> Colour, offset: Vec2
     Gradient { start: at(from), end: at(from + length), stops }
 }
 
-/// Keeps the shades between two that are not all but on the line between them.
+/// Marks the stops that are needed: all others lie on the line between their neighbours.
 ///
-/// Source: Douglas and Peucker, 1973, over one dimension.
+/// Source: Douglas and Peucker, 1973, in one dimension.
 fn keep(shades: &[(f64, [f64; 3])], first: usize, last: usize, kept: &mut [bool]) {
     let (Some(a), Some(b)) = (shades.get(first), shades.get(last)) else { return };
     (kept[first], kept[last]) = (true, true);
@@ -74,42 +79,42 @@ fn keep(shades: &[(f64, [f64; 3])], first: usize, last: usize, kept: &mut [bool]
     }
 }
 
-/// A channel from 0 to 1 that is off by no more than this is not seen.
+/// Largest invisible error of a colour channel, 0 to 1.
 const SHADE: f64 = 0.6 / 255.0;
 
-/// A ramp has at least so many steps: fewer are no smaller as a gradient.
+/// Minimum number of steps of a ramp. With fewer a gradient saves nothing.
 const FEWEST_STEPS: usize = 3;
 
-/// How far beyond its borders a band may reach, in tolerances.
+/// How far a band may extend past its borders, in tolerances.
 const REACH: f64 = 2.0;
 
-/// A border between two bands of one surface, on the page.
+/// Straight border between two bands of one surface, on the page.
 struct Step {
-    /// The number of its arc.
+    /// Index of its arc.
     arc: usize,
-    /// The darker patch and the lighter one, and their tones.
+    /// Darker patch and lighter patch.
     patches: [u32; 2],
     tones: [u16; 2],
     ends: [Point; 2],
-    /// Across it, to the lighter side.
+    /// Unit normal, towards the lighter side.
     way: Vec2,
     length: f64,
 }
 
-/// Patches that may be one region.
+/// Patches that may become one region.
 #[derive(Default)]
 struct Group {
     way: Vec2,
-    /// The borders within it, by number.
+    /// Indices of the borders inside the group.
     steps: Vec<usize>,
-    /// Where those of each pair of tones lie: from and to.
+    /// Range of positions of the borders, for each pair of tones.
     spans: Spans,
     is_broken: bool,
 }
 
 type Spans = BTreeMap<[u16; 2], (f64, f64)>;
 
-/// Joins bands to ramps: gives their patches one number each. One entry a patch.
+/// Joins bands into ramps, and gives their patches a common number. Returns one entry per patch.
 pub(crate) fn join(
     cut: &Triangulation,
     patches: &mut Patches,
@@ -158,7 +163,7 @@ pub(crate) fn join(
                 patches.area2[root as usize] += std::mem::take(&mut patches.area2[*patch as usize]);
             }
         }
-        // The region is called by the tone in its middle.
+        // The region gets the label of its middle tone.
         own.sort_by_key(|patch| (patches.looks[*patch as usize], *patch));
         patches.looks[root as usize] = patches.looks[own[own.len() / 2] as usize];
     }
@@ -166,7 +171,7 @@ pub(crate) fn join(
     ramps
 }
 
-/// The border that an arc is between two bands, if it is straight.
+/// The arc as a border between two bands, if it is straight.
 fn straight<'a>(
     arc: usize,
     raw: &RawArc,
@@ -184,12 +189,12 @@ fn straight<'a>(
     }
     let (first, last) = (*points.first()?, *points.last()?);
     let length = (last - first).hypot2().sqrt();
-    // A shorter one has no direction.
+    // Shorter borders have no reliable direction.
     if length < tolerance * 4.0 {
         return None;
     }
     let along = (last - first) / length;
-    // The left side, as x turns to y.
+    // The left side, turning from x to y.
     let to_left = Vec2::new(-along.y, along.x);
     let is_near = |p: &Point| (*p - first).dot(to_left).abs() <= tolerance;
     let (patches, tones, way) = if a.tone > b.tone {
@@ -202,7 +207,7 @@ fn straight<'a>(
 
 struct Joined {
     root: Vec<u32>,
-    /// The groups of more than one patch, by their roots.
+    /// Groups of more than one patch, by root patch.
     groups: BTreeMap<u32, Group>,
 }
 
@@ -214,7 +219,7 @@ impl Joined {
         patch
     }
 
-    /// Joins the groups on both sides of a border, if all borders of both lie well along one line.
+    /// Joins the groups on both sides of a border, if all their borders fit along one direction.
     fn join(&mut self, steps: &[Step], number: usize, tolerance: f64) {
         let step = &steps[number];
         let [a, b] = step.patches.map(|patch| self.find(patch));
@@ -257,7 +262,7 @@ impl Joined {
         group.steps.extend(added);
     }
 
-    /// Breaks groups up that hold a border which lies elsewhere, or a band that reaches beyond its borders.
+    /// Breaks up groups with a patch that extends past its borders.
     fn break_up<'a>(
         &mut self,
         borders: &Borders,

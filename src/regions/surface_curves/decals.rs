@@ -1,8 +1,11 @@
-//! [`Decal`]: figures of a plane laid on the surface, as they are seen: where, and on which facets of the ground.
+//! [`Decal`]: figures on a plane that is laid on the surface, projected to the page with the facets that show
+//! them.
 //!
-//! The plane is laid on the surface face by face, by texture coordinates or by the axes of a part. A figure keeps to its middle: each
-//! of its points is found by walking from there over the faces, straight in the plane; where the plane is not continued, or turns
-//! from the eye, the last face is thought on. What is painted of it is for the ground to say, whose borders are exact.
+//! 1. The plane lies on the surface face by face, by texture coordinates or part axes.
+//! 2. Each figure is anchored at its centre. Its points are found by walking from there over the faces,
+//!    straight in the plane. Where the plane ends or turns away from the camera, the last face is extended.
+//! 3. Sample points decide on which facets a figure is visible. The exact clipping uses the borders of the
+//!    [`Ground`].
 
 use std::collections::BTreeMap;
 
@@ -18,38 +21,38 @@ use crate::mesh::{FaceId, Mesh};
 use crate::regions::Ground;
 use crate::regions::hatch_regions::hatch_map::PAPER;
 
-/// What is laid on the plane, again and again.
+/// Figure that is repeated on the plane.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Figure {
-    /// Its lines, closed or not; their last points are not their first.
+    /// Its lines, open or closed. A closed line does not repeat its first point.
     pub lines: Vec<Vec<DVec2>>,
-    /// Points of the plane are this far apart along x and y from one figure to the next.
+    /// Distance between repetitions along x and y, in the plane.
     pub period: DVec2,
 }
 
-/// A figure as it is seen.
+/// Figure on the page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decal {
-    /// The number of the figure.
+    /// Index of the figure.
     pub figure: u32,
     /// Its lines, page units.
     pub lines: Vec<Vec<Point>>,
-    /// The facets on which something of it is seen, ascending.
+    /// Facets on which some of it is visible, ascending.
     pub facets: Vec<u32>,
 }
 
-/// More figures than this on a surface are too fine to be seen.
+/// Maximum number of figures on a surface. More would be too small to see.
 pub const MOST_FIGURES: f64 = 5e5;
 
-/// Of each line of a figure so many points are asked for whether they are seen.
+/// Approximate number of points per line that are tested for visibility.
 const ASKED: usize = 12;
 
-/// Figures of two charts may be so near to each other, as part of their sizes, where the surface bends by less than `SMOOTH`
-/// between them (cosine); else the later one is left out.
+/// Minimum distance between figures of two charts, relative to their sizes. It applies where the normals
+/// differ little (cosine above `SMOOTH`); there the later figure is left out.
 const NEAR: f64 = 0.9;
 const SMOOTH: f64 = 0.7;
 
-/// How many figures there would be, given how the plane lies on each face.
+/// Approximate number of figures that the charts would hold.
 #[must_use]
 pub fn count(mesh: &Mesh, chart: impl Fn(u32) -> Option<Chart>, figures: &[Figure]) -> f64 {
     let area = |chart: Chart| {
@@ -61,19 +64,19 @@ pub fn count(mesh: &Mesh, chart: impl Fn(u32) -> Option<Chart>, figures: &[Figur
     figures.iter().map(|figure| whole / (figure.period.x * figure.period.y)).sum()
 }
 
-/// The middle of a figure on a face.
+/// Centre of a figure on a face.
 struct Anchor {
     figure: u32,
     face: u32,
-    /// Number along x and y.
+    /// Repetition number along x and y.
     place: [i64; 2],
-    /// In the model.
+    /// Position in space.
     at: DVec3,
-    /// Whether it lies beyond the face, where the plane is not continued.
+    /// Whether it lies outside the face, where the plane is not continued.
     is_outer: bool,
 }
 
-/// The figures on the faces that the eye may see.
+/// Figures on the faces that the camera may see.
 #[must_use]
 pub fn decals(
     lit: &Lit,
@@ -141,14 +144,14 @@ pub fn decals(
     laid.into_iter().filter_map(decal).collect()
 }
 
-/// A figure on the page, and the points of it on the surface of which is asked whether they are seen.
+/// Figure on the page, with surface points to be tested for visibility.
 struct Laid {
     figure: u32,
     lines: Vec<Vec<Point>>,
     asked: Vec<(Point, f64)>,
 }
 
-/// The middle of the box around a figure.
+/// Centre of a figure's bounding box.
 fn middle(figure: &Figure) -> DVec2 {
     let points = || figure.lines.iter().flatten();
     let low = points().copied().fold(DVec2::INFINITY, DVec2::min);
@@ -156,7 +159,7 @@ fn middle(figure: &Figure) -> DVec2 {
     (low + high) / 2.0
 }
 
-/// The figures whose middles lie on a face.
+/// Adds the figures whose centres lie on a face.
 fn place(
     mesh: &Mesh,
     face: u32,
@@ -177,7 +180,7 @@ fn place(
         for i in low.x as i64..=high.x as i64 {
             let p = DVec2::new(i as f64, j as f64);
             let parts = [beside(b, c, p), beside(c, a, p), beside(a, b, p)];
-            // On a side it belongs to one of both faces there.
+            // A point on a side belongs to exactly one of its two faces.
             let is_in = parts.iter().all(|(part, along)| match whole > 0.0 {
                 true => *part > 0.0 || (*part == 0.0 && *along),
                 false => *part < 0.0 || (*part == 0.0 && *along),
@@ -190,13 +193,13 @@ fn place(
     }
 }
 
-/// Twice the area between a side and a point, the same but for its sign from both faces; and whether the side runs as it is
-/// thought to where the point lies on it.
+/// Twice the signed area between a side and a point, and which of the two faces owns points on the side. The
+/// magnitude is exactly the same from both faces.
 fn beside(a: DVec2, b: DVec2, p: DVec2) -> (f64, bool) {
     if (a.x, a.y) < (b.x, b.y) { ((b - a).perp_dot(p - a), true) } else { (-(a - b).perp_dot(p - b), false) }
 }
 
-/// Adds those beyond the border of the plane, each once.
+/// Adds figures outside the border of the plane, each once.
 fn add_outer(
     lit: &Lit,
     chart: &(dyn Fn(u32) -> Option<Chart> + Sync),
@@ -222,7 +225,7 @@ fn add_outer(
     }
 }
 
-/// How long a unit of the plane is on a face.
+/// Length in space of a unit of the plane on a face.
 fn unit(mesh: &Mesh, chart: &(dyn Fn(u32) -> Option<Chart> + Sync), face: u32) -> f64 {
     let [a, b, c] = mesh.corners(FaceId(face));
     let area = |chart: Chart| {
@@ -232,7 +235,7 @@ fn unit(mesh: &Mesh, chart: &(dyn Fn(u32) -> Option<Chart> + Sync), face: u32) -
     ((b - a).cross(c - a).length() / chart(face).map_or(1.0, area)).sqrt()
 }
 
-/// The middles without those that are too near to one in another chart. In an order of the plane, not of the faces or the view.
+/// Drops figures too close to one in another chart. The order depends on the plane, not on faces or view.
 fn apart(
     lit: &Lit,
     chart: &(dyn Fn(u32) -> Option<Chart> + Sync),
@@ -289,9 +292,9 @@ fn apart(
     anchors
 }
 
-/// Leads figures to the page.
+/// Projection of figures to the page.
 impl Walker<'_> {
-    /// A figure around its middle, on faces that are shown; none if something of it is behind the eye.
+    /// Projects a figure around its centre; none if a point lies behind the camera.
     fn lay(
         &self,
         anchor: &Anchor,
@@ -311,7 +314,7 @@ impl Walker<'_> {
             let mut face = anchor.face;
             let every = line.len().div_ceil(ASKED);
             for (k, p) in line.iter().enumerate() {
-                // Neighbours are on the same face, mostly.
+                // Consecutive points are mostly on the same face.
                 let (at, there, is_on) = match self.find(face, *p + shift) {
                     Some(at) => (at, face, true),
                     None => self.walk(anchor.face, *p + shift, &shows)?,
@@ -330,7 +333,7 @@ impl Walker<'_> {
         Some(Laid { figure: anchor.figure, lines, asked })
     }
 
-    /// Figures whose middles lie beyond a face on the border of the plane.
+    /// Figures whose centres lie outside a face at the border of the plane.
     fn beyond_border(&self, face: u32, figures: &[Figure], middles: &[DVec2]) -> Vec<Anchor> {
         let mut found = Vec::new();
         let is_degenerate = self.lit.mesh.is_degenerate(FaceId(face));
@@ -352,7 +355,7 @@ impl Walker<'_> {
             for j in low.y as i64..=high.y as i64 {
                 for i in low.x as i64..=high.x as i64 {
                     let p = *middle + figure.period * DVec2::new(i as f64, j as f64);
-                    // What lies on a face is known, but where it lies on the very border.
+                    // Figures on a face are known already, unless they lie exactly on the border.
                     if let Some((at, last, is_on)) = self.walk(face, p, |_| true) {
                         let (figure, place) = (number as u32, [i, j]);
                         found.push(Anchor { figure, face: last, place, at, is_outer: !is_on });

@@ -1,8 +1,8 @@
-//! [`level_curves`]: curves on the visible surface along which a number is constant: cuts by planes that
-//! are fixed to the model, or lines of its texture coordinates.
+//! [`level_curves`]: curves on the visible surface along which a function is an integer.
 //!
-//! They are traced through the faces, led to the page, and cut where visibility may change, at the borders
-//! of the ground; the face in front in the middle of each piece decides.
+//! Examples are section planes fixed to the model, and lines of texture coordinates. The curves are traced
+//! through the faces, joined end to end and projected to the page. Callers cut them at the borders of the
+//! ground; there the face in front at the middle of each piece decides on visibility.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
@@ -13,24 +13,24 @@ use crate::lines::{Lit, shows_inside};
 use crate::mesh::{FaceId, PartId};
 use crate::visibility::front_faces;
 
-/// A curve on the page.
+/// Curve on the page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LevelCurve {
-    /// Its points, page units.
+    /// Points, page units.
     pub line: Vec<Point>,
-    /// The number of its level: neighbours differ by 1.
+    /// Number of its level. Neighbouring levels differ by 1.
     pub level: i64,
-    /// How many levels there are to a page unit, across the curve, at each point.
+    /// Levels per page unit across the curve, one per point.
     pub density: Vec<f64>,
-    /// The part of the model on which it lies.
+    /// Part that it lies on.
     pub part: PartId,
-    /// Its points in the model, local space.
+    /// Points in local space, one per point of `line`.
     pub points: Vec<DVec3>,
-    /// How near each point is, as image space has it.
+    /// Image-space nearness, one per point.
     pub nearness: Vec<f64>,
 }
 
-/// One piece: a level in a face.
+/// Piece of a level inside a face.
 struct LevelPiece {
     ends: [DVec3; 2],
     level: i64,
@@ -38,8 +38,9 @@ struct LevelPiece {
     part: PartId,
 }
 
-/// The curves on visible faces along which `value` (for each corner of a face) is a whole number. Levels
-/// for which `is_wanted` (level, levels to a page unit) is false are left out of a face.
+/// Curves on visible faces along which `value` (one per corner of a face) is an integer.
+///
+/// Levels for which `is_wanted` (level, levels per page unit) is false are skipped on that face.
 #[must_use]
 pub fn level_curves(
     lit: &Lit,
@@ -68,7 +69,7 @@ pub fn level_curves(
     chains(lit, offset, &pieces)
 }
 
-/// The pieces of the levels in a face.
+/// Pieces of the levels inside a face.
 fn trace(
     lit: &Lit,
     face: u32,
@@ -83,7 +84,7 @@ fn trace(
         values.into_iter().fold(f64::INFINITY, f64::min),
         values.into_iter().fold(f64::NEG_INFINITY, f64::max),
     );
-    // Not a number: behind the eye, or without coordinates.
+    // Not finite: behind the camera, or without coordinates.
     let is_sound = high - low < MOST_LEVELS && image.iter().all(|p| p.is_finite());
     if !is_sound || low.ceil() > high.floor() {
         return;
@@ -103,7 +104,7 @@ fn trace(
         }
         let mut ends: Vec<DVec3> = Vec::with_capacity(2);
         for side in 0..3 {
-            // In one order of the ends, so that both faces of an edge find the same bits.
+            // In a fixed order of the ends, so that both faces of an edge compute the same bits.
             let (mut i, mut j) = (side, (side + 1) % 3);
             if t[i] > t[j] {
                 std::mem::swap(&mut i, &mut j);
@@ -122,17 +123,17 @@ fn trace(
     }
 }
 
-/// Faces that are cut more often than this are no surface to draw on.
+/// Maximum number of levels on a face. Faces with more are skipped.
 const MOST_LEVELS: f64 = 1e4;
 
-/// Joins pieces end to end and leads them to the page.
+/// Joins pieces end to end and projects them to the page.
 fn chains(lit: &Lit, offset: Vec2, pieces: &[LevelPiece]) -> Vec<LevelCurve> {
     let key = |piece: &LevelPiece, end: usize| (piece.level, piece.ends[end].to_array().map(f64::to_bits));
     let mut at: FxHashMap<(i64, [u64; 3]), [u32; 2]> = FxHashMap::default();
     for (k, piece) in pieces.iter().enumerate() {
         for end in 0..2 {
             let slots = at.entry(key(piece, end)).or_insert([u32::MAX; 2]);
-            // A third one would be a fork; it starts a curve of its own.
+            // A third piece at a point is a branch, and starts another curve.
             let slot = if slots[0] == u32::MAX { 0 } else { 1 };
             if slots[slot] == u32::MAX {
                 slots[slot] = k as u32;
@@ -166,7 +167,7 @@ fn chains(lit: &Lit, offset: Vec2, pieces: &[LevelPiece]) -> Vec<LevelCurve> {
             let image: Vec<DVec3> = points.iter().map(|p| lit.view.frame.image_from_local(*p)).collect();
             let line = image.iter().map(|q| Point::new(q.x, q.y) + offset).collect();
             let nearness = image.iter().map(|q| q.z).collect();
-            // At a point the mean of both sides.
+            // At a point, the mean of both sides.
             let density = (0..points.len())
                 .map(|k| {
                     let (before, after) = (k.saturating_sub(1), k.min(densities.len() - 1));
@@ -180,8 +181,7 @@ fn chains(lit: &Lit, offset: Vec2, pieces: &[LevelPiece]) -> Vec<LevelCurve> {
     curves
 }
 
-/// Whether nothing is in front of points of the surface, given by their place on the page and their
-/// nearness in the image.
+/// Whether each surface point is visible, given its position on the page and its nearness.
 #[must_use]
 pub fn are_seen(lit: &Lit, offset: Vec2, points: &[(Point, f64)]) -> Vec<bool> {
     let at: Vec<DVec2> = points.iter().map(|(p, _)| DVec2::new(p.x - offset.x, p.y - offset.y)).collect();
@@ -200,5 +200,5 @@ pub fn are_seen(lit: &Lit, offset: Vec2, points: &[(Point, f64)]) -> Vec<bool> {
         .collect()
 }
 
-/// Depths that differ by no more than this (px) are the same surface.
+/// Largest depth difference of two points on the same surface, px.
 const SAME_DEPTH_PX: f64 = 0.1;

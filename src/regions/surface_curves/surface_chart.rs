@@ -1,4 +1,4 @@
-//! [`Chart`]: a plane laid on the faces of a mesh, and the way over them to a point of it.
+//! [`Chart`]: a plane laid on the faces of a mesh, and walks over the faces to a point of that plane.
 
 use glam::{DVec2, DVec3};
 
@@ -8,26 +8,26 @@ use crate::mesh::FaceId;
 /// How the plane lies on a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Chart {
-    /// Where the corners of the face are in the plane.
+    /// Corners of the face in the plane.
     pub corners: [DVec2; 3],
-    /// Charts of other names do not go on in this one.
+    /// Name of the chart. Charts with different names do not continue each other.
     pub name: u32,
 }
 
-/// A walk over more faces than this is given up.
+/// Maximum number of faces of a walk.
 const MOST_STEPS: usize = 64;
 
-/// Points this far out of a face, as part of it, are on it.
+/// Largest distance outside a face, in barycentric weight, of a point that counts as on it.
 const ON_FACE: f64 = 1e-9;
 
-/// Finds points of the plane on the faces.
+/// Finds positions in space for points of the plane.
 pub(crate) struct Walker<'a> {
     pub lit: &'a Lit<'a>,
     pub chart: &'a (dyn Fn(u32) -> Option<Chart> + Sync),
 }
 
 impl Walker<'_> {
-    /// A point of the plane that lies on a face.
+    /// Position of a point of the plane, if it lies on the face.
     pub fn find(&self, face: u32, p: DVec2) -> Option<DVec3> {
         let parts = weights(&(self.chart)(face)?, p)?;
         parts.iter().all(|part| *part >= -ON_FACE).then(|| self.on(face, parts))
@@ -38,8 +38,9 @@ impl Walker<'_> {
         (0..3).map(|k| corners[k] * parts[k]).sum()
     }
 
-    /// Where a point of the plane is, the face that is nearest to it on the way over faces that `may` be walked on, and whether it
-    /// lies on that.
+    /// Walks over the faces that `may` allows, straight towards a point of the plane.
+    ///
+    /// Returns the position, the last face, and whether the point lies on it.
     pub fn walk(&self, from: u32, p: DVec2, may: impl Fn(u32) -> bool) -> Option<(DVec3, u32, bool)> {
         let mut face = from;
         let mut own = (self.chart)(face)?;
@@ -58,7 +59,7 @@ impl Walker<'_> {
         Some((self.on(face, parts), face, false))
     }
 
-    /// The face beyond the side opposite to a corner, if the plane goes on there.
+    /// Neighbour across the side opposite a corner, if the plane continues there.
     pub fn next(&self, face: u32, own: &Chart, corner: usize) -> Option<(u32, Chart)> {
         let mesh = self.lit.mesh;
         let t = mesh.triangles[face as usize];
@@ -78,10 +79,10 @@ impl Walker<'_> {
     }
 }
 
-/// Corners this near in the plane are one.
+/// Largest distance in the plane of corners that count as one.
 const SAME_PLACE: f64 = 1e-5;
 
-/// The barycentric weights of a point of the plane.
+/// Barycentric weights of a point of the plane.
 fn weights(chart: &Chart, p: DVec2) -> Option<[f64; 3]> {
     let [a, b, c] = chart.corners;
     let whole = (b - a).perp_dot(c - a);

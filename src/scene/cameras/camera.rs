@@ -1,13 +1,13 @@
-//! [`Camera`]: where the eye is, where it looks, and the frame it looks through.
+//! [`Camera`]: eye, direction of view, projection and frame.
 
 use glam::DVec3;
 
 use crate::error::Error;
 
-/// Vertical field of view of a perspective camera for which none is asked, in degrees.
+/// Default vertical field of view of a perspective camera, in degrees.
 pub const DEFAULT_FOV_Y_DEG: f64 = 35.0;
 
-/// Width and height of the frame of a camera for which none is asked, in px.
+/// Default width and height of a camera's frame, in px.
 pub const DEFAULT_FRAME_PX: f64 = 1000.0;
 
 /// Sine of the angle between `up` and the optical axis below which they count as parallel.
@@ -16,28 +16,29 @@ const PARALLEL_SINE: f64 = 1e-9;
 /// Perspective or parallel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Projection {
-    /// Lines of sight meet in the eye.
+    /// View rays meet in the eye.
     Perspective {
         /// Vertical field of view, degrees, between 0 and 180.
         fov_y_deg: f64,
     },
-    /// Lines of sight are parallel.
+    /// View rays are parallel.
     Orthographic {
-        /// World units that the picture's height spans.
+        /// Height of the picture in world units.
         height: f64,
     },
 }
 
-/// Where the eye is, where it looks, and the frame it looks through.
+/// A camera: eye, direction of view, projection and frame.
 ///
-/// The optical axis meets the frame's centre; x right, y down, square pixels.
+/// The optical axis passes through the centre of the frame. In the picture x points right and y down; pixels
+/// are square.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Camera {
     /// Eye point, world.
     pub eye: DVec3,
     /// A point on the optical axis, world.
     pub target: DVec3,
-    /// Roughly up; need not be at a right angle to the axis.
+    /// Approximate up direction; need not be perpendicular to the axis.
     pub up: DVec3,
     /// Perspective or parallel.
     pub projection: Projection,
@@ -45,14 +46,14 @@ pub struct Camera {
     pub width: f64,
     /// Height of the frame in user units.
     pub height: f64,
-    /// Nearest depth drawn; without it, everything in front of a perspective eye and everything
-    /// at all in a parallel view.
+    /// Depth of the near plane. Without it, a perspective view shows everything in front of the eye, and a
+    /// parallel view everything.
     pub near: Option<f64>,
 }
 
 impl Camera {
-    /// The camera's axes in the world, unit vectors at right angles: to the right of the picture,
-    /// up in it, and forward into it. `NaN` for a camera that [`Camera::validate`] refuses.
+    /// World directions of right, up and forward in the picture, as orthonormal vectors. `NaN` for a camera
+    /// that [`Camera::validate`] rejects.
     #[must_use]
     pub fn axes(&self) -> [DVec3; 3] {
         let forward = (self.target - self.eye).normalize();
@@ -60,14 +61,13 @@ impl Camera {
         [right, right.cross(forward), forward]
     }
 
-    /// This camera looking through a frame of another size, in user units; the vertical field
-    /// of view (or height) stays.
+    /// Changes the size of the frame, in user units; keeps the vertical field of view or the height.
     #[must_use]
     pub fn with_frame(self, width: f64, height: f64) -> Self {
         Self { width, height, ..self }
     }
 
-    /// This camera with another projection.
+    /// Changes the projection.
     #[must_use]
     pub fn with_projection(self, projection: Projection) -> Self {
         Self { projection, ..self }
@@ -76,9 +76,9 @@ impl Camera {
     /// Checks that the camera can take a picture.
     ///
     /// # Errors
-    /// Names the key of the camera record that is wrong, and what would be right: numbers that
-    /// are not finite, eye on target, up along the optical axis, a field of view that is not
-    /// between 0 and 180 degrees, sizes that are not positive.
+    /// Names the wrong key of the camera record and the remedy, for example if a number is not finite, if the
+    /// eye is equal to the target, or if up is along the optical axis. Also for a field of view not between 0
+    /// and 180 degrees, and for sizes that are not positive.
     pub fn validate(&self) -> Result<(), Error> {
         for (key, point) in [("eye", self.eye), ("target", self.target), ("up", self.up)] {
             if !point.is_finite() {
@@ -139,7 +139,7 @@ impl Camera {
     }
 }
 
-/// Whether a number is a length that something can have.
+/// Whether a number is a valid positive length.
 fn positive(number: f64) -> bool {
     number.is_finite() && number > 0.0
 }

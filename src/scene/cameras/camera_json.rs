@@ -10,11 +10,11 @@ use super::camera::DEFAULT_FRAME_PX;
 use crate::error::Error;
 use crate::scene::{Camera, Projection};
 
-/// What a record looks like, shown where one is wrong.
+/// Example of a record, shown in error messages.
 const EXAMPLE: &str = "a record looks like {\"type\": \"perspective\", \"eye\": [3, 2, 5], \"target\": [0, 0, 0], \
                        \"up\": [0, 1, 0], \"fov_y_deg\": 35, \"width_px\": 1000, \"height_px\": 1000}";
 
-/// The record as it is written.
+/// Serialised form of the record.
 #[derive(Serialize)]
 struct Record {
     r#type: &'static str,
@@ -32,13 +32,11 @@ struct Record {
 }
 
 impl Camera {
-    /// Reads a camera record. `fov`, `width` and `height` are taken for `fov_y_deg`, `width_px`
-    /// and `height_px`; without a size the frame is 1000 x 1000; keys of other programs are
-    /// passed over.
+    /// Reads a camera record. Accepts `fov`, `width` and `height` for `fov_y_deg`, `width_px` and
+    /// `height_px`. The default size is 1000 x 1000 px; unknown keys are ignored.
     ///
     /// # Errors
-    /// Names the line or the key that is wrong, and what would be right; see
-    /// [`Camera::validate`].
+    /// Names the line or the key that is wrong, and the remedy; see [`Camera::validate`].
     pub fn from_json(text: &str) -> Result<Self, Error> {
         let value: Value = serde_json::from_str(text.trim_start_matches('\u{feff}'))
             .map_err(|error| Error::json("the camera record is not JSON", &error).remedy(EXAMPLE))?;
@@ -72,7 +70,7 @@ impl Camera {
         Self::from_json(&text).map_err(|error| error.in_file(path))
     }
 
-    /// The camera record: one line of JSON that [`Camera::from_json`] reads back bit for bit.
+    /// Writes the camera record: one line of JSON that [`Camera::from_json`] reads back bit for bit.
     #[must_use]
     pub fn to_json(&self) -> String {
         let (kind, fov_y_deg, ortho_height) = match self.projection {
@@ -90,7 +88,7 @@ impl Camera {
             height_px: self.height,
             near: self.near,
         };
-        // A struct of numbers always serialises.
+        // Serialising a struct of numbers cannot fail.
         serde_json::to_string(&record).unwrap_or_default()
     }
 }
@@ -113,7 +111,7 @@ fn projection(record: &Map<String, Value>) -> Result<Projection, Error> {
     }
 }
 
-/// The number under `key`, or under its `other` name; `null` counts as absent.
+/// Number at `key`, or at the alternative key `other`; `null` counts as absent.
 fn number(record: &Map<String, Value>, key: &str, other: &str) -> Result<Option<f64>, Error> {
     let (name, value) = match (record.get(key), record.get(other)) {
         (Some(value), _) => (key, value),

@@ -1,4 +1,4 @@
-//! Whether a point lies inside a part, as a camera that one has put into the model by mistake does.
+//! Finds the part that encloses a point, such as a camera that was placed inside the model by mistake.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -6,21 +6,22 @@ use glam::DVec3;
 use crate::geometry::numbers::portable_math::atan2;
 use crate::scene::{Part, Scene};
 
-/// Triangles handled at once by one thread.
+/// Triangles per parallel task.
 const CHUNK: usize = 1 << 14;
 
 impl Scene {
-    /// The first part whose surface goes round a point (world), seen from outside: the winding number of its triangles is nearer to 1
-    /// than to 0. A room, whose faces look inwards, goes round nothing.
+    /// First part that encloses a world point: the winding number of its triangles is closer to 1 than to 0.
+    /// A room whose faces point inwards encloses nothing.
     ///
-    /// Source: solid angles of triangles, Van Oosterom and Strackee, *The solid angle of a plane triangle*, 1983, equation 8; what is open
-    /// goes round a point partly (Jacobson and others, *Robust inside-outside segmentation using generalized winding numbers*, 2013).
+    /// Source: solid angles of triangles, Van Oosterom and Strackee, *The solid angle of a plane triangle*,
+    /// 1983, equation 8. Open surfaces enclose a point partly (Jacobson and others, *Robust inside-outside
+    /// segmentation using generalized winding numbers*, 2013).
     #[must_use]
     pub fn part_round(&self, point: DVec3) -> Option<&Part> {
         self.parts.iter().find(|part| self.winding(part, point).is_some_and(|turns| turns > 0.5))
     }
 
-    /// How often a part goes round a point; none where the point is not even in the box round it.
+    /// Winding number of a part around a point; `None` outside its bounding box.
     fn winding(&self, part: &Part, point: DVec3) -> Option<f64> {
         let geometry = self.geometry_of(part)?;
         let place = part.world_from_part.inverse().transform_point3(point);
@@ -41,9 +42,9 @@ impl Scene {
             2.0 * atan2(across, along)
         };
         let of_chunk = |chunk: &[[u32; 3]]| chunk.iter().map(solid_angle).sum::<f64>();
-        // Summed in order: the same on any number of threads.
+        // Summed in order, so the result does not depend on the number of threads.
         let chunks: Vec<f64> = geometry.triangles.par_chunks(CHUNK).map(of_chunk).collect();
-        // A mirrored part is turned right side out again: what is inside it as it is stored is inside.
+        // Computed in local space, where a mirrored part has its stored orientation.
         Some(chunks.iter().sum::<f64>() / (4.0 * std::f64::consts::PI))
     }
 }

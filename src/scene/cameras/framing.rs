@@ -1,11 +1,10 @@
-//! Framing: moves a camera along its line of sight and sideways until a whole model fills its
-//! frame.
+//! Framing: moves a camera along its view direction and sideways until a model fills its frame.
 //!
-//! With the eye at `e` and a point at `p` in the camera's axes (x right, y up, z forward), the
-//! point is inside the frame's right side when `p.x - e.x <= t (p.z - e.z)`, with `t` the tangent
-//! of half the horizontal angle of view. So each of the four sides is a plane whose position is
-//! one maximum over all points, `max(p.x - t p.z)`, and the nearest eye from which everything is
-//! seen follows from two opposite planes: exact, from the vertices and not from their box.
+//! Let `e` be the eye and `p` a point in camera axes (x right, y up, z forward), and `t` the tangent of half
+//! the horizontal field of view. The point is left of the frame's right side if `p.x - e.x <= t (p.z - e.z)`.
+//! Each side of the frame is therefore a plane, and its position is a maximum over all points: `max(p.x - t
+//! p.z)`. Two opposite planes give the nearest eye that sees everything. The result is exact, because it uses
+//! the vertices and not their bounding box.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -15,48 +14,47 @@ pub use crate::scene::extent::coordinate_limits::bounds;
 use crate::scene::extent::drawn_points::DrawnPoints;
 use crate::scene::{Camera, Projection, Scene};
 
-/// Share of the frame (of its shorter side) that a fitted model leaves free on each side.
+/// Margin on each side of a fitted model, as a fraction of the frame's shorter side.
 pub const MARGIN: f64 = 0.05;
 
-/// A perspective eye stays at least this share of the model's diagonal in front of it: matters
-/// only for models that are thin as seen from the eye, such as a rod seen end-on.
+/// Minimum distance of a perspective eye in front of the model, as a fraction of the model's diagonal.
+/// Matters only for models that are thin in the view direction, such as a rod seen end-on.
 const NEAREST_EYE: f64 = 0.02;
 
-/// A parallel view spans at least this share of the model's diagonal, for the same reason.
+/// Minimum height of a parallel view, as a fraction of the model's diagonal, for the same reason.
 const LEAST_SPAN: f64 = 1e-6;
 
-/// Points handled at once by one thread.
+/// Points per parallel task.
 const CHUNK: usize = 1 << 14;
 
-/// Points in one box.
+/// Points per bounding box.
 const BLOCK: usize = 1 << 8;
 
-/// Newton steps of the centring; each but the last passes a vertex of a convex polyline, and three
+/// Maximum Newton steps of the centring. Each step but the last passes a vertex of a convex polyline; three
 /// or four are usual.
 const CENTRING_STEPS: usize = 32;
 
 impl Camera {
-    /// A camera with this line of sight, moved so that the whole scene fills the frame, with a margin of
-    /// [`MARGIN`] on the sides that it touches, and centred.
+    /// Moves the camera along its view direction so that the whole scene fills the frame, centred, with a
+    /// margin of [`MARGIN`] on the tight sides.
     ///
-    /// A scene without anything to draw leaves the camera as it was.
+    /// A scene without drawable content leaves the camera unchanged.
     #[must_use]
     pub fn fit(self, scene: &Scene) -> Self {
         self.fit_points(&world_points(scene), MARGIN)
     }
 
-    /// A camera with this line of sight, moved so that all `points` (world) lie in the frame, with a margin
-    /// of `margin` (0 to below 0.5) of the frame's shorter side on the sides that they touch, and
-    /// centred. A parallel view changes its height, a perspective view its distance.
+    /// Moves the camera along its view direction so that all `points` (world) are in the frame, centred.
     ///
-    /// Points that are not finite are passed over; without any the camera stays as it was. A
-    /// single point is framed as if it were a ball of radius 1.
+    /// `margin` is a fraction of the frame's shorter side, 0 to below 0.5, and applies to the tight sides. A
+    /// parallel view changes its height, a perspective view its distance. Points that are not finite are
+    /// ignored; without any the camera is unchanged. A single point is framed like a ball of radius 1.
     #[must_use]
     pub fn fit_points(self, points: &[DVec3], margin: f64) -> Self {
         let Some((low, high)) = bounds(points) else { return self };
         let centre = low / 2.0 + high / 2.0;
         let [right, up, forward] = self.axes();
-        // Relative to the centre, so that a model far from the origin loses nothing.
+        // Relative to the centre, so that a model far from the origin keeps its precision.
         let local = Cloud::new(points, |p| {
             let p = p - centre;
             DVec3::new(p.dot(right), p.dot(up), p.dot(forward))
@@ -83,19 +81,20 @@ impl Camera {
     }
 }
 
-/// Points in the camera's axes, with a box round every few of them: whatever lies farthest in some
-/// direction is found without looking at most of them. Each maximum is exact, and the same
-/// whatever the order of the points.
+/// Points in camera axes, with a bounding box for each block of them.
+///
+/// Extreme points in a direction are found without testing most points. Each maximum is exact and does not
+/// depend on the order of the points.
 struct Cloud {
     points: Vec<DVec3>,
-    /// Least and greatest coordinates of each [`BLOCK`] of points.
+    /// Lower and upper corner of each [`BLOCK`] of points.
     boxes: Vec<(DVec3, DVec3)>,
 }
 
 impl Cloud {
-    /// All finite points, placed in the camera's axes.
+    /// Transforms all finite points to camera axes.
     fn new(points: &[DVec3], place: impl Fn(DVec3) -> DVec3 + Sync) -> Self {
-        // A point that stands twice changes nothing.
+        // Replace invalid points by a duplicate of a valid one.
         let finite = points.iter().copied().find(|p| p.is_finite()).unwrap_or_default();
         let placed =
             points.par_iter().with_min_len(CHUNK).map(|&p| place(if p.is_finite() { p } else { finite }));
@@ -104,10 +103,9 @@ impl Cloud {
         Self { points, boxes }
     }
 
-    /// The greatest product of a point with `direction`, and the depth of a point that attains it;
-    /// of several such points the farthest.
+    /// Maximum of `point · direction`, and the depth of a point that attains it; of several, the deepest.
     fn farthest(&self, direction: DVec3) -> (f64, f64) {
-        // Rounding keeps the order of products and sums, so no point is beyond this.
+        // Rounding is monotonic in products and sums, so no point exceeds this bound.
         let beyond = |(low, high): &(DVec3, DVec3)| {
             product(DVec3::select(direction.cmpge(DVec3::ZERO), *high, *low), direction)
         };
@@ -121,7 +119,7 @@ impl Cloud {
             }
             best.0
         };
-        // The box that reaches farthest first: then most others need no look.
+        // Start with the box of the greatest bound, so that most others can be skipped.
         let reaches: Vec<f64> = self.boxes.iter().map(beyond).collect();
         let first =
             reaches.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(block, _)| block);
@@ -136,13 +134,13 @@ impl Cloud {
         best
     }
 
-    /// The greatest product of any point with `direction`.
+    /// Maximum of `point · direction`.
     fn reach(&self, direction: DVec3) -> f64 {
         self.farthest(direction).0
     }
 }
 
-/// Always summed in this order.
+/// Dot product with a fixed order of summation.
 #[inline]
 fn product(p: DVec3, direction: DVec3) -> f64 {
     p.x * direction.x + p.y * direction.y + p.z * direction.z
@@ -153,9 +151,9 @@ fn box_round(points: &[DVec3]) -> (DVec3, DVec3) {
     points.iter().fold(nothing, |(low, high), p| (low.min(*p), high.max(*p)))
 }
 
-/// Eye, in the camera's axes, that sees all points within the given half angles.
+/// Eye in camera axes that sees all points within the half angles with tangents `tx` and `ty`.
 fn perspective_eye(points: &Cloud, (tx, ty): (f64, f64), diagonal: f64) -> DVec3 {
-    // Positions of the four planes: right, left, top, bottom; and of the nearest point.
+    // Positions of the right, left, top and bottom planes, and of the nearest point.
     let reach = |x, y, z| points.reach(DVec3::new(x, y, z));
     let (r, l) = (reach(1.0, 0.0, -tx), reach(-1.0, 0.0, -tx));
     let (t, b) = (reach(0.0, 1.0, -ty), reach(0.0, -1.0, -ty));
@@ -164,11 +162,11 @@ fn perspective_eye(points: &Cloud, (tx, ty): (f64, f64), diagonal: f64) -> DVec3
     DVec3::new(centred(points, tx, z, DVec3::X), centred(points, ty, z, DVec3::Y), z)
 }
 
-/// Where the eye must be along the axis `side`, at the depth `eye_z`, for the picture of the points
-/// to leave as much free on the one side as on the other.
+/// Position of the eye along the axis `side`, at the depth `eye_z`, for equal margins on both sides of the
+/// picture.
 ///
-/// The narrowest angle that holds the points is the zero of a convex, falling function of its
-/// tangent, `max(x - t z) + max(-x - t z) + 2 t eye_z`; Newton's method from 0 never oversteps it.
+/// The narrowest angle that contains the points is the root of a convex, decreasing function of its tangent,
+/// `max(x - t z) + max(-x - t z) + 2 t eye_z`. Newton's method from 0 never overshoots it.
 fn centred(points: &Cloud, widest: f64, eye_z: f64, side: DVec3) -> f64 {
     let mut t = 0.0;
     let mut x = 0.0;
@@ -187,7 +185,7 @@ fn centred(points: &Cloud, widest: f64, eye_z: f64, side: DVec3) -> f64 {
     x
 }
 
-/// Eye and picture height, in the camera's axes, of a parallel view of all points.
+/// Eye in camera axes and picture height of a parallel view of all points.
 fn parallel_eye(points: &Cloud, frame: (f64, f64), height: f64, diagonal: f64) -> (DVec3, f64) {
     let [r, l, t, b, near] =
         [DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y, DVec3::NEG_Z].map(|axis| points.reach(axis));
@@ -196,8 +194,8 @@ fn parallel_eye(points: &Cloud, frame: (f64, f64), height: f64, diagonal: f64) -
     (DVec3::new((r - l) / 2.0, (t - b) / 2.0, -near - diagonal), span)
 }
 
-/// World positions of all vertices that are drawn, part by part: those of triangles with an area and of wires with a length. What
-/// [`Scene::to_soup`] leaves out is left out here.
+/// World positions of all drawn vertices, part by part: those of triangles with area and of wires with
+/// length. Parts that [`Scene::to_soup`] leaves out are left out here too.
 #[must_use]
 pub fn world_points(scene: &Scene) -> Vec<DVec3> {
     DrawnPoints::of(scene).points
@@ -210,7 +208,7 @@ mod tests {
     use super::*;
     use crate::scene::{Geometry, NamedView, Part, UpAxis};
 
-    /// Where a point is in the frame: 0 to 1 from left to right and from top to bottom.
+    /// Position of a point in the frame: 0 to 1 from left to right and from top to bottom.
     fn place(camera: &Camera, p: DVec3) -> (f64, f64) {
         let [right, up, forward] = camera.axes();
         let d = p - camera.eye;
@@ -223,7 +221,7 @@ mod tests {
         (0.5 + d.dot(right) / (2.0 * half * aspect), 0.5 - d.dot(up) / (2.0 * half))
     }
 
-    /// Free shares of the frame: left, right, top, bottom.
+    /// Free fractions of the frame: left, right, top, bottom.
     fn free(camera: &Camera, points: &[DVec3]) -> [f64; 4] {
         points.iter().fold([f64::INFINITY; 4], |[l, r, t, b], &p| {
             let (x, y) = place(camera, p);
@@ -244,7 +242,7 @@ mod tests {
         shapes.into_iter().flat_map(|(w, h)| cameras.iter().map(move |c| c.with_frame(w, h))).collect()
     }
 
-    /// An uneven, slanted cloud of points.
+    /// An irregular, slanted point cloud.
     fn cloud(offset: DVec3, scale: f64) -> Vec<DVec3> {
         let mut state = 7_u64;
         let mut random = || {

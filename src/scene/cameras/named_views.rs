@@ -1,7 +1,7 @@
 //! [`NamedView`]: the views of technical drawing and the three-quarter view, as directions.
 //!
-//! `d` is the direction from the model to the eye in a z-up world, where the front faces -y; in
-//! a y-up world (x, y, z) becomes (x, z, -y), so that the front faces +z.
+//! `d` is the direction from the model to the eye in a z-up world, where the front faces -y. In a y-up world
+//! (x, y, z) becomes (x, z, -y), so that the front faces +z.
 
 use glam::DVec3;
 
@@ -15,8 +15,8 @@ pub const THREE_QUARTER_AZIMUTH_DEG: f64 = 35.0;
 /// Elevation of the default view, degrees above the horizon.
 pub const THREE_QUARTER_ELEVATION_DEG: f64 = 22.0;
 
-/// Above this elevation, in degrees, the vertical is too near to the line of sight to tell where
-/// up is in the picture.
+/// Elevation in degrees above which the vertical is too close to the view direction to serve as up in the
+/// picture.
 const STEEP_DEG: f64 = 89.0;
 
 /// A view with a name.
@@ -35,11 +35,11 @@ pub enum NamedView {
     Top,
     /// From below, front edge at the top of the picture.
     Bottom,
-    /// Isometric, from the front, right and above: all three axes foreshortened alike.
+    /// Isometric, from the front, right and above: all three axes equally foreshortened.
     Iso,
-    /// Dimetric: width and height foreshortened alike, depth half as long (DIN ISO 5456-3).
+    /// Dimetric: width and height equally foreshortened, depth half as long (DIN ISO 5456-3).
     Dimetric,
-    /// Trimetric: each axis foreshortened in its own measure.
+    /// Trimetric: each axis foreshortened differently.
     Trimetric,
 }
 
@@ -57,7 +57,7 @@ impl NamedView {
         Self::Trimetric,
     ];
 
-    /// The name on the command line.
+    /// Name on the command line.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -73,7 +73,7 @@ impl NamedView {
         }
     }
 
-    /// What else it is called.
+    /// Alternative name.
     pub(crate) const fn other_name(self) -> Option<&'static str> {
         match self {
             Self::Iso => Some("isometric"),
@@ -81,14 +81,14 @@ impl NamedView {
         }
     }
 
-    /// The view of that name, in capitals or not; `isometric` is `iso`.
+    /// Finds a view by its name in any letter case; `isometric` is `iso`.
     #[must_use]
     pub fn parse(name: &str) -> Option<Self> {
         let is_its = |own: &str| own.eq_ignore_ascii_case(name);
         Self::ALL.into_iter().find(|view| is_its(view.name()) || view.other_name().is_some_and(is_its))
     }
 
-    /// Direction to the eye and up in a z-up world.
+    /// Direction to the eye, and up, in a z-up world.
     fn direction_and_up(self) -> (DVec3, DVec3) {
         let d = match self {
             Self::Front => DVec3::NEG_Y,
@@ -106,7 +106,7 @@ impl NamedView {
     }
 }
 
-/// The direction `v` of a z-up world in a world with that axis up.
+/// Transforms a vector of a z-up world to a world with the given up axis.
 fn turned(v: DVec3, up: UpAxis) -> DVec3 {
     match up {
         UpAxis::Z => v,
@@ -114,7 +114,7 @@ fn turned(v: DVec3, up: UpAxis) -> DVec3 {
     }
 }
 
-/// A camera at distance 1 from the origin.
+/// Camera at distance 1 from the origin.
 fn looking_from(d: DVec3, up: DVec3, axis: UpAxis, projection: Projection) -> Camera {
     Camera {
         eye: turned(d, axis),
@@ -128,9 +128,8 @@ fn looking_from(d: DVec3, up: DVec3, axis: UpAxis, projection: Projection) -> Ca
 }
 
 impl Camera {
-    /// The default view: perspective, from the front, right and above. A direction only, until
-    /// [`Camera::fit`] frames a model. Y is up; for other models see
-    /// [`Camera::three_quarter_of`].
+    /// The default view: perspective, from the front, right and above. Sets a direction only; [`Camera::fit`]
+    /// frames a model. Y is up; for other models see [`Camera::three_quarter_of`].
     #[must_use]
     pub fn three_quarter() -> Self {
         Self::three_quarter_of(UpAxis::Y)
@@ -142,16 +141,16 @@ impl Camera {
         Self::azimuth_elevation(THREE_QUARTER_AZIMUTH_DEG, THREE_QUARTER_ELEVATION_DEG, up)
     }
 
-    /// A named view, orthographic. A direction only, until [`Camera::fit`] frames a model.
+    /// A named view, orthographic. Sets a direction only; [`Camera::fit`] frames a model.
     #[must_use]
     pub fn named(view: NamedView, up: UpAxis) -> Self {
         let (d, page_up) = view.direction_and_up();
         looking_from(d, page_up, up, Projection::Orthographic { height: 1.0 })
     }
 
-    /// A perspective camera `azimuth_deg` degrees to the right of the front (90 = the right view,
-    /// 180 = the back) and `elevation_deg` above the horizon (-90 to 90). A direction only, until
-    /// [`Camera::fit`] frames a model.
+    /// A perspective camera, `azimuth_deg` degrees to the right of the front (90 = the right view, 180 = the
+    /// back) and `elevation_deg` above the horizon (-90 to 90). Sets a direction only; [`Camera::fit`] frames
+    /// a model.
     #[must_use]
     pub fn azimuth_elevation(azimuth_deg: f64, elevation_deg: f64, up: UpAxis) -> Self {
         let (azimuth, elevation) = (azimuth_deg.to_radians(), elevation_deg.to_radians());

@@ -1,27 +1,27 @@
-//! Which coordinates can be drawn, and the box round points.
+//! Limits of coordinates that can be drawn, and bounding boxes of points.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
 
-/// Points handled at once by one thread.
+/// Points per parallel task.
 const CHUNK: usize = 1 << 14;
 
-/// Coordinates beyond this are refused like those that are not numbers: products of four of them
-/// no longer fit into an `f64`.
+/// Maximum absolute coordinate. Products of four larger ones overflow an `f64`, so these are rejected like
+/// NaN.
 pub const LARGEST: f64 = 1e60;
 
-/// Whether all three coordinates are numbers not beyond [`LARGEST`].
+/// Whether all three coordinates are numbers up to [`LARGEST`].
 #[inline]
 #[must_use]
 pub fn is_drawable(point: DVec3) -> bool {
     point.abs().cmple(DVec3::splat(LARGEST)).all()
 }
 
-/// How faces and lines left out for their coordinates are called in the warnings.
+/// Warning about faces and lines that are left out because of their coordinates.
 pub(crate) const NOT_DRAWABLE: &str =
     "faces or lines left out, with coordinates that are not numbers or too large";
 
-/// Corners of the box round all finite points, or `None` if there are none.
+/// Bounding box of all finite points, as lower and upper corner; `None` if there are none.
 #[must_use]
 pub fn bounds(points: &[DVec3]) -> Option<(DVec3, DVec3)> {
     let of_chunk = |chunk: &[DVec3]| {

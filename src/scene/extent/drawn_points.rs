@@ -1,7 +1,8 @@
-//! [`DrawnPoints`]: the points of a scene that count in its size: those of faces with an area and of wires with a length.
+//! [`DrawnPoints`]: the points that count for the size of a scene: those of faces with area and of wires with
+//! length.
 //!
-//! Whether a face has an area is decided as the mesh decides it, by the scale of its part, whose box does not hold such
-//! faces either. Most models have none: then one look at each face is all there is to do.
+//! Whether a face has area is decided as in the mesh: by the scale of its part, which such faces do not
+//! enlarge. Most models have no degenerate faces; then one test per face is enough.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -14,38 +15,38 @@ use rustc_hash::FxHashMap;
 
 use super::coordinate_limits::{bounds, is_drawable};
 use crate::mesh::normals::triangle_area::{has_area, has_own_area, largest_scale, scale_of};
-use crate::mesh::part_extents::origin;
+use crate::mesh::part_metrics::origin;
 use crate::parallel::task_size::GRAIN;
 use crate::scene::{Geometry, Part, Scene};
 
-/// The points that are drawn, part by part.
+/// Points that are drawn, part by part.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct DrawnPoints {
     /// World positions, each vertex of a part once.
     pub points: Vec<DVec3>,
-    /// The parts that can be drawn, in the order of the scene.
+    /// Parts that can be drawn, in scene order.
     pub parts: Vec<DrawnPart>,
 }
 
-/// What is drawn of a part.
+/// Drawn points of a part.
 #[derive(Debug, Clone)]
 pub(crate) struct DrawnPart {
-    /// Its number in the scene.
+    /// Index of the part in the scene.
     #[cfg_attr(not(any(feature = "cli", feature = "page")), expect(dead_code))]
     pub part: usize,
-    /// Its points among all.
+    /// Range of its points.
     pub points: Range<usize>,
-    /// The faces and wires of it that are left out.
+    /// Degenerate faces and wires that are left out.
     #[cfg_attr(not(feature = "cli"), expect(dead_code))]
     pub left_out: LeftOut,
 }
 
-/// Faces without area and wires without length.
+/// Counts of faces without area and wires without length.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub(crate) struct LeftOut {
     pub faces: u64,
     pub wires: u64,
-    /// The first corner of the first face, or else of the first wire, world.
+    /// First corner of the first such face, or else of the first wire, world space.
     pub first: Option<DVec3>,
 }
 
@@ -57,7 +58,7 @@ impl LeftOut {
     }
 }
 
-/// A part that can be placed.
+/// Instance of a geometry with a valid transform.
 struct Placed<'a> {
     part: usize,
     geometry: &'a Geometry,
@@ -78,7 +79,7 @@ impl Placed<'_> {
         self.at(*a) != self.at(*b)
     }
 
-    /// The faces that may have no area, ascending; `scale` is at least that of the part.
+    /// Faces that may have no area, ascending; `scale` is at least that of the part.
     fn suspects(&self, scale: f64) -> Vec<u32> {
         let faces = self.geometry.triangles.par_iter().with_min_len(GRAIN).enumerate();
         let suspects = faces.filter(|(_, t)| !has_area(self.corners(t), scale));
@@ -89,7 +90,7 @@ impl Placed<'_> {
         !self.geometry.wires.iter().all(|wire| self.is_long(wire))
     }
 
-    /// Adds points of the geometry to those of the world.
+    /// Transforms points of the geometry to world space and appends them.
     fn add(&self, own: &[DVec3], to: &mut Vec<DVec3>) {
         if *self.place == DAffine3::IDENTITY {
             to.extend_from_slice(own);
@@ -100,12 +101,12 @@ impl Placed<'_> {
 }
 
 impl DrawnPoints {
-    /// Those of a scene.
+    /// Collects the points of a scene.
     pub fn of(scene: &Scene) -> Self {
         Self::of_parts(scene, |_| true)
     }
 
-    /// Those of some of the parts of a scene.
+    /// Collects the points of some parts of a scene.
     pub fn of_parts(scene: &Scene, is_wanted: impl Fn(&Part) -> bool) -> Self {
         let wanted = scene.parts.iter().enumerate().filter(|(_, part)| is_wanted(part));
         let placed = wanted.filter_map(|(number, part)| {
@@ -115,14 +116,14 @@ impl DrawnPoints {
         Self::of_placed(placed.collect())
     }
 
-    /// The points of a geometry, in its own space.
+    /// Points of a geometry, in local space.
     pub fn of_geometry(geometry: &Geometry) -> Vec<DVec3> {
         Self::of_placed(vec![Placed { part: 0, geometry, place: &DAffine3::IDENTITY }]).points
     }
 
     fn of_placed(mut placed: Vec<Placed>) -> Self {
         let mut all = Self::default();
-        // Instances of a shape share the list of its points.
+        // Instances of a geometry share its list of used points.
         let mut known: FxHashMap<*const Geometry, Cow<[DVec3]>> = FxHashMap::default();
         placed.retain(|own| {
             let first = all.points.len();
@@ -130,7 +131,7 @@ impl DrawnPoints {
                 known.entry(std::ptr::from_ref(own.geometry)).or_insert_with(|| used_points(own.geometry));
             own.add(used, &mut all.points);
             let points = all.points.get(first..).unwrap_or_default();
-            // A part with coordinates that are no finite numbers is not drawn.
+            // A part with coordinates that are not finite or too large is not drawn.
             let is_drawn = points.par_iter().with_min_len(GRAIN).all(|&p| is_drawable(p));
             if is_drawn {
                 let points = first..all.points.len();
@@ -143,7 +144,7 @@ impl DrawnPoints {
         all.without_flat(&placed).unwrap_or(all)
     }
 
-    /// The same without what has neither area nor length; none if all has, or nothing.
+    /// Removes degenerate faces and wires; `None` if there are none, or no points.
     fn without_flat(&self, placed: &[Placed]) -> Option<Self> {
         let (low, high) = bounds(&self.points)?;
         let largest = largest_scale(low, high);
@@ -163,7 +164,7 @@ impl DrawnPoints {
             None => whole(part),
         });
         let (low, high) = boxes.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((low, high));
-        // From here on as the mesh measures: relative to its origin.
+        // From here on coordinates are relative to the origin of the mesh, as the mesh measures them.
         let origin = origin(low, high);
         let mut all = Self::default();
         for ((own, part), doubtful) in parts() {
@@ -181,7 +182,7 @@ impl DrawnPoints {
             all.parts.push(DrawnPart { part: own.part, points: first..all.points.len(), left_out });
         }
         if all.points.is_empty() {
-            // Nothing has an area: a camera looks at it all the same.
+            // If no face has area, the camera still frames all points.
             all.points.clone_from(&self.points);
             for (part, whole) in all.parts.iter_mut().zip(&self.parts) {
                 part.points = whole.points.clone();
@@ -191,13 +192,13 @@ impl DrawnPoints {
     }
 }
 
-/// A part with faces that may have no area, or with wires of no length.
+/// A part with faces that may have no area, or with wires of zero length.
 struct Doubtful {
-    /// The faces that may have no area, ascending.
+    /// Faces that may have no area, ascending.
     suspects: Vec<u32>,
-    /// For each vertex whether another face or a wire with a length uses it.
+    /// For each vertex, whether another face or a wire with length uses it.
     used: Vec<bool>,
-    /// The box around these vertices, world; empty without any.
+    /// Bounding box of these vertices, world space; inverted if there are none.
     low: DVec3,
     high: DVec3,
 }
@@ -218,7 +219,7 @@ impl Doubtful {
         Self { suspects, used, low, high }
     }
 
-    /// The suspects for which `counts` holds, or does not.
+    /// Suspect faces for which `counts` returns `wanted`.
     fn those<'a>(
         &'a self,
         own: &'a Placed,
@@ -229,7 +230,7 @@ impl Doubtful {
         faces.filter(move |t| counts(own.corners(t)) == wanted)
     }
 
-    /// The box around all but the suspects for which `counts` does not hold, world.
+    /// Bounding box without the suspect faces for which `counts` is false, world space.
     fn bounds(&self, own: &Placed, counts: impl Fn([DVec3; 3]) -> bool) -> Option<(DVec3, DVec3)> {
         let real = self.those(own, counts, true).flatten();
         let real = real.filter(|corner| (**corner as usize) < self.used.len());
@@ -240,7 +241,7 @@ impl Doubtful {
         (low.x <= high.x).then_some((low, high))
     }
 
-    /// The vertices of all but the suspects for which `counts` does not hold, in the space of the part.
+    /// Vertices without those of suspect faces for which `counts` is false, in local space.
     fn counted(&self, own: &Placed, counts: impl Fn([DVec3; 3]) -> bool) -> Vec<DVec3> {
         let mut used = self.used.clone();
         for corner in self.those(own, counts, true).flatten() {
@@ -264,7 +265,7 @@ impl Doubtful {
     }
 }
 
-/// The positions that triangles or wires use, each once; usually all.
+/// Positions used by triangles or wires, each once; usually all.
 pub(crate) fn used_points(geometry: &Geometry) -> Cow<'_, [DVec3]> {
     let used = used(geometry, |_| true, |_| true);
     if used.iter().all(|used| *used) {
@@ -273,7 +274,7 @@ pub(crate) fn used_points(geometry: &Geometry) -> Cow<'_, [DVec3]> {
     geometry.positions.iter().zip(used).filter_map(|(&p, used)| used.then_some(p)).collect()
 }
 
-/// For each position whether some of the triangles, by number, or of the wires use it.
+/// For each position, whether a selected triangle or wire uses it.
 fn used(
     geometry: &Geometry,
     faces: impl Fn(usize) -> bool + Sync,
@@ -297,7 +298,8 @@ mod tests {
     use super::*;
     use crate::scene::cameras::framing::world_points;
 
-    /// A tetrahedron, and far away a face without area, a face of one place and a wire without length.
+    /// A tetrahedron, and far away a face without area, a face with all corners at one point, and a wire of
+    /// zero length.
     fn scene(far: f64) -> Scene {
         let at = |x: f64, y: f64| DVec3::new(far + x, far * 0.7 + y, 0.3 * far);
         let positions = vec![
@@ -327,7 +329,7 @@ mod tests {
             assert_eq!((left_out.faces, left_out.wires), (2, 1));
             assert_eq!(left_out.first, Some(scene.geometries[0].positions[4]));
             assert_eq!(scene.bounds(), Some((DVec3::ZERO, DVec3::ONE)));
-            // The mesh leaves out the same.
+            // The mesh leaves out the same elements.
             let cleaning = crate::mesh::Mesh::build(scene.to_soup()).cleaning;
             assert_eq!((cleaning.degenerate > 0, cleaning.collapsed, cleaning.short_wires), (true, 1, 1));
         }

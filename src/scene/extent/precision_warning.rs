@@ -1,8 +1,9 @@
-//! Warns of coordinates whose steps are too coarse for the size of the model, as where a house stands at its place on the map
-//! and its file holds single precision.
+//! Warns about coordinates whose precision is too coarse for the size of the model, such as a house at its
+//! map position in single precision.
 //!
-//! The step of a part is that of single precision at its largest coordinates. In text the numbers show it: either all of them are in
-//! single precision, or they have few decimals. Whole numbers in text are taken to be exact.
+//! For a single-precision part, the step is the distance between neighbouring `f32` numbers at its largest
+//! coordinates. For text it is measured: either all numbers are in single precision, or they have few
+//! decimals. Whole numbers in text count as exact.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -11,15 +12,15 @@ use crate::geometry::numbers::tolerance::COARSE_OF_MODEL;
 use crate::parallel::task_size::GRAIN;
 use crate::scene::{Geometry, Scene};
 
-/// The scene, with a warning if its coordinates are too coarse.
+/// Returns the scene, with a warning if its coordinates are too coarse.
 pub(crate) fn checked(mut scene: Scene) -> Scene {
     warn(&mut scene);
     scene
 }
 
-/// Warns if the coordinates of a part have steps that are seen where the model is drawn.
+/// Adds a warning if the coordinate steps of a part would be visible in a drawing of the model.
 pub(crate) fn warn(scene: &mut Scene) {
-    // Near the origin every format is fine enough, and few models are far from it.
+    // Near the origin every format is precise enough, and few models are far from it.
     let far: Vec<bool> = scene.geometries.iter().map(is_far).collect();
     if !far.contains(&true) {
         return;
@@ -60,7 +61,7 @@ pub(crate) fn warn(scene: &mut Scene) {
     ));
 }
 
-/// Whether steps of single precision at the largest coordinates would be seen on the geometry alone.
+/// Whether steps of single precision at the largest coordinates would be visible on the geometry alone.
 fn is_far(geometry: &Geometry) -> bool {
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) = geometry
@@ -73,7 +74,7 @@ fn is_far(geometry: &Geometry) -> bool {
     largest.is_finite() && single_step(largest) > COARSE_OF_MODEL * (high - low).length()
 }
 
-/// The steps of the coordinates along each axis; 0 where they are all alike.
+/// Coordinate step along each axis; 0 if all values are equal or exact.
 fn steps(geometry: &Geometry) -> DVec3 {
     let all =
         |holds: &dyn Fn(f64) -> bool| geometry.positions.iter().all(|p| p.to_array().into_iter().all(holds));
@@ -88,7 +89,7 @@ fn steps(geometry: &Geometry) -> DVec3 {
             return 0.0;
         }
         let is_text = !geometry.single_precision;
-        // Two places of a box may have few digits because they need no more.
+        // With only two values, as for a box, few digits do not mean rounding.
         if is_text && values.clone().all(|value| value == low || value == high) {
             return 0.0;
         }
@@ -99,25 +100,25 @@ fn steps(geometry: &Geometry) -> DVec3 {
         if divides(1.0) {
             return 0.0;
         }
-        // Double precision holds no more decimals of what is far from the origin.
+        // Far from the origin, double precision holds no more decimals.
         (1..=6).map(|digits| 0.1_f64.powi(digits)).find(|step| divides(*step)).unwrap_or(0.0)
     };
     DVec3::new(along(0), along(1), along(2))
 }
 
-/// Whether a number is a multiple of a step, except for the rounding of double precision.
+/// Whether a number is a multiple of a step, except for rounding of double precision.
 fn is_multiple(value: f64, step: f64) -> bool {
     let times = value / step;
     (times - times.round()).abs() <= 4.0 * f64::EPSILON * times.abs()
 }
 
-/// The distance of a number in single precision from the next one.
+/// Distance between a number and the next one in single precision.
 fn single_step(value: f64) -> f64 {
     let value = value as f32;
     f64::from(value.next_up()) - f64::from(value)
 }
 
-/// A number with three digits that count.
+/// Rounds to three significant digits.
 fn short(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
@@ -129,7 +130,7 @@ mod tests {
     use super::*;
     use crate::scene::Part;
 
-    /// A house of 10.37 by 8.11 by 6 that is turned, at a place.
+    /// A rotated house of 10.37 by 8.11 by 6 at a position.
     fn house(at: DVec3, single_precision: bool, round: impl Fn(f64) -> f64) -> Scene {
         let corner = |k: u32| {
             let [x, y, z] = [10.37, 8.11, 6.0];
@@ -174,7 +175,7 @@ mod tests {
             assert!(house(MAP, false, fine).warnings.is_empty(), "{:?}", house(MAP, false, fine).warnings);
         }
         assert!(house(DVec3::ZERO, false, tenths).warnings.is_empty());
-        // A box along the axes has places with few decimals, and is exact.
+        // The coordinates of an axis-aligned box have few decimals and are exact.
         let mut scene = house(DVec3::ZERO, false, |value| value);
         for (k, position) in scene.geometries[0].positions.iter_mut().enumerate() {
             let side = |bit: usize| if k >> bit & 1 == 0 { 0.5 } else { 10.5 };
@@ -190,7 +191,7 @@ mod tests {
         scene.parts[0].world_from_part = DAffine3::from_translation(MAP);
         warn(&mut scene);
         assert!(scene.warnings.is_empty());
-        // A model that is itself large is drawn small.
+        // A large model is drawn at a small scale.
         let mut scene = house(MAP, true, |value| f64::from(value as f32));
         scene.warnings = crate::scene::Warnings::default();
         let far = DAffine3::from_translation(DVec3::new(1e5, 0.0, 0.0));

@@ -1,4 +1,5 @@
-//! [`ArtistTextures`]: pictures that a style names, whose changes of colour are drawn as lines on the surfaces of a model.
+//! [`ArtistTextures`]: pictures named by a style, whose colour changes are drawn as lines on the surfaces of
+//! a model.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -14,32 +15,33 @@ use crate::mesh::{MaterialId, PaintId};
 use crate::scene::textures::Texture;
 use crate::scene::{Material, Scene};
 
-/// A picture whose changes of colour are drawn as lines.
+/// A picture whose colour changes are drawn as lines.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct ArtistTexture {
-    /// A pattern for the names of the materials that it lies on.
+    /// Pattern for the names of the materials that it covers.
     pub materials: String,
-    /// Its file.
+    /// Path of the file.
     pub path: PathBuf,
-    /// What is in the file, once it is read.
+    /// Decoded picture, once it is read.
     #[serde(skip)]
     pub picture: Option<Arc<Picture>>,
 }
 
-/// Pictures whose changes of colour are drawn as lines: one for all materials, or some for materials by name. Of several whose
-/// patterns fit, the one with the longest counts.
+/// Pictures whose colour changes are drawn as lines: one for all materials, or one per pattern of material
+/// names. The longest matching pattern applies.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct ArtistTextures(pub Vec<ArtistTexture>);
 
 impl ArtistTextures {
-    /// The picture of a material.
+    /// Picture of a material.
     fn of(&self, material: &Material) -> Option<&Arc<Picture>> {
         let fits = |own: &&ArtistTexture| Glob::new(own.materials.as_str()).matches(&material.name);
-        // Of patterns of one length the first.
+        // Of equally long patterns, the first.
         self.0.iter().rev().filter(fits).max_by_key(|own| own.materials.len())?.picture.as_ref()
     }
 
-    /// The picture of each material that has one, in at most so many colours, whose paints are their numbers.
+    /// Picture of each material that has one, reduced to at most `count` colours. The colour numbers serve as
+    /// paint ids.
     pub(crate) fn on(&self, scene: &Scene, count: usize) -> Vec<(MaterialId, Varied)> {
         if self.0.is_empty() {
             return Vec::new();
@@ -59,7 +61,7 @@ impl ArtistTextures {
             let texture = Texture::showing(scene, material, picture);
             let shown = texture.seen_on(scene, &shown_by[id]);
             let colours = texture.few(&shown, count);
-            // Behind them what all looks like from afar.
+            // The mean colour comes last.
             let paints = (0..=colours.len()).map(PaintId::from).collect();
             let mean = texture.mean(&shown);
             Some((id.into(), Varied::new(Some(texture.painted(shown, &colours, mean)), None, paints)))

@@ -1,8 +1,8 @@
-//! [`Paints`]: the colour of each triangle, where textures or vertex colours give it.
+//! [`Paints`]: the colour of each triangle where textures or vertex colours give it one.
 //!
-//! A texture that is a palette, as low-polygon models have them, or colours painted on vertices
-//! part a material into areas of flat colour; any other picture is painted in a few colours, point by point. They matter to
-//! fills only: lines know materials, and a change of paint within one is no material boundary.
+//! Palette textures, as in low-polygon models, and vertex colours divide a material into areas of flat
+//! colour. Other pictures are painted in a few colours, point by point. Paints affect fills only: a change of
+//! paint within a material is no material boundary.
 
 use crate::parallel::prelude::*;
 use rustc_hash::FxHashMap;
@@ -23,33 +23,33 @@ use crate::scene::{Material, Scene, Warnings};
 pub struct Paint {
     /// The material.
     pub material: MaterialId,
-    /// The colour in place of the material's.
+    /// Colour that replaces the material's.
     pub colour: Colour,
 }
 
-/// The paints of a scene, and which triangle has which.
+/// The paints of a scene, and the paint of each triangle.
 #[derive(Debug, Clone, Default)]
 pub struct Paints {
-    /// One for each material and for what has none, with their own ids and colours; then those of
-    /// textures and vertex colours, by material and then by colour. What shows a picture has a paint of its own, in the mean
-    /// colour of the picture.
+    /// First one paint per material, and one for triangles without a material, with the same ids and colours.
+    /// Then the paints of textures and vertex colours, by material and colour. A picture also has a paint in
+    /// its mean colour.
     pub list: Vec<Paint>,
     /// Textures that could not be read.
     pub warnings: Warnings,
-    /// The pictures that a style names for lines between colours, by material.
+    /// Pictures of the style for lines along colour changes, by material.
     pub(crate) inked: Vec<(MaterialId, Varied)>,
-    /// Paint of each triangle of each geometry, or empty where each has that of its material.
+    /// Paint of each triangle of each geometry; empty if all have the paint of their material.
     triangles: Vec<Vec<PaintId>>,
-    /// What is painted point by point, and the paint of the triangles on which it is.
+    /// Surfaces painted point by point, with the paint of their triangles.
     pub(crate) varied: Vec<(PaintId, Varied)>,
-    /// Whether any of that takes its colours from vertices.
+    /// Whether any of them uses vertex colours.
     pub(crate) tinted: bool,
-    /// The pictures that are put into the drawing themselves.
+    /// Pictures that are embedded in the drawing.
     pub(crate) images: Vec<Imaged>,
 }
 
 impl Paints {
-    /// Finds the paints of a scene; reads textures beside the model.
+    /// Finds the paints of a scene; reads textures next to the model.
     #[must_use]
     pub fn of(scene: &Scene, options: &TextureOptions) -> Self {
         let without = Material::default();
@@ -75,7 +75,7 @@ impl Paints {
             })
             .collect();
 
-        // Colours of all triangles that have one, by material.
+        // Sampled triangles that have a texture or vertex colours, by material.
         let mut coloured: Vec<Vec<Coloured>> = vec![Vec::new(); materials.len()];
         for (index, geometry) in scene.geometries.iter().enumerate() {
             let last = materials.len() - 1;
@@ -95,8 +95,8 @@ impl Paints {
         }
         let count = materials.len();
         for (id, ((list, texture), material)) in coloured.iter().zip(textures).zip(materials).enumerate() {
-            // Colours of vertices without a material stand on white (glTF 2.0, section 3.9.6): they are not dimmed by the grey
-            // of what has neither. Readers put such a material last.
+            // Without a material, vertex colours are multiplied by white (glTF 2.0, section 3.9.6), not by
+            // the default grey. Readers put such a material last.
             let is_none = id + 2 >= count && *material == without;
             let factor = Factor { base: material.colour, multiplies: scene.format == "glTF" && !is_none };
             let is_tinted = list.iter().any(|own| own.painted.is_some());
@@ -117,7 +117,7 @@ impl Paints {
                     paints.add_tints(scene, id, list, options.colours, &factor);
                 }
                 (texture, fill) => {
-                    // Where a picture is one colour on each triangle, and its corners are too, so is their product.
+                    // If texture and corner colours are constant on each triangle, so is their product.
                     let texture = texture.filter(|_| !is_tinted);
                     let colours: Vec<(Colour, bool)> =
                         list.iter().map(|own| (factor.of(own), own.spread < ALIKE)).collect();
@@ -130,13 +130,12 @@ impl Paints {
         paints
     }
 
-    /// Lays pictures on the surfaces that are not painted: lines run where they change their colour, of which each has at most
-    /// so many.
+    /// Adds the style's pictures for lines along colour changes, each reduced to at most `colours` colours.
     pub(crate) fn ink(&mut self, scene: &Scene, pictures: &ArtistTextures, colours: usize) {
         self.inked = pictures.on(scene, colours);
     }
 
-    /// Gives pieces of triangles the paint of what they were cut out of: one triangle has one.
+    /// Gives pieces of cut triangles the paint of their original triangle.
     pub(crate) fn carry(&mut self, origins: &[Option<Vec<u32>>]) {
         for (paints, origins) in self.triangles.iter_mut().zip(origins) {
             if let (false, Some(origins)) = (paints.is_empty(), origins) {
@@ -145,13 +144,13 @@ impl Paints {
         }
     }
 
-    /// The paints of a geometry's triangles, or none where each has that of its material.
+    /// Paints of a geometry's triangles; empty if all have the paint of their material.
     #[must_use]
     pub fn of_geometry(&self, geometry: usize) -> &[PaintId] {
         self.triangles.get(geometry).map_or(&[], Vec::as_slice)
     }
 
-    /// Whether each triangle has the paint of the same number in both, if in another colour.
+    /// Whether all triangles have the same paint ids in both; the colours may differ.
     pub(crate) fn lie_like(&self, other: &Self) -> bool {
         let materials = |paints: &Self| paints.list.iter().map(|paint| paint.material).collect::<Vec<_>>();
         self.triangles == other.triangles
@@ -159,7 +158,7 @@ impl Paints {
             && materials(self) == materials(other)
     }
 
-    /// Adds the paints of a material's triangles, each in its colour.
+    /// Adds paints for triangles of a material, each with its colour.
     fn add(&mut self, scene: &Scene, material: usize, colours: &[Colour], triangles: &[Coloured]) {
         let known = self.of_colours(material, colours);
         for (colour, own) in colours.iter().zip(triangles) {
@@ -169,9 +168,9 @@ impl Paints {
         }
     }
 
-    /// The paints of a material in these colours.
+    /// Paints of a material for a list of colours, added where needed.
     pub(crate) fn of_colours(&mut self, material: usize, colours: &[Colour]) -> FxHashMap<Colour, PaintId> {
-        // By colour, not by the triangle that shows it first.
+        // Sort by colour, so that ids do not depend on the order of triangles.
         let mut distinct = colours.to_vec();
         distinct.sort_unstable();
         distinct.dedup();
@@ -187,7 +186,7 @@ impl Paints {
         known
     }
 
-    /// Gives a triangle its paint.
+    /// Sets the paint of a triangle.
     pub(crate) fn paint(&mut self, scene: &Scene, own: &Coloured, paint: PaintId) {
         let Some((paints, shape)) =
             self.triangles.get_mut(own.geometry).zip(scene.geometries.get(own.geometry))
@@ -216,7 +215,7 @@ mod tests {
 
     const NONE: u32 = u32::MAX;
 
-    /// A strip of four triangles, of which two show the palette and one nothing of it.
+    /// Strip of four triangles: two show the palette, one shows nothing of it.
     fn scene(format: &'static str, base: Colour) -> Scene {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, 2, 1);
@@ -251,7 +250,7 @@ mod tests {
         assert_eq!(mesh.face_paint, [4, 3, 0, 1].map(PaintId));
         assert_eq!(paints.list[3], Paint { material: MaterialId(0), colour: Colour::rgb(0, 0, 255) });
         assert_eq!(paints.list[4].colour, Colour::rgb(255, 0, 0));
-        // Lines see one material.
+        // Lines distinguish materials only.
         assert_eq!(mesh.face_material, [0, 0, 0, 1].map(MaterialId));
         assert!(scene.to_soup().triangle_paint.is_empty());
         assert_eq!(Mesh::build(scene.to_soup()).paint(3.into()), PaintId(1));

@@ -1,4 +1,4 @@
-//! Paints of triangles that show pictures, or colours that pass into each other.
+//! Paints of triangles that show pictures or blended vertex colours.
 
 use super::triangle_colour::{Coloured, Factor, light};
 use super::triangle_paints::{Paint, Paints};
@@ -10,15 +10,16 @@ use crate::scene::textures::palette::palette_clusters::{ALIKE, difference, mean,
 use crate::scene::textures::{self, Texture};
 use crate::scene::{Alpha, Scene};
 
-/// The greatest channel of the colour by which it is told what tones make of dark ones: no darker than tones tell apart.
+/// Greatest channel of the dark probe colour, used to derive the effect of tones on dark colours. Tones do
+/// not distinguish darker colours.
 const DARK_PROBE: f64 = 0.3;
 
-/// Colours that differ by no more than this in any channel are one, but for how they were stored.
+/// Maximum channel difference between equal colours that were stored differently.
 const SAME: u32 = 8;
 
 impl Paints {
-    /// Adds the paints of a material whose triangles show a picture. Those that are of one colour of a palette have that; all
-    /// others are painted point by point.
+    /// Adds the paints of a material whose triangles show a picture. Triangles of a single palette colour get
+    /// its paint; all others are painted point by point.
     pub(crate) fn add_picture(
         &mut self,
         scene: &Scene,
@@ -49,7 +50,7 @@ impl Paints {
         let paint_of = |colour: Colour| {
             with_paint.iter().min_by_key(|(own, _)| difference(*own, colour)).map(|(_, paint)| *paint)
         };
-        // What lies between colours is parted where the picture has it, not where its triangles meet.
+        // Areas of mixed colour are divided where the picture changes, not along triangle edges.
         let is_near =
             |own: &Coloured| colours.iter().any(|c| own.shown.is_some_and(|s| difference(*c, s) <= SAME));
         let is_whole = |own: &Coloured| {
@@ -71,14 +72,14 @@ impl Paints {
             self.paint(scene, own, own_paint.unwrap_or(picture));
         }
         let (colours, mut paints): (Vec<Colour>, Vec<PaintId>) = with_paint.into_iter().unzip();
-        // Behind them what all looks like from afar.
+        // The mean colour comes last.
         paints.push(picture);
         let painted = texture.painted(shown, &colours, whole);
         self.varied.push((picture, Varied::new(Some(painted), None, paints)));
     }
 
-    /// Adds the paints of a material whose corners have colours that pass into each other on its triangles. Where most triangles
-    /// are of one colour, those keep it, and others are parted between the same colours.
+    /// Adds the paints of a material whose vertex colours blend across its triangles. If most triangles have
+    /// a single colour, those keep it, and the others are divided among the same colours.
     pub(crate) fn add_tints(
         &mut self,
         scene: &Scene,
@@ -115,8 +116,8 @@ impl Paints {
         self.tinted = true;
     }
 
-    /// Adds the paints of a material whose triangles show a picture that the colours of their corners multiply: each falls into
-    /// few colours by itself.
+    /// Adds the paints of a material whose picture is multiplied by vertex colours. Each of the two is
+    /// reduced to a few colours separately.
     pub(crate) fn add_tinted_picture(
         &mut self,
         scene: &Scene,
@@ -136,7 +137,7 @@ impl Paints {
         let plain = Factor { base: Colour::WHITE, multiplies: false };
         let (samples, areas) = vertex_colours::samples(scene, triangles, &plain);
         let of_tints = textures::few(&samples, &areas, count);
-        // Behind the colours of the picture what it looks like from afar, and what shows none of it.
+        // Rows: colours of the picture, its mean colour, and no picture.
         let whole = texture.mean(&shown);
         let rows = of_picture.iter().chain([&whole]).map(|colour| Some(light(*colour))).chain([None]);
         let products: Vec<Colour> = rows
@@ -155,7 +156,7 @@ impl Paints {
         self.tinted = true;
     }
 
-    /// Adds the paint of a material whose triangles show a picture as it is, in the mean colour of that.
+    /// Adds the paint of a material whose picture is embedded; its fill colour is the mean of the picture.
     pub(crate) fn add_image(
         &mut self,
         scene: &Scene,
@@ -167,7 +168,7 @@ impl Paints {
         let places: Vec<[usize; 2]> = triangles.iter().map(|own| [own.geometry, own.triangle]).collect();
         let seen = texture.mean_light(&texture.shown(scene, material, &places)).unwrap_or(Colour::WHITE);
         let mean = factor.tint(seen);
-        // Of one hue, so that what tones do to each channel can be told.
+        // Probes of the same hue, so that the effect of tones on each channel can be derived.
         let greatest = mean.channels().into_iter().fold(0.0, f64::max).max(0.05);
         let bright = |level: f64| {
             let channels = mean.channels().map(|c| c.max(0.1 * greatest) / greatest * level);

@@ -1,31 +1,31 @@
-//! [`Varied`]: a surface whose colour varies from point to point, by a picture, by the colours of its vertices, or by both.
+//! [`Varied`]: a surface whose colour varies from point to point, by a picture, vertex colours, or both.
 
 use super::vertex_colours::Tints;
 use crate::mesh::PaintId;
 use crate::scene::textures::Painted;
 
-/// A surface whose colour varies from point to point. Where a picture and the colours of vertices meet, each falls into few
-/// colours by itself, and those are multiplied.
+/// A surface whose colour varies from point to point. With both a picture and vertex colours, each is reduced
+/// to a few colours separately, and these are multiplied.
 #[derive(Debug, Clone)]
 pub(crate) struct Varied {
-    /// The picture that it shows.
+    /// Its picture.
     pub picture: Option<Painted>,
-    /// The colours of its vertices.
+    /// Its vertex colours.
     pub tints: Option<Tints>,
     paints: PaintTable,
 }
 
-/// The paint of each colour of a picture in each tint.
+/// Table of paints: one for each combination of picture colour and vertex colour.
 #[derive(Debug, Clone)]
 pub(crate) struct PaintTable {
-    /// Picture by picture colour, and behind those what shows no picture; in each the tints in their order.
+    /// Rows by picture colour, the last row for points without a picture; columns by vertex colour.
     pub paints: Vec<PaintId>,
-    /// Tints in a row, at least 1.
+    /// Number of columns, at least 1.
     pub tints: usize,
 }
 
 impl PaintTable {
-    /// The paint of a colour of the picture, or of none, in a tint, or in none.
+    /// Paint for a picture colour (or none) and a vertex colour (or none).
     pub fn paint(&self, colour: Option<u8>, tint: Option<u8>) -> Option<PaintId> {
         let row = colour.map_or((self.paints.len() / self.tints).checked_sub(1)?, usize::from);
         self.paints.get(row * self.tints + usize::from(tint.unwrap_or_default())).copied()
@@ -38,7 +38,7 @@ impl Varied {
         Self { picture, tints, paints: PaintTable { paints, tints: columns } }
     }
 
-    /// The paint of each colour of the picture in each tint.
+    /// Paints for all combinations of picture colour and vertex colour.
     pub fn paints(&self) -> &PaintTable {
         &self.paints
     }

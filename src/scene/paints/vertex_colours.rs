@@ -1,4 +1,4 @@
-//! [`Tints`]: the few colours in which the colours of vertices are painted, as they pass into each other on triangles.
+//! [`Tints`]: a few colours that represent vertex colours blended across triangles.
 
 use glam::{DVec3, Vec3};
 
@@ -7,32 +7,32 @@ use crate::colour::oklab::{self, Oklab, distance2};
 use crate::colour::srgb::Colour;
 use crate::scene::Scene;
 
-/// The few colours in which the colours of vertices are painted.
+/// A few colours that represent vertex colours.
 #[derive(Debug, Clone)]
 pub(crate) struct Tints {
-    /// By what the colours of vertices are multiplied before they are looked at.
+    /// Factor of the vertex colours, linear light.
     factor: Vec3,
     palette: Vec<Oklab>,
 }
 
 impl Tints {
-    /// Those that are painted in these colours.
+    /// Makes a palette from colours.
     pub(crate) fn new(factor: Vec3, palette: &[Colour]) -> Self {
         Self { factor, palette: palette.iter().map(|colour| oklab::of(*colour)).collect() }
     }
 
-    /// How the few colours look.
+    /// The few colours, in Oklab.
     pub fn palette(&self) -> &[Oklab] {
         &self.palette
     }
 
-    /// How light of a vertex, or between some, looks.
+    /// Oklab coordinates of interpolated vertex light.
     pub fn looks(&self, light: [f64; 3]) -> Oklab {
         let light = Vec3::from_array(light.map(|c| c as f32)) * self.factor;
         oklab::of_linear(light.clamp(Vec3::ZERO, Vec3::ONE).to_array())
     }
 
-    /// The number of the colour in which light is painted: the nearest; of equally near ones the first.
+    /// Index of the nearest colour; the first of equally near ones.
     pub fn at(&self, light: [f64; 3]) -> u8 {
         let look = self.looks(light);
         let mut best = (0, f32::INFINITY);
@@ -46,14 +46,14 @@ impl Tints {
     }
 }
 
-/// Triangles whose corners differ by less than this in any channel count as their mean.
+/// Triangles with a smaller channel difference between corners are represented by their mean.
 const NEARLY_ONE: u32 = 24;
 
-/// A triangle is looked at in the middles of the pieces that this many cuts along each side make.
+/// Number of cuts along each side that divide a triangle into equal pieces for sampling.
 const CUTS: usize = 5;
 
-/// Colours that are seen on triangles, and on how much of the surface, in world units. `triangles` are in ascending order of their
-/// geometries.
+/// Samples of the vertex colours, and their surface areas in world units. `triangles` are in ascending order
+/// of geometry.
 pub(crate) fn samples(scene: &Scene, triangles: &[Coloured], factor: &Factor) -> (Vec<Colour>, Vec<f32>) {
     let (mut colours, mut weights) = (Vec::new(), Vec::new());
     for part in &scene.parts {
@@ -84,7 +84,7 @@ pub(crate) fn samples(scene: &Scene, triangles: &[Coloured], factor: &Factor) ->
     (colours, weights)
 }
 
-/// The middles of equal pieces of a triangle, in shares of its corners.
+/// Centres of equal pieces of a triangle, in barycentric coordinates.
 fn middles() -> impl Iterator<Item = [f32; 3]> {
     let place = |i: usize, j: usize, off: f32| {
         let [x, y] = [i, j].map(|k| (k as f32 + off) / CUTS as f32);
@@ -113,7 +113,7 @@ mod tests {
         let tints = Tints::new(Vec3::ONE, &[Colour::WHITE, Colour::rgb(255, 0, 0), Colour::BLACK]);
         assert_eq!(tints.at([0.9, 0.1, 0.1]), 1);
         assert_eq!(tints.at([0.7, 0.7, 0.7]), 0);
-        // In linear light a tenth looks nearly half as light as white.
+        // In linear light, a tenth looks nearly half as light as white.
         let even = Tints::new(Vec3::ONE, &[Colour::WHITE, Colour::BLACK]);
         assert_eq!([0.1, 0.2].map(|c| even.at([c; 3])), [1, 0]);
         let dim = Tints::new(Vec3::splat(0.1), &[Colour::WHITE, Colour::BLACK]);

@@ -1,4 +1,4 @@
-//! [`Imaged`]: the texture of a material, to be put into a drawing as it is.
+//! [`Imaged`]: the texture of a material, for embedding in a drawing.
 
 use glam::DVec2;
 
@@ -8,28 +8,28 @@ use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::{Colour, linear};
 use crate::mesh::{MaterialId, PaintId};
 
-/// The texture of a material, to be put into a drawing as it is.
+/// The texture of a material, for embedding in a drawing.
 #[derive(Debug, Clone)]
 pub(crate) struct Imaged {
     /// The material.
     pub material: MaterialId,
-    /// The paint of what shows it, in its mean colour.
+    /// Paint of the surfaces that show it, in its mean colour.
     pub paint: PaintId,
-    /// Paints in a dark and in a light colour, for what tones make of these.
+    /// Paints in a dark and in a light colour, used to derive the effect of tones.
     pub probes: [PaintId; 2],
     texels: Texels,
     picture: Picture,
-    /// What the colour of the material makes of each channel.
+    /// For each channel, the table of values after multiplication by the material's colour.
     tint: [Vec<u8>; 3],
-    /// Whether texels count less the clearer they are.
+    /// Whether texels are weighted by their opacity.
     weighed: bool,
 }
 
-/// No more texels are looked at to tell whether they are of one colour.
+/// Maximum texels that are compared to find a single colour.
 const MOST_LOOKS: i64 = 4096;
 
 impl Imaged {
-    /// `base` multiplies the picture; where `weighed`, clear texels are not mixed with others.
+    /// Prepares a picture; `base` multiplies it, and with `weighed` texels are weighted by their opacity.
     pub fn new(
         (material, paint, probes): (MaterialId, PaintId, [PaintId; 2]),
         texels: Texels,
@@ -48,12 +48,12 @@ impl Imaged {
         Self { material, paint, probes, texels, picture, tint, weighed }
     }
 
-    /// How its texels lie in the plane.
+    /// Layout of its texels in the plane.
     pub fn texels(&self) -> &Texels {
         &self.texels
     }
 
-    /// The one colour of all that may be seen between two corners of a box in the plane, if it is one.
+    /// Single colour of everything in a box of the texel plane, if there is one.
     pub fn one_colour(&self, low: DVec2, high: DVec2) -> Option<Colour> {
         let ([left, top], [right, bottom]) = (low.floor().to_array(), (high + 1.0).floor().to_array());
         if (right - left + 1.0) * (bottom - top + 1.0) > MOST_LOOKS as f64 {
@@ -69,11 +69,12 @@ impl Imaged {
         whole.then(|| self.tinted(first))
     }
 
-    /// What lies between two corners of the plane of the texels, in so many pixels: the mean light of what each covers.
+    /// Resamples a rectangle of the texel plane to `width` by `height` pixels, by the mean light over each
+    /// pixel.
     pub fn part(&self, from: DVec2, to: DVec2, [width, height]: [usize; 2]) -> Picture {
         let table = linear_table();
         let per_pixel = (to - from) / DVec2::new(width as f64, height as f64);
-        // The texels that a pixel covers, and how much of each; they reach half a texel around their middles.
+        // Texels under a pixel and their overlap; a texel extends half a texel around its centre.
         let covered = |k: usize, axis: usize| {
             let (low, high) = (
                 from[axis] + 0.5 + k as f64 * per_pixel[axis],
@@ -121,10 +122,10 @@ impl Imaged {
     }
 }
 
-/// Channels that differ by no more than this are one colour, but for how it was stored.
+/// Maximum channel difference between equal colours that were stored differently.
 const ALIKE: u8 = 3;
 
-/// Less of a texel than this is rounding.
+/// Overlaps below this share of a texel are rounding errors.
 const SLIVER: f64 = 1e-6;
 
 #[cfg(test)]

@@ -36,19 +36,18 @@ use crate::colour::srgb::Colour;
 use crate::mesh::{MaterialId, PaintId};
 use texel_plane::Texels;
 
-/// The picture of a base colour.
+/// The picture of a base colour, with its layout.
 pub(crate) struct Texture {
     picture: Picture,
     texels: Texels,
     filter: Filter,
 }
 
-/// Places of a triangle that are looked at to tell whether it is of one colour, at most, along each of its sides.
+/// Maximum samples along each side of a triangle in the test for a single colour.
 const LOOKS: f64 = 48.0;
 
 impl Texture {
-    /// The texture of a material; none if it has none or if it is not PNG, JPEG or WebP, an error if it
-    /// cannot be read.
+    /// Reads the texture of a material; `None` if it has none, an error if it cannot be read or decoded.
     pub fn of(scene: &Scene, material: &Material) -> Option<Result<Self, String>> {
         let picture = picture_of(scene, material)?;
         Some(picture.map(|picture| {
@@ -57,12 +56,14 @@ impl Texture {
         }))
     }
 
-    /// The colour that stands for a triangle: of its centroid and three points between that and
-    /// its corners, the one that differs least from the others; and how far all of the triangle but its rim differs from it, up
-    /// to [`ALIKE`].
+    /// Representative colour of a triangle, and the maximum channel difference from it inside the triangle,
+    /// up to [`ALIKE`].
+    ///
+    /// The colour is that of four samples which differs least from the others: the centroid and three points
+    /// towards the corners. The outermost tenth of the triangle is not tested.
     pub fn of_triangle(&self, corners: [[f32; 2]; 3]) -> (Colour, u32) {
         let mut corners = corners;
-        // Whichever corner the triangle begins with, the points are the same to the last bit.
+        // Sorted, so that the samples do not depend on the first corner, to the last bit.
         corners.sort_unstable_by(|a, b| a[0].total_cmp(&b[0]).then_with(|| a[1].total_cmp(&b[1])));
         let [a, b, c] = corners.map(|uv| self.texels.place(uv).unwrap_or_default());
         let at = |wa: f64, wb: f64, wc: f64| self.at(a * wa + b * wb + c * wc);
@@ -71,7 +72,7 @@ impl Texture {
         let strange = |sample: &Colour| samples.iter().map(|other| difference(*sample, *other)).sum::<u32>();
         let colour = samples.into_iter().min_by_key(strange).unwrap_or(samples[0]);
         let mut far = samples.iter().map(|sample| difference(*sample, colour)).max().unwrap_or_default();
-        // Texel by texel, or in so many steps.
+        // One sample per texel, up to `LOOKS` along a side.
         let longest = (b - a).length().max((c - b).length()).max((a - c).length());
         let steps = longest.min(LOOKS).ceil().max(1.0);
         for i in 0..=steps as u32 {
@@ -86,26 +87,27 @@ impl Texture {
         (colour, far.min(ALIKE))
     }
 
-    /// The nearest texel.
+    /// Colour of the nearest texel.
     fn at(&self, place: glam::DVec2) -> Colour {
         let nearest = (place + 0.5).floor();
         let texel = self.texels.index(nearest.x as i64, nearest.y as i64);
         self.picture.pixels[texel]
     }
 
-    /// A picture laid on a material that need not know it.
+    /// Texture of a picture that is laid on a material from outside, such as a style's.
     pub fn showing(scene: &Scene, material: &Material, picture: &Picture) -> Self {
         let picture = picture.clone().at_most(MOST_TEXELS);
         Self { texels: Texels::of(scene, material, &picture), picture, filter: Filter::Smooth }
     }
 
-    /// On how much of the surface each texel is seen, clear ones too; `triangles` as in [`Texture::shown`].
+    /// Visible surface area of each texel, transparent ones included; `triangles` as in [`Texture::shown`].
     pub fn seen_on(&self, scene: &Scene, triangles: &[[usize; 2]]) -> Vec<f32> {
         texel_coverage::shown(scene, triangles, &self.texels)
     }
 
-    /// On how much of the surface of a material each texel is seen: none of those that are clear. `triangles` are those that
-    /// show the picture: the geometry of each, in ascending order, and its number there.
+    /// Visible surface area of each texel on a material; zero for transparent texels.
+    ///
+    /// `triangles` are those that show the picture, as pairs of geometry (ascending) and triangle.
     pub fn shown(&self, scene: &Scene, material: usize, triangles: &[[usize; 2]]) -> Vec<f32> {
         let mut shown = self.seen_on(scene, triangles);
         let least = match scene.materials.get(material).map(|material| material.alpha) {
@@ -121,7 +123,7 @@ impl Texture {
         shown
     }
 
-    /// The mean light of all that is seen.
+    /// Mean light of the texture, weighted by visible area.
     pub fn mean_light(&self, shown: &[f32]) -> Option<Colour> {
         let table = oklab::linear_table();
         let (mut sum, mut all) = ([0.0_f64; 3], 0.0_f64);
@@ -134,7 +136,8 @@ impl Texture {
         (all > 0.0).then(|| Colour::from_linear([r, g, b, 1.0]))
     }
 
-    /// This texture as it is: `base` multiplies it, and where `weighed` clear texels are not mixed with others.
+    /// Prepares the texture for embedding: `base` multiplies it, and with `weighed` texels are weighted by
+    /// their opacity.
     pub fn imaged(
         self,
         paints: (MaterialId, PaintId, [PaintId; 2]),
@@ -144,17 +147,17 @@ impl Texture {
         Imaged::new(paints, self.texels, self.picture, base, weighed)
     }
 
-    /// At most so many colours that stand for all that is seen.
+    /// At most `count` representative colours, weighted by visible area.
     pub fn few(&self, shown: &[f32], count: usize) -> Vec<Colour> {
         palette::colour_kmeans::few(&self.picture.pixels, shown, count)
     }
 
-    /// What all that is seen looks like from afar.
+    /// Mean colour, weighted by visible area.
     pub fn mean(&self, shown: &[f32]) -> Colour {
         palette::colour_kmeans::few(&self.picture.pixels, shown, 1).first().copied().unwrap_or(Colour::WHITE)
     }
 
-    /// This texture in a few colours, and in the mean.
+    /// Prepares the texture for painting in a few colours, and in their mean.
     pub fn painted(self, shown: Vec<f32>, colours: &[Colour], mean: Colour) -> Painted {
         let most = KEPT * shown.len();
         Painted {
@@ -170,13 +173,13 @@ impl Texture {
     }
 }
 
-/// What views before made of a picture is kept up to so many times its size: enough for all of its scales together.
+/// Maximum size of a cache, in multiples of the picture: enough for all of its scales together.
 const KEPT: usize = 2;
 
-/// Larger pictures lose what no drawing shows.
+/// Maximum texels of a picture; larger ones are downsampled, as no drawing shows more.
 const MOST_TEXELS: usize = 1 << 22;
 
-/// The picture of a material's base colour; none if it has none, an error if it cannot be read.
+/// Decodes the picture of a material's base colour; `None` if it has none, an error if it cannot be read.
 pub(crate) fn picture_of(scene: &Scene, material: &Material) -> Option<Result<Picture, String>> {
     match (&material.picture, &material.texture) {
         (Some(bytes), _) => Some(Picture::decode(bytes)),
@@ -185,7 +188,7 @@ pub(crate) fn picture_of(scene: &Scene, material: &Material) -> Option<Result<Pi
     }
 }
 
-/// The picture in a file beside the model; none if the model is no file.
+/// Decodes a picture next to the model; `None` if the model is not a file.
 pub(crate) fn beside(scene: &Scene, path: &str) -> Option<Result<Picture, String>> {
     scene.file.as_ref().map(|file| from_file(file, path))
 }
@@ -218,7 +221,7 @@ mod tests {
         texture.texels.upward = true;
         assert_eq!([[0.1, 0.1], [0.9, 0.9]].map(|uv| at(&texture, uv)), [c, b]);
         assert_eq!(texture.of_triangle([[0.6, 0.6], [0.9, 0.6], [0.6, 0.9]]), (b, 0));
-        // One corner beyond the border does not count.
+        // One corner across the border does not count.
         assert_eq!(texture.of_triangle([[0.2, 0.6], [0.9, 0.6], [0.9, 0.9]]).0, b);
     }
 }

@@ -1,23 +1,23 @@
-//! [`Kept`]: what one view made of a picture, for views to come.
+//! [`Kept`]: a cache of results computed from a picture, shared between views.
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// Of more keys than this it is forgotten that they were asked for, of the first first.
+/// Maximum number of keys that are remembered; the oldest are forgotten first.
 const MOST_ASKED: usize = 64;
 
-/// What one view made of a picture, for views to come, by what it depends on.
+/// Cache of results computed from a picture, by key.
 ///
-/// What is asked for but once is not kept: pictures are large, and most are drawn once. Of all else only so much is, and what
-/// was kept first goes first. Clones share what is kept.
+/// A result is stored only when it is requested for the second time, because pictures are large and most are
+/// drawn once. The total size is bounded, and the oldest results are dropped first. Clones share the cache.
 #[derive(Debug)]
 pub(crate) struct Kept<K, V> {
     asked: Arc<Mutex<Vec<Asked<K, V>>>>,
-    /// How large a thing is, and how large all that is kept may be.
+    /// Size of a result, and maximum total size.
     size: fn(&V) -> usize,
     most: usize,
 }
 
-/// What was asked for, and that itself from the second time on.
+/// A requested key, with its result from the second request on.
 #[derive(Debug)]
 struct Asked<K, V> {
     key: K,
@@ -31,19 +31,19 @@ impl<K, V> Clone for Kept<K, V> {
 }
 
 impl<K: Copy + PartialEq, V> Kept<K, V> {
-    /// Keeps no more than so much of things that are so large.
+    /// Makes a cache of at most `most` units, as measured by `size`.
     pub fn new(most: usize, size: fn(&V) -> usize) -> Self {
         Self { asked: Arc::default(), size, most }
     }
 
-    /// What belongs to a key, as it was kept or is made now: the same whenever it is made.
+    /// Returns the result of a key, from the cache or computed by `make`. `make` must be deterministic.
     pub fn get(&self, key: K, make: impl FnOnce() -> V) -> Arc<V> {
         let lock = || self.asked.lock().unwrap_or_else(PoisonError::into_inner);
         let asked = lock().iter().find(|asked| asked.key == key).map(|asked| asked.made.clone());
         if let Some(Some(made)) = asked {
             return made;
         }
-        // The lock is open meanwhile: making may take up other work that asks for the same.
+        // The lock is released here: `make` may run other tasks that request the same key.
         let made = Arc::new(make());
         let mut all = lock();
         all.retain(|asked| asked.key != key);
@@ -52,7 +52,7 @@ impl<K: Copy + PartialEq, V> Kept<K, V> {
         made
     }
 
-    /// Forgets what is too much, the first first.
+    /// Drops the oldest results and keys until the limits are met.
     fn forget(&self, all: &mut Vec<Asked<K, V>>) {
         let mut left = self.most;
         for asked in all.iter_mut().rev() {
@@ -71,7 +71,7 @@ impl<K: Copy + PartialEq, V> Kept<K, V> {
 mod tests {
     use super::*;
 
-    /// Whether each of some sizes has to be made when it is asked for after those before it.
+    /// For each of some sizes, whether it has to be computed when requested after those before it.
     fn made(kept: &Kept<usize, usize>, sizes: &[usize]) -> Vec<bool> {
         let ask = |size: &usize| {
             let mut is_made = false;
@@ -95,9 +95,9 @@ mod tests {
     fn no_more_than_so_much_is_kept() {
         let kept = Kept::new(10, |size: &usize| *size);
         assert_eq!(made(&kept, &[4, 4, 5, 5, 4, 5]), [true, true, true, true, false, false]);
-        // The first goes, and is made anew when it is wanted again.
+        // The oldest result is dropped and computed again later.
         assert_eq!(made(&kept, &[3, 3, 5, 3, 4, 4, 3]), [true, true, false, false, true, false, false]);
-        // What is too large by itself never stays.
+        // A result larger than the limit is never stored.
         assert_eq!(made(&kept, &[11, 11, 11, 4]), [true, true, true, false]);
         (100..200).for_each(|size| assert_eq!(made(&kept, &[size]), [true]));
         assert!(kept.asked.lock().unwrap().len() <= MOST_ASKED);

@@ -1,15 +1,16 @@
-//! [`shown`]: how much of the surface each texel of a picture is seen on.
+//! [`shown`]: the visible surface area of each texel of a picture.
 
 use glam::DVec2;
 
 use super::texel_plane::Texels;
 use crate::scene::Scene;
 
-/// No more texels are visited one by one; the rest of the surface counts for all alike.
+/// Maximum texels visited one by one; the area of further triangles is spread over all texels.
 const MOST_VISITS: usize = 1 << 26;
 
-/// For each texel the area of the surface on which it shows, in world units; zero for those that are seen nowhere. `triangles`
-/// are those that show the picture: the geometry of each, in ascending order, and its number there.
+/// Surface area of each texel in world units; zero for texels that no triangle shows.
+///
+/// `triangles` are those that show the picture, as pairs of geometry (ascending) and triangle.
 pub(crate) fn shown(scene: &Scene, triangles: &[[usize; 2]], texels: &Texels) -> Vec<f32> {
     let count = texels.size[0] * texels.size[1];
     let mut shown = vec![0.0_f32; count];
@@ -51,13 +52,13 @@ pub(crate) fn shown(scene: &Scene, triangles: &[[usize; 2]], texels: &Texels) ->
     shown
 }
 
-/// The texels on which the colour of some point of a triangle rests: the row, its first and its last column.
+/// Texels that influence a triangle under bilinear interpolation: row, first and last column.
 fn spans(corners: [DVec2; 3]) -> Vec<(i64, i64, i64)> {
     let [a, b, c] = corners;
     let (low, high) = (a.y.min(b.y).min(c.y), a.y.max(b.y).max(c.y));
     let rows = (low - 1.0).floor() as i64 + 1..=(high + 1.0).ceil() as i64 - 1;
     rows.filter_map(|row| {
-        // The part of the triangle less than a texel above and below the row.
+        // Part of the triangle within one texel above and below the row.
         let (top, bottom) = (row as f64 - 1.0, row as f64 + 1.0);
         let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
         for (p, q) in [(a, b), (b, c), (c, a)] {

@@ -1,32 +1,31 @@
-//! How the pictures of materials are painted: part of the `[fills]` table of a style sheet.
+//! Options for textures: part of the `[fills]` table of a style sheet.
 
 use serde::{Deserialize, Serialize};
 
-/// What becomes of the picture of a base colour.
+/// How the texture of a base colour is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum TextureFill {
-    /// Regions of a few colours, with the borders that the picture has.
+    /// As regions of a few colours, with the borders of the picture.
     #[default]
     Regions,
-    /// Its mean colour.
+    /// In its mean colour.
     Mean,
-    /// The picture itself.
+    /// As an embedded picture.
     Image,
-    /// Nothing: the colour of the material.
+    /// Not at all: in the colour of the material.
     Off,
 }
 
-/// How the pictures of materials are painted.
+/// Options for drawing textures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TextureOptions {
-    /// What becomes of a picture. Default: regions.
+    /// How textures are drawn. Default: regions.
     pub fill: TextureFill,
-    /// Into how many colours a picture falls, at most, unless it is a palette. Default: 6.
+    /// Maximum number of colours for a picture that is not a palette. Default: 6.
     pub colours: usize,
-    /// How many texels of a picture that is put into the drawing itself are kept along a px, at most; it has never more
-    /// than its file. Default: 1.5.
+    /// Maximum texels per px of an embedded picture; never more than its file has. Default: 1.5.
     pub samples: f64,
 }
 

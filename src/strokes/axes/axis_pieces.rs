@@ -1,38 +1,41 @@
-//! Cuts an axis where nothing is drawn, such as in halos of nearer lines, and lifts the pen at corners.
+//! Splits an axis at gaps such as halos, and at corners where the pen is lifted.
 
 use super::stroke_axis::Axis;
 
-/// The hand lifts at corners that turn by more than this (cosine of 35 degrees).
+/// Cosine of the least corner turn that lifts the pen, 35 degrees.
 const LIFT_COSINE: f64 = 0.819;
 
-/// A part of an axis, and what its ends are.
+/// Part of an axis with its ends.
 #[derive(Debug, Clone)]
 pub(crate) struct AxisPart {
     pub axis: Axis,
     pub ends: [End; 2],
 }
 
-/// What may happen at an end.
+/// Treatment of an end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct End {
     pub tapers: bool,
     pub runs_on: bool,
-    /// How far the line goes on past the border of the frame, which cuts it; 0 inside the frame.
+    /// Distance that the line continues past the frame's border, which cuts it; 0 inside the frame.
     pub past: f64,
 }
 
 impl End {
-    /// The end at a gap.
+    /// End at a gap.
     const GAP: Self = Self { tapers: true, runs_on: false, past: 0.0 };
-    /// The end at a corner at which the pen is lifted.
+    /// End at a corner where the pen is lifted.
     const LIFTED: Self = Self { tapers: true, runs_on: true, past: 0.0 };
 }
 
-/// Lines with gaps in them are whole in between at least over this length, px.
+/// Least length of a piece between gaps, px. Shorter ones are dropped.
 const SHORTEST_PX: f64 = 0.75;
 
-/// The parts of an axis outside of gaps (arc lengths, ascending, not beyond its ends but in a closed axis);
-/// with `lifts`, corners part them as well. `ends` are what the ends of an open axis are.
+/// The parts of an axis outside of gaps.
+///
+/// Gaps are ascending arc lengths. Those of an open axis lie between its ends; those of a closed axis may
+/// cross its seam. With `lifts`, sharp corners split the axis as well. `ends` describes the ends of an open
+/// axis.
 pub(crate) fn parted(axis: &Axis, gaps: &[[f64; 2]], lifts: bool, ends: [End; 2], px: f64) -> Vec<AxisPart> {
     let total = axis.length();
     let mut cuts: Vec<([f64; 2], End)> = gaps.iter().map(|gap| (*gap, End::GAP)).collect();

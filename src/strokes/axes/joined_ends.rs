@@ -1,4 +1,4 @@
-//! Which ends of chains are ends of lines: not those where another chain goes on in the same direction.
+//! Ends of chains where another chain continues in the same direction.
 
 use kurbo::Vec2;
 use rustc_hash::FxHashMap;
@@ -6,16 +6,16 @@ use rustc_hash::FxHashMap;
 use super::stroke_axis::Axis;
 use crate::chains::Chain;
 
-/// A line goes on where it turns by no more than this (cosine of 50 degrees).
+/// Cosine of the greatest turn between joined ends, 50 degrees.
 const JOINED_COSINE: f64 = 0.643;
 
-/// The end of another chain: its index, and 0 for its first point, 1 for its last.
+/// End of a chain: the chain's index, and 0 for its first point or 1 for its last.
 pub(crate) type End = (usize, usize);
 
-/// For the first and the last point of each chain, the chain that goes on from it, as visible or hidden as it
-/// is, if there is one: the straightest.
+/// For both ends of each chain, the straightest continuation among chains that are visible or hidden alike,
+/// if any.
 pub(crate) fn joined(chains: &[&Chain], axes: &[Axis]) -> Vec<[Option<End>; 2]> {
-    // Chains that meet share a node, and so the place of it to the last bit.
+    // Chains that meet share a node, so their end points are identical to the last bit.
     let mut at: FxHashMap<(u64, u64, bool), Vec<End>> = FxHashMap::default();
     for (i, chain) in chains.iter().enumerate().filter(|(i, chain)| !chain.closed && axes[*i].len() > 1) {
         for (side, p) in [chain.points.first(), chain.points.last()].into_iter().enumerate() {

@@ -2,7 +2,7 @@
 //!
 //! 1. The path of a chain is sampled; corners and the chain's samples are carried over ([`path_samples`],
 //!    [`stroke_axis`]).
-//! 2. Ends at which another chain continues in the same direction are found ([`joined_ends`]).
+//! 2. Ends where another chain continues in the same direction are found ([`joined_ends`]).
 //! 3. The axis is cut at gaps and, if the pen is lifted there, at corners ([`axis_pieces`]).
 //!
 //! Files, in reading order: [`path_samples`]; [`stroke_axis`]; [`joined_ends`]; [`axis_pieces`].

@@ -1,4 +1,4 @@
-//! The path of a chain as points close together, with its corners and what it knows of the world at each.
+//! The path of a chain as closely spaced points, with its corners and scene samples.
 
 use kurbo::{BezPath, ParamCurve, PathSeg, Point, Vec2};
 
@@ -6,11 +6,11 @@ use crate::chains::fit::bezier_fit::unit;
 use crate::chains::{Chain, Sample};
 use crate::geometry::plane::planar_distance::length;
 
-/// A line that turns by more than this at a point (cosine of 20 degrees) has a corner there.
+/// Cosine of the least turn that makes a corner, 20 degrees.
 pub(crate) const CORNER_COSINE: f64 = 0.9397;
 
-/// Points on a path, about a step apart, and those of them at which its pieces meet in a corner; a closed
-/// path ends where it begins.
+/// Points on a path, about `step` apart, and the indices where its segments meet in a corner. The last point
+/// of a closed path equals its first.
 pub(crate) fn dense(path: &BezPath, step: f64) -> (Vec<Point>, Vec<usize>) {
     let mut points: Vec<Point> = Vec::new();
     let mut corners = Vec::new();
@@ -46,7 +46,7 @@ pub(crate) fn dense(path: &BezPath, step: f64) -> (Vec<Point>, Vec<usize>) {
     (points, corners)
 }
 
-/// Unit directions at both ends; `None` for a piece without length.
+/// Unit directions at both ends; `None` for a segment without length.
 fn tangents(segment: &PathSeg) -> Option<[Vec2; 2]> {
     let c = segment.to_cubic();
     let first = [c.p1, c.p2, c.p3].into_iter().map(|p| p - c.p0).find(|v| v.hypot2() > 0.0)?;
@@ -67,7 +67,7 @@ pub(crate) fn arcs(points: &[Point]) -> Vec<f64> {
     arcs
 }
 
-/// The world at each arc length of the path, which runs beside the chain's points.
+/// The scene sample at each arc length of the path, which runs close to the chain's points.
 pub(crate) fn samples(chain: &Chain, axis: &[Point], at: &[f64]) -> Vec<Sample> {
     let mut points = chain.points.clone();
     let mut samples = chain.samples.clone();
@@ -75,7 +75,7 @@ pub(crate) fn samples(chain: &Chain, axis: &[Point], at: &[f64]) -> Vec<Sample> 
         return vec![Sample::new(0.0, 1.0); at.len()];
     }
     if chain.closed {
-        // The path of a closed chain may begin at another of its points.
+        // The path of a closed chain may start at another point.
         let away = |p: &Point| axis.first().map_or(0.0, |start| (*p - *start).hypot2());
         let nearest = (0..points.len()).min_by(|a, b| away(&points[*a]).total_cmp(&away(&points[*b])));
         points.rotate_left(nearest.unwrap_or(0));

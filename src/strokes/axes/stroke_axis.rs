@@ -1,5 +1,4 @@
-//! [`Axis`]: the middle of a line as points about a px apart, with its corners and what it knows of the
-//! world.
+//! [`Axis`]: the centre line of a stroke as points about a px apart, with corners and scene samples.
 
 use kurbo::{BezPath, Point, Vec2};
 
@@ -8,38 +7,38 @@ use crate::chains::fit::bezier_fit::{end_tangent, fit, unit};
 use crate::chains::{Chain, Sample};
 use crate::geometry::plane::planar_distance::{distance2, length};
 
-/// Distance of the points along the axis, px.
+/// Distance between points along the axis, px.
 const STEP_PX: f64 = 1.0;
 
-/// Points nearer to each other than this part of a step crowd.
+/// Least distance between points as a share of a step. Closer points are merged.
 const CROWD: f64 = 0.6;
 
-/// The turn must last as far as this to either side, px.
+/// Length to either side of a corner for measuring its turn, px.
 const CORNER_REACH_PX: f64 = 2.0;
 
-/// How far a path may lie from the points it is fitted to, px.
+/// Greatest distance of a fitted path from its points, px.
 const TOLERANCE_PX: f64 = 0.06;
 
-/// Points this near to a straight line (part of the tolerance) are one.
+/// Share of the tolerance within which a stretch counts as straight and becomes one line.
 const STRAIGHT: f64 = 0.3;
 
-/// The middle of a line, in user units.
+/// Centre line of a stroke, in user units.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(crate) struct Axis {
-    /// Points about a px apart; a closed axis ends where it begins.
+    /// Points about a px apart. The last point of a closed axis equals its first.
     pub points: Vec<Point>,
-    /// Arc length of each point, along the chain that the axis was made of.
+    /// Arc length of each point along the chain.
     pub arcs: Vec<f64>,
-    /// The world at each point.
+    /// Scene sample at each point.
     pub samples: Vec<Sample>,
-    /// Indices of the points at which it turns sharply, ascending; 0 in a closed axis is its seam, and
-    /// ends of an open one are not among them.
+    /// Indices of the points where it turns sharply, ascending. Index 0 of a closed axis is its seam. The
+    /// ends of an open axis are not included.
     pub corners: Vec<usize>,
     pub closed: bool,
 }
 
 impl Axis {
-    /// The axis of a chain; `px` is the user units in a px. Without a path it has no points.
+    /// The axis of a chain. `px` is the length of a px in user units. A chain without a path gives no points.
     pub fn of(chain: &Chain, px: f64) -> Self {
         let (points, joints) = dense(&chain.path, STEP_PX * px);
         let arcs = arcs(&points);
@@ -49,8 +48,7 @@ impl Axis {
         axis
     }
 
-    /// Without points that crowd: none but corners and ends is nearer than a little less than a px
-    /// to the one before.
+    /// Removes points that are too close to the previous one. Corners and ends stay.
     pub fn evened(self, px: f64) -> Self {
         let least = CROWD * STEP_PX * px;
         let last = self.len().saturating_sub(1);
@@ -61,7 +59,7 @@ impl Axis {
             if !(corner || i == last || self.arcs[i] - arc >= least) {
                 continue;
             }
-            // An end or corner takes the place of a point just before it.
+            // A corner or end replaces a point just before it.
             if self.arcs[i] - arc < least && even.len() > 1 && even.corners.last() != Some(&(even.len() - 1))
             {
                 even.points.pop();
@@ -86,12 +84,12 @@ impl Axis {
         self.arcs.last().unwrap_or(&0.0) - self.arcs.first().unwrap_or(&0.0)
     }
 
-    /// The arc lengths of its corners.
+    /// Arc lengths of the corners.
     pub fn corner_arcs(&self) -> Vec<f64> {
         self.corners.iter().map(|c| self.arcs[*c]).collect()
     }
 
-    /// Whether the chords that reach so far to both sides of a point turn as a corner does.
+    /// Whether the chords over `reach` to both sides of a point form a corner.
     fn turns(&self, i: usize, reach: f64) -> bool {
         let n = self.len();
         let at = |k: isize| -> Option<Point> {
@@ -114,7 +112,7 @@ impl Axis {
         unit(before).dot(unit(after)) < CORNER_COSINE
     }
 
-    /// The part from one arc length to another; in a closed axis the end may lie beyond the seam.
+    /// The part between two arc lengths. In a closed axis, `to` may lie past the seam.
     pub fn cut(&self, from: f64, to: f64) -> Self {
         let total = self.length();
         if self.closed && from <= 0.0 && to >= total {
@@ -131,7 +129,7 @@ impl Axis {
             let shift = total * f64::from(round);
             for i in 0..=last {
                 let arc = self.arcs[i] + shift;
-                // The seam is passed once.
+                // The seam is one point, stored twice.
                 if arc <= from || arc >= to || (self.closed && i == last) {
                     continue;
                 }
@@ -145,7 +143,7 @@ impl Axis {
         part
     }
 
-    /// With a point half-way if the axis has no more than two: enough for an outline.
+    /// Adds a midpoint if the axis has only two points, because an outline needs three.
     pub fn subdivided(mut self) -> Self {
         if let (&[a, b], &[from, to], &[start, end]) = (&self.points[..], &self.arcs[..], &self.samples[..]) {
             self.points.insert(1, a.midpoint(b));
@@ -171,7 +169,7 @@ impl Axis {
         (self.points[here].lerp(self.points[next], t), self.samples[here].lerp(self.samples[next], t))
     }
 
-    /// An open axis made longer: by `amount` beyond its first point (side 0) or last one (side 1).
+    /// Extends an open axis by `amount` past its first point (side 0) or last point (side 1).
     pub fn extend(&mut self, side: usize, amount: f64, px: f64) {
         let n = self.len();
         if n < 2 || amount <= 0.0 {
@@ -200,7 +198,7 @@ impl Axis {
         }
     }
 
-    /// The direction in which an open axis leaves its first point (side 0) or last one (side 1).
+    /// Unit direction from the first point (side 0) or last point (side 1) of an open axis into the axis.
     pub fn end_tangent(&self, side: usize) -> Vec2 {
         let n = self.len();
         let count = match (side, self.corners.first(), self.corners.last()) {
@@ -211,8 +209,8 @@ impl Axis {
         end_tangent(|k| self.points[if side == 0 { k } else { n - 1 - k }], count)
     }
 
-    /// The stretch of points without a corner in it around point `i`, as first and last index; in a closed
-    /// axis they count on beyond its seam. A corner begins the stretch after it.
+    /// First and last index of the corner-free stretch around point `i`. A corner begins the stretch after
+    /// it. In a closed axis, indices continue across the seam.
     pub fn stretch(&self, i: usize) -> (isize, isize) {
         let n = self.len() as isize;
         let k = self.corners.partition_point(|c| *c <= i);
@@ -232,27 +230,27 @@ impl Axis {
         }
     }
 
-    /// The point of an index that may count on beyond the seam of a closed axis.
+    /// The point at an index, which may continue across the seam of a closed axis.
     pub fn point(&self, i: isize) -> Point {
         let n = self.len() as isize;
         let i = if self.closed { i.rem_euclid(n - 1) } else { i.clamp(0, n - 1) };
         self.points[i as usize]
     }
 
-    /// Unit direction at a point: over a few points on either side, none of them beyond a corner.
+    /// Unit direction at a point from up to `reach` points on either side, not across corners.
     pub fn direction(&self, i: usize, reach: isize) -> Vec2 {
         let (first, last) = self.stretch(i);
         let k = i as isize;
         unit(self.point((k + reach).min(last)) - self.point((k - reach).max(first)))
     }
 
-    /// Directions in which the axis comes to a corner and leaves it.
+    /// Unit directions of arrival at a corner and departure from it.
     pub fn at_corner(&self, corner: usize) -> [Vec2; 2] {
         let c = corner as isize;
         [unit(self.point(c) - self.point(c - 1)), unit(self.point(c + 1) - self.point(c))]
     }
 
-    /// The path of the axis: Béziers between its corners.
+    /// The path of the axis, with Béziers between its corners.
     pub fn path(&self, px: f64) -> BezPath {
         let mut path = BezPath::new();
         let n = self.len();
@@ -288,7 +286,7 @@ impl Axis {
     }
 }
 
-/// Adds a smooth stretch of points to a path that stands at its first.
+/// Adds a smooth stretch of points to a path whose current point is the first of them.
 pub(crate) fn add_stretch(points: &[Point], tolerance: f64, path: &mut BezPath) {
     let (Some(first), Some(last)) = (points.first(), points.last()) else { return };
     let n = points.len();

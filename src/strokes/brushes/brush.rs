@@ -1,8 +1,8 @@
-//! [`Brush`]: a shape that is laid along lines: drawn once over each line or again and again.
+//! [`Brush`]: a shape that is laid along lines, once or repeatedly.
 //!
-//! Source: lines drawn with a shape of their own, Claes, Di Fiore, Vansichem and Van Reeth, Fast 3D cartoon
-//! rendering with improved quality by exploiting graphics hardware, 2001, fig. 5e; mapped by arc length as in
-//! Hsu and Lee, Drawing and animation using skeletal strokes, SIGGRAPH 1994.
+//! Source: Claes, Di Fiore, Vansichem and Van Reeth, Fast 3D cartoon rendering with improved quality by
+//! exploiting graphics hardware, 2001, fig. 5e, for lines with a shape. The mapping by arc length follows Hsu
+//! and Lee, Drawing and animation using skeletal strokes, SIGGRAPH 1994.
 
 use std::borrow::Cow;
 use std::sync::Arc;
@@ -21,50 +21,51 @@ use crate::strokes::axes::stroke_axis::{Axis, add_stretch};
 use crate::strokes::outlines::stroke_outline::{Nib, outline};
 use crate::strokes::widths::width_profile::mean;
 
-/// A shape along a line. Its x runs along the line from 0 to 1; its y lies across it, -0.5 on the left edge
-/// of the pen and 0.5 on the right.
+/// Shape along a line. Its x runs along the line from 0 to 1. Its y runs across, from -0.5 at the left edge
+/// of the pen to 0.5 at the right.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Brush {
     /// The shape.
     pub shape: BrushShape,
-    /// Whether it is drawn again and again instead of once over the whole line.
+    /// Whether it is repeated along the line instead of stretched over it.
     pub repeats: bool,
-    /// Length of one of those, about; 0: as long as it is in proportion to the pen's width.
+    /// Approximate length of one copy. 0: in proportion to the pen's width.
     pub length: Length,
-    /// What is drawn in its place where the line turns, if it is drawn again and again.
+    /// Shapes that replace it where the line turns, if it is repeated.
     pub turns: Option<Turns>,
 }
 
-/// Shapes for pieces of a line that turn, by the angle from a piece to its successor.
+/// Shapes for pieces of a line that turn, by the angle from a piece to the next.
 ///
-/// Source: Lake, Marshall, Harris and Blackstein, Stylized rendering techniques for scalable real-time 3D animation, 2000, section
-/// 4.3, equation 3: straight, leftward and rightward strokes; there the pieces are edges of the mesh, here they are as long as the brush.
+/// Source: Lake, Marshall, Harris and Blackstein, Stylized rendering techniques for scalable real-time 3D
+/// animation, 2000, section 4.3, equation 3: straight, leftward and rightward strokes. Their pieces are edges
+/// of the mesh; here a piece is one brush length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Turns {
-    /// Where the line turns to the left, as it runs.
+    /// Shape for turns to the left along the line.
     pub left: BrushShape,
-    /// Where it turns to the right.
+    /// Shape for turns to the right.
     pub right: BrushShape,
-    /// Turns of no more than this many degrees are straight.
+    /// Greatest turn that counts as straight, degrees.
     pub degrees: f64,
 }
 
 /// The shape of a brush.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BrushShape {
-    /// A filled path, and how much longer than wide it is.
+    /// A filled path, and its length divided by its width.
     Path(BezPath, f64),
-    /// How far the ink reaches to the left and to the right of the middle at places evenly along the line, in
-    /// widths of the pen (0 to 0.5), and how much longer than wide it is.
+    /// Extents of the ink to the left and right of the middle at evenly spaced positions along the line, in
+    /// pen widths (0 to 0.5). The second value is length divided by width.
     Profile(Vec<[f64; 2]>, f64),
-    /// A picture whose inside is traced, and how much longer than wide it is.
+    /// A picture whose interior is traced, and its length divided by its width.
     Picture(Strip, f64),
-    /// A picture that is shown itself, and how much longer than wide it is.
+    /// A picture that is shown itself, and its length divided by its width.
     Image(Arc<Strip>, f64),
 }
 
 impl BrushShape {
-    /// How much longer than wide it is.
+    /// Length divided by width.
     #[must_use]
     pub const fn ratio(&self) -> f64 {
         let (Self::Path(_, ratio)
@@ -74,7 +75,7 @@ impl BrushShape {
         *ratio
     }
 
-    /// The shape as a path, for one that is so long and so wide on the page, in px.
+    /// The shape as a path. `size` is its length and width on the page, px.
     pub(crate) fn path(&self, size: [f64; 2]) -> Cow<'_, BezPath> {
         match self {
             Self::Path(path, _) => Cow::Borrowed(path),
@@ -85,7 +86,7 @@ impl BrushShape {
     }
 }
 
-/// The edges of a profile as a path.
+/// The outline of a profile.
 fn edges(profile: &[[f64; 2]]) -> BezPath {
     let count = profile.len().clamp(1, MOST_COLUMNS);
     let at = |k: usize, side: usize| {
@@ -102,36 +103,37 @@ fn edges(profile: &[[f64; 2]]) -> BezPath {
     path
 }
 
-/// Edges of profiles have no more places than this.
+/// Greatest number of columns in the outline of a profile.
 const MOST_COLUMNS: usize = 512;
 
-/// Most copies of a brush along a line.
+/// Greatest number of copies along a line.
 const MOST_COPIES: f64 = 10_000.0;
 
-/// How far the edges of a brush may lie from where they ought to, px.
+/// Greatest deviation of mapped brush edges, px.
 const TOLERANCE_PX: f64 = 0.06;
 
-/// Points on the edges of a brush are about this far apart, px.
+/// Approximate distance between points on brush edges, px.
 const STEP_PX: f64 = 1.0;
 
-/// Directions across a line are taken over this many times half the pen's width to either side.
+/// Reach of direction samples to either side, in half widths of the pen.
 const TURN: f64 = 1.0;
 
-/// A brush turns by more than this at a corner of its own (cosine of 20 degrees).
+/// Cosine of the least turn that makes a corner of a brush, 20 degrees.
 const CORNER_COSINE: f64 = 0.94;
 
-/// A line drawn with a brush.
+/// Line drawn with a brush.
 pub(crate) struct Brushed {
     pub path: BezPath,
-    /// Its mean width.
+    /// Mean width.
     pub width: f64,
-    /// The picture that is seen within its outline, how many pixels that has along and across, and in which pieces it is seen.
+    /// Picture visible inside the outline: the strip, its pixels along and across, and the pieces of it.
     pub image: Option<(Arc<Strip>, [usize; 2], Vec<ImagePiece>)>,
 }
 
-/// The outline of a line drawn with a brush in a colour. `thick` are the widths at the points of the
-/// axis, and `reach` is how far to either side of it the ink must come at least, and without a gap, wherever there is
-/// any.
+/// Draws a line with a brush.
+///
+/// `thick` holds the width at each point of the axis. `reach` holds how far the ink must extend to either
+/// side, without a gap, in every inked part.
 pub(crate) fn drawn(
     brush: &Brush,
     axis: &Axis,
@@ -151,7 +153,7 @@ pub(crate) fn drawn(
         _ => ratio * pen,
     };
     let copies = if brush.repeats { (total / one).round().clamp(1.0, MOST_COPIES) } else { 1.0 };
-    // Once over a line that is shorter than the brush in proportion it is thinner, not a blot.
+    // On a line shorter than the brush's proportions, a single copy is made thinner, to avoid a blot.
     let thinner = if brush.repeats { 1.0 } else { (total / (ratio * pen).max(f64::MIN_POSITIVE)).min(1.0) };
     let thick: Vec<f64> = thick.iter().map(|width| width * thinner).collect();
     let thick = &thick[..];
@@ -233,13 +235,13 @@ pub(crate) fn drawn(
     }
 }
 
-/// A side of a profile at a place, of which each copy is 1 long.
+/// One side of a profile at a position, where each copy has length 1.
 fn sample(profile: &[[f64; 2]], place: f64, side: usize, around: bool) -> f64 {
     let n = profile.len();
     if n == 0 {
         return 0.5;
     }
-    // A place at the very end belongs to the last copy.
+    // A position at the very end belongs to the last copy.
     let within = if place > 0.0 && place == place.floor() && !around { 1.0 } else { place - place.floor() };
     let at = within * n as f64 - 0.5;
     let (low, t) = (at.floor(), at - at.floor());
@@ -250,25 +252,25 @@ fn sample(profile: &[[f64; 2]], place: f64, side: usize, around: bool) -> f64 {
     get(low) + (get(low + 1.0) - get(low)) * t
 }
 
-/// The side to which a copy of a brush turns.
+/// Turning direction of a copy of a brush.
 #[derive(Clone, Copy)]
 enum Turn {
     Left,
     Right,
 }
 
-/// From a brush to the page.
+/// Map from brush space to the page.
 struct Map<'a> {
     axis: &'a Axis,
     thick: &'a [f64],
     copies: f64,
     total: f64,
-    /// Distance of the points of the axis.
+    /// Distance between points of the axis.
     step: f64,
 }
 
 impl Map<'_> {
-    /// The place of a point of a brush; x counts copies.
+    /// The page position of a brush point. Whole numbers of x count copies.
     fn at(&self, p: Point) -> Point {
         let axis = self.axis;
         let beyond = (p.x.clamp(0.0, self.copies) - p.x) / self.copies * self.total;
@@ -284,14 +286,14 @@ impl Map<'_> {
         middle - along * beyond + Vec2::new(-along.y, along.x) * (p.y * width)
     }
 
-    /// Direction at a point, over about a width of the pen, corners or not.
+    /// Direction at a point over about one pen width, across corners as well.
     fn along(&self, i: usize) -> Vec2 {
         let reach = (self.thick[i] / 2.0 * TURN / self.step).ceil().max(2.0) as isize;
         let k = i as isize;
         unit(self.axis.point(k + reach) - self.axis.point(k - reach))
     }
 
-    /// Whether a copy turns towards its successor by more than so many degrees, and to which side.
+    /// Turning direction from a copy to its successor; `None` for turns of at most `degrees`.
     fn turn(&self, degrees: f64, copy: usize) -> Option<Turn> {
         let copies = self.copies as usize;
         let chord = |copy: usize| {
@@ -307,7 +309,7 @@ impl Map<'_> {
         if own.dot(next) >= cos(degrees.to_radians()) {
             return None;
         }
-        // With y down the page a turn to the right is positive.
+        // The page's y points down, so a positive turn is to the right.
         Some(if own.cross(next) > 0.0 { Turn::Right } else { Turn::Left })
     }
 

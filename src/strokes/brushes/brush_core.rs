@@ -1,23 +1,23 @@
-//! The core of a brushed line: ink between the axis and a brush that strays from it.
+//! The core of a brushed line: ink between the axis and a brush that deviates from it.
 //!
-//! Paint ends at the axis. Where the shape of a brush lies beside it, paper would show between the two.
+//! Paint ends at the axis. If the brush shape lies next to the axis, paper would show between the two.
 
 use kurbo::{BezPath, PathEl, PathSeg, Point};
 
 use crate::strokes::axes::stroke_axis::Axis;
 use crate::strokes::outlines::stroke_outline::{Nib, outline};
 
-/// The shape is looked at in so many columns along it.
+/// Number of columns along a brush shape that are examined.
 pub(crate) const COLUMNS: usize = 256;
 
-/// How far it is to the left and to the right from the middle into ink, in widths of the pen.
+/// Distances from the middle to the left and right into the ink, in pen widths.
 pub(crate) type Way = [f64; 2];
 
-/// The shape is flattened to this part of its length or width.
+/// Flattening tolerance as a share of the shape's length or width.
 const FLAT: f64 = 1e-3;
 
-/// How far ink must go on from the axis to the left and to the right to reach into the shape, in widths of the
-/// pen, in columns evenly along it; `None` where the shape has no ink.
+/// Distances from the axis to the left and right into the shape, in evenly spaced columns. `None` for a
+/// column without ink.
 pub(crate) fn columns(shape: &BezPath) -> Vec<Option<Way>> {
     let mut flat = BezPath::new();
     kurbo::flatten(shape, FLAT, |element| flat.push(element));
@@ -43,7 +43,8 @@ pub(crate) fn columns(shape: &BezPath) -> Vec<Option<Way>> {
     (0..COLUMNS).map(column).collect()
 }
 
-/// How far it is to the left and to the right from 0 into the nearest ink, given where its edges are.
+/// Distances from 0 to the left and right into the closest ink. `meets` holds the edges in order, each with
+/// its winding.
 pub(crate) fn nearest(meets: &[(f64, i32)]) -> Option<Way> {
     let mut winding = 0;
     let mut begun = 0.0;
@@ -70,8 +71,10 @@ pub(crate) fn nearest(meets: &[(f64, i32)]) -> Option<Way> {
     best
 }
 
-/// Adds the core to the outline of a line. `half` says how far it reaches to the left and to the right at a point
-/// of the axis, given what its column says, and `place` where along the brush that is, each copy 1 long.
+/// Adds the core to the outline of a line.
+///
+/// `half` returns the extent to the left and right at a point of the axis, given the value of its column.
+/// `place` returns the position of a point along the brush. Each copy has length 1.
 pub(crate) fn add(
     path: &mut BezPath,
     columns: &[Option<Way>],
@@ -90,7 +93,7 @@ pub(crate) fn add(
     let halves: Vec<[f64; 2]> = (0..axis.len()).map(|i| half(i, column(i))).collect();
     let [left, right] = [0, 1].map(|side| halves.iter().map(|half| half[side]).collect::<Vec<f64>>());
     let Some(core) = outline(axis, [&left, &right], nib) else { return };
-    // Turned the other way, the two would take each other out where they overlap.
+    // With opposite orientations the two would cancel where they overlap.
     let turned = core.area() * path.area() < 0.0;
     path.extend(if turned { core.reverse_subpaths() } else { core });
 }
@@ -108,7 +111,7 @@ mod tests {
         let over = BezPath::from_svg("M0 -0.1L0.5 -0.1L0.5 0.4L0 0.4Z").unwrap();
         let found = columns(&over);
         assert_eq!((found[0], found[COLUMNS - 1]), (Some([0.0, 0.0]), None));
-        // Of two strands the nearer one.
+        // With two strands, the closer one counts.
         let two = BezPath::from_svg("M0 -0.2L1 -0.2L1 -0.1L0 -0.1ZM0 0.2L1 0.2L1 0.4L0 0.4Z").unwrap();
         assert!(
             columns(&two).iter().all(|way| way.is_some_and(|[l, r]| (l - 0.15).abs() < 1e-9 && r == 0.0))

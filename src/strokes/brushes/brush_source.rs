@@ -1,4 +1,4 @@
-//! [`BrushChange`]: a brush as a style sheet writes it: a path, an SVG file or an image strip.
+//! [`BrushChange`]: a brush as written in a style sheet: a path, an SVG file or an image strip.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -13,7 +13,7 @@ use super::brush_strip::{DARK, Strip};
 use crate::colour::pixel_picture::Picture;
 use crate::drawing::Length;
 
-/// Another brush, or none.
+/// Change of brush: another brush, or none.
 #[derive(Debug, Clone, PartialEq)]
 pub enum BrushChange {
     /// Plain lines: `"none"`.
@@ -25,7 +25,7 @@ pub enum BrushChange {
 }
 
 impl BrushChange {
-    /// The brush; none as long as its file is not read.
+    /// The brush, or `None` while its file has not been read.
     #[must_use]
     pub fn brush(&self) -> Option<Arc<Brush>> {
         match self {
@@ -35,34 +35,34 @@ impl BrushChange {
     }
 }
 
-/// A brush some of whose shapes may be in files that have not been read yet.
+/// Brush whose shapes may be in files that have not been read.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BrushSource {
     /// Its shape.
     pub shape: ShapeSource,
-    /// Its shapes where lines turn.
+    /// Shapes where lines turn.
     pub turns: Option<TurnSources>,
-    /// Whether it is drawn again and again.
+    /// Whether it is repeated along the line.
     pub repeats: bool,
-    /// Length of one.
+    /// Length of one copy.
     pub length: Length,
 }
 
-/// Shapes for pieces of a line that turn; absent ones are as those that do not.
+/// Shapes for pieces of a line that turn. Absent ones use the straight shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TurnSources {
     /// To the left.
     pub left: Option<ShapeSource>,
     /// To the right.
     pub right: Option<ShapeSource>,
-    /// Turns of no more than this many degrees are straight.
+    /// Greatest turn that counts as straight, degrees.
     pub degrees: f64,
 }
 
-/// Where the shape of a brush comes from.
+/// Source of a brush shape.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ShapeSource {
-    /// The sheet itself.
+    /// The style sheet.
     Shape(BrushShape),
     /// The paths of an SVG file.
     Svg(PathBuf),
@@ -70,24 +70,24 @@ pub enum ShapeSource {
     Picture(PathBuf, Inside),
 }
 
-/// What becomes of the inside of a picture of a stroke.
+/// Treatment of the interior of a stroke's picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Inside {
-    /// Paper that shows between bristles shows in the stroke.
+    /// Paper between bristles is kept.
     #[default]
     Traced,
-    /// It is ink from edge to edge.
+    /// Ink fills it from edge to edge.
     Solid,
-    /// The picture itself is laid along the stroke, as opaque as it is dark.
+    /// The picture itself is laid along the stroke. Its darkness becomes opacity.
     Image,
 }
 
 impl BrushSource {
-    /// The brush, given how the shapes in files are read.
+    /// Reads the shapes with `read` and builds the brush.
     ///
     /// # Errors
-    /// What reading says.
+    /// Errors of `read`.
     pub fn brush<E>(&self, read: impl Fn(&ShapeSource) -> Result<BrushShape, E>) -> Result<Brush, E> {
         let shape = read(&self.shape)?;
         let turned = |own: &Option<ShapeSource>| own.as_ref().map_or_else(|| Ok(shape.clone()), &read);
@@ -102,10 +102,10 @@ impl BrushSource {
 }
 
 impl BrushShape {
-    /// A filled path of any size: its box is as long as the brush and as wide as the pen.
+    /// A filled path of any size. Its bounding box is scaled to the brush's length and the pen's width.
     ///
     /// # Errors
-    /// Says what is wrong with the path.
+    /// Describes the fault of the path.
     pub fn of_path(path: &BezPath) -> Result<Self, String> {
         let bounds = path.bounding_box();
         let (width, height) = (bounds.width(), bounds.height());
@@ -117,12 +117,15 @@ impl BrushShape {
         Ok(Self::Path(to_unit * path, width / height))
     }
 
-    /// A picture of a stroke, dark on light or on nothing, that runs from left to right and is as high as the pen is
-    /// wide. Solid, each column gives how far its ink reaches up and down from the middle row; a column without ink has
-    /// no width. So does one that is traced but has no paper inside.
+    /// A picture of a stroke, dark on a light or transparent ground. It runs from left to right and is as
+    /// high as the pen is wide.
+    ///
+    /// A solid picture becomes a profile: each column gives the extent of its ink up and down from the middle
+    /// row. A column without ink has no width. A traced picture without paper inside becomes a profile as
+    /// well.
     ///
     /// # Errors
-    /// Says what is wrong with the picture.
+    /// Describes the fault of the picture.
     pub fn of_picture(picture: &Picture, inside: Inside) -> Result<Self, String> {
         let middle = picture.height as f64 / 2.0;
         let dark = |column: usize, row: usize| {
@@ -158,7 +161,7 @@ impl BrushShape {
     }
 }
 
-/// A brush as it is written.
+/// Fields of a brush table.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct BrushTable {
@@ -174,7 +177,7 @@ struct BrushTable {
     turn: Option<f64>,
 }
 
-/// Where the shape of a brush comes from, as it is written.
+/// Fields that give the source of a brush shape.
 #[derive(Deserialize, Default)]
 #[serde(deny_unknown_fields)]
 struct ShapeTable {
@@ -184,7 +187,7 @@ struct ShapeTable {
     inside: Option<Inside>,
 }
 
-/// The shape of a turn as it is written: path data, or a table.
+/// Shape of a turn: path data, or a table.
 enum TurnTable {
     Path(String),
     Shape(ShapeTable),
@@ -196,7 +199,7 @@ impl<'de> Deserialize<'de> for TurnTable {
     }
 }
 
-/// Reads either form by its type, so that errors keep their place in the sheet.
+/// Reads either form by its type, so that errors keep their position in the sheet.
 struct TurnVisitor;
 
 impl<'de> Visitor<'de> for TurnVisitor {
@@ -215,7 +218,7 @@ impl<'de> Visitor<'de> for TurnVisitor {
     }
 }
 
-/// Turns of no more than this many degrees are straight, unless a brush says otherwise.
+/// Default of the greatest turn that counts as straight, degrees.
 const TURN_DEG: f64 = 10.0;
 
 #[derive(Deserialize, Default, Clone, Copy, PartialEq, Eq)]
@@ -277,7 +280,7 @@ impl TryFrom<BrushTable> for BrushChange {
         let [left, right] = [left, right].map(|own| own.map(ShapeSource::try_from).transpose());
         let turns = turned.then_some(TurnSources { left: left?, right: right?, degrees });
         let source = BrushSource { shape, turns, repeats, length: length.unwrap_or(Length::px(0.0)) };
-        // What needs no file is ready.
+        // A brush without files is ready at once.
         let own = |shape: &ShapeSource| match shape {
             ShapeSource::Shape(shape) => Ok(shape.clone()),
             ShapeSource::Svg(_) | ShapeSource::Picture(..) => Err(()),
@@ -295,7 +298,7 @@ impl<'de> Deserialize<'de> for BrushChange {
     }
 }
 
-/// Reads either form by what it meets, so that errors keep their place in the sheet.
+/// Reads either form by its type, so that errors keep their position in the sheet.
 struct BrushVisitor;
 
 impl<'de> Visitor<'de> for BrushVisitor {

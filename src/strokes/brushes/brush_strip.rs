@@ -1,4 +1,5 @@
-//! [`Strip`]: the picture of a stroke, as a brush that shows its inside: islands of ink, and paper between bristles.
+//! [`Strip`]: the picture of a stroke as a brush that keeps its interior: islands of ink, with paper between
+//! bristles.
 
 use kurbo::{BezPath, Point};
 
@@ -7,37 +8,37 @@ use crate::colour::darkness_map::{Shades, Tracing};
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
 
-/// Pixels darker than this, on white, are ink.
+/// Darkness on white above which a pixel is ink.
 pub(crate) const DARK: f64 = 0.5;
 
-/// Pictures of more pixels than this are made smaller.
+/// Greatest number of pixels. Larger pictures are scaled down.
 const MOST_PIXELS: usize = 1 << 20;
 
-/// Pictures are traced with no more pixels to a px of the page than this.
+/// Greatest number of pixels per page px in traced pictures.
 const FINENESS: f64 = 3.0;
 
-/// Pictures that are shown themselves have no more pixels to a px of the page than this.
+/// Greatest number of pixels per page px in pictures that are shown themselves.
 const PRINT_FINENESS: f64 = 4.0;
 
-/// How far outlines may be off before they are laid along a line, px.
+/// Greatest error of traced outlines before they are mapped, px.
 const TOLERANCE_PX: f64 = 0.08;
 
-/// Islands and holes of less than this are left out, px squared.
+/// Least area of islands and holes, px². Smaller ones are dropped.
 const SPECK_PX: f64 = 0.35;
 
-/// A stroke of which less than this part is paper is solid.
+/// Share of paper below which a stroke is solid.
 const SOLID: f64 = 0.01;
 
-/// The picture of a stroke.
+/// Picture of a stroke.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Strip {
     shades: Shades,
-    /// How far it is from the middle into the ink, evenly along the picture; bristles count as one.
+    /// Distances from the middle into the ink, evenly along the picture. Bristles count as one.
     pub(crate) ways: Vec<Option<Way>>,
 }
 
 impl Strip {
-    /// The strip of a picture of a stroke, dark on light, that runs from left to right.
+    /// The strip of a picture of a stroke, dark on light, running from left to right.
     #[must_use]
     pub fn of(picture: &Picture) -> Self {
         let whole = Shades::of(picture);
@@ -55,7 +56,7 @@ impl Strip {
         Self { shades, ways }
     }
 
-    /// Whether there is hardly any paper between the edges of the stroke.
+    /// Whether the stroke has almost no paper between its edges.
     #[must_use]
     pub fn is_solid(&self) -> bool {
         let (mut within, mut inked) = (0.0, 0);
@@ -68,7 +69,7 @@ impl Strip {
         within - inked as f64 <= SOLID * within
     }
 
-    /// How many pixels it has along and across, for a pen that is so wide, px: in few sizes, so that lines share them.
+    /// Pixels along and across for a pen `wide` px wide. Sizes are rounded so that lines share pictures.
     pub(crate) fn pixels(&self, wide: f64) -> [usize; 2] {
         let rows = ((wide * PRINT_FINENESS).clamp(1.0, 1e6) as usize).next_power_of_two();
         let rows = rows.min(self.shades.height) as f64;
@@ -76,7 +77,7 @@ impl Strip {
         [columns as usize, rows as usize]
     }
 
-    /// Itself in an ink: as opaque as it is dark.
+    /// The strip in an ink. Its darkness becomes opacity.
     pub(crate) fn picture(&self, [width, height]: [usize; 2], ink: Colour) -> Picture {
         let shades = self.shades.at_most(width, height);
         let at = |k: usize| {
@@ -88,7 +89,8 @@ impl Strip {
         Picture { width: shades.width, height: shades.height, pixels }
     }
 
-    /// The islands of ink and their holes, as a path of a brush that is so long and so wide on the page, in px.
+    /// The islands of ink and their holes as a brush path. The arguments are its length and width on the
+    /// page, px.
     pub(crate) fn path(&self, [long, wide]: [f64; 2]) -> BezPath {
         let fine = |size: f64| (size * FINENESS).ceil().clamp(1.0, 1e6) as usize;
         let shades = self.shades.at_most(fine(long), fine(wide));
@@ -114,7 +116,7 @@ fn is_ink(shades: &Shades, column: usize, row: usize) -> bool {
     shades.mean([x, y], [x + 1.0, y + 1.0]) > DARK
 }
 
-/// Where the ink of a column begins and ends.
+/// First and last row of ink in a column.
 fn edges(shades: &Shades, column: usize) -> Option<(f64, f64)> {
     let own = |row: &usize| is_ink(shades, column, *row);
     let top = (0..shades.height).find(own)?;

@@ -6,7 +6,7 @@
 //!    ([`brush_strip`]).
 //! 2. The shape is mapped once or repeatedly along the axis ([`brush`]); a picture is mapped in affine pieces
 //!    ([`brush_image`]).
-//! 3. Paper between the axis and a brush beside it is filled, because paint ends at the axis
+//! 3. Paper between the axis and a brush next to it is filled, because paint ends at the axis
 //!    ([`brush_core`]).
 //!
 //! Files, in reading order: [`brush_source`]; [`brush_strip`]; [`brush`]; [`brush_image`]; [`brush_core`].

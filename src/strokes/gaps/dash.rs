@@ -1,32 +1,31 @@
-//! Dashes that begin and end well: the pattern is stretched so that every end and every corner of
-//! a path lies on a dash, as ISO 128-2 asks of drawings.
+//! Dash patterns, stretched so that every end and corner of a path lies on a dash, as ISO 128-2 requires.
 
 use glam::DVec3;
 use kurbo::{BezPath, ParamCurveArclen, PathSeg, Point, Vec2};
 
 use crate::chains::Anchor;
 
-/// A path shorter than this many periods is drawn solid: one gap would look like a fault.
+/// Path length in periods below which a path is drawn solid, because a single gap would look like a fault.
 const SHORTEST_PERIODS: f64 = 0.6;
-/// A path that turns by more than this (cosine of 20 degrees) has a corner.
+/// Cosine of the least turn that makes a corner, 20 degrees.
 const CORNER_COSINE: f64 = 0.939_692_620_785_908_4;
-/// A path with more dashes and gaps than this has one repeated pattern, whatever its corners: bounds the size of files. The
-/// outline of an A0 sheet in the dashes of `technical` has some 2,600.
+/// Greatest number of dashes and gaps written out for one path. Longer paths use one repeated pattern, which
+/// limits file size. The outline of an A0 sheet in the dashes of `technical` has about 2,600.
 const MAX_ENTRIES: usize = 8192;
-/// Accuracy of the length of curves, as a fraction of the period.
+/// Tolerance of curve lengths as a share of the period.
 const LENGTH_OF_PERIOD: f64 = 1e-3;
 
-/// The dash array and its offset for a path, from the wished lengths of dashes and gaps in turn;
-/// empty if the path is to be solid. All lengths in user units.
+/// The dash array and offset of a path, from the wanted lengths of dashes and gaps in turn. Empty if the path
+/// is to be solid. All lengths are in user units.
 ///
-/// An open path begins and ends with a whole dash; a closed one has a whole number of periods and
-/// the middle of a dash at its start. Each corner lies inside a dash as well: the pattern is stretched from corner to corner.
+/// An open path begins and ends with a whole dash. A closed path has a whole number of periods and the middle
+/// of a dash at its start. Each corner lies inside a dash: the pattern is stretched from corner to corner.
 #[must_use]
 pub fn fit(path: &BezPath, closed: bool, lengths: &[f64]) -> (Vec<f64>, f64) {
     fit_from(path, closed, lengths, 0.0)
 }
 
-/// The same of a closed path, with the middle of a dash at this share of its length, where no corner says where dashes lie.
+/// The same for a closed path without corners, with the middle of a dash at the given share of its length.
 #[must_use]
 pub fn fit_round(path: &BezPath, share: f64, lengths: &[f64]) -> (Vec<f64>, f64) {
     fit_from(path, true, lengths, share)
@@ -57,10 +56,11 @@ fn fit_from(path: &BezPath, closed: bool, lengths: &[f64], share: f64) -> (Vec<f
     (dashes, (offset - share * length).rem_euclid(stretched))
 }
 
-/// The dash array and its offset for an open path that knows where on the model it begins and ends: the pattern is not
-/// stretched, and lies on the model, wherever what hides the line lets it begin.
+/// The dash array and offset of an open path whose ends are known on the model. The pattern is not stretched
+/// and stays fixed on the model, independent of where the visible part begins.
 ///
-/// The middle of a dash is where the model's middle would be along the line, so that it is the same from both ends.
+/// The middle of a dash lies where the model's centre projects onto the line. The pattern is therefore the
+/// same from both ends.
 #[must_use]
 pub fn fixed(path: &BezPath, ends: [Anchor; 2], lengths: &[f64]) -> (Vec<f64>, f64) {
     let (pattern, _) = fit(path, false, lengths);
@@ -80,7 +80,7 @@ pub fn fixed(path: &BezPath, ends: [Anchor; 2], lengths: &[f64]) -> (Vec<f64>, f
     (own, offset)
 }
 
-/// Lengths between the corners of a path.
+/// Lengths of the runs between the corners of a path.
 fn runs(path: &BezPath, closed: bool, period: f64) -> Vec<f64> {
     let mut runs: Vec<f64> = Vec::new();
     let mut last: Option<Vec2> = None;
@@ -97,29 +97,29 @@ fn runs(path: &BezPath, closed: bool, period: f64) -> Vec<f64> {
         }
         last = Some(to);
     }
-    // A run that is too short for a gap would be solid; around a circle of many short pieces
-    // that would be the whole circle, so such a path counts as a curve.
+    // A run too short for a gap would be solid. A circle of many short segments would then be all solid, so
+    // such a path counts as one curve.
     if closed && runs.len() > 2 && runs.iter().all(|run| *run < period * SHORTEST_PERIODS) {
         return vec![runs.iter().sum()];
     }
     runs
 }
 
-/// The directions in which a piece of a path begins and ends.
+/// Directions at the start and end of a path segment.
 fn directions(segment: PathSeg) -> [Vec2; 2] {
     let points: Vec<Point> = match segment {
         PathSeg::Line(line) => vec![line.p0, line.p1],
         PathSeg::Quad(quad) => vec![quad.p0, quad.p1, quad.p2],
         PathSeg::Cubic(cubic) => vec![cubic.p0, cubic.p1, cubic.p2, cubic.p3],
     };
-    // Control points may lie on the ends.
+    // Control points may coincide with the ends.
     let (first, last) = (points[0], points[points.len() - 1]);
     let from = points.iter().map(|p| *p - first).find(|way| *way != Vec2::ZERO);
     let to = points.iter().rev().map(|p| last - *p).find(|way| *way != Vec2::ZERO);
     [from, to].map(Option::unwrap_or_default)
 }
 
-/// One pattern repeated along the whole path.
+/// One pattern, repeated along the whole path.
 fn uniform(length: f64, closed: bool, pattern: &[f64], period: f64) -> (Vec<f64>, f64) {
     let first = pattern.first().copied().unwrap_or(0.0);
     let spare = if closed { 0.0 } else { first };
@@ -132,13 +132,13 @@ fn uniform(length: f64, closed: bool, pattern: &[f64], period: f64) -> (Vec<f64>
     (dashes, if closed { first * stretch / 2.0 } else { 0.0 })
 }
 
-/// Every dash written out, each run stretched for itself so that dashes lie across the corners;
-/// `None` if that would be too many.
+/// All dashes written out. Each run is stretched separately so that dashes lie across the corners. `None` if
+/// there would be too many.
 fn across_corners(runs: &[f64], closed: bool, pattern: &[f64], period: f64) -> Option<(Vec<f64>, f64)> {
     let first = pattern.first().copied()?;
     let mut dashes: Vec<f64> = vec![0.0];
     for (index, &run) in runs.iter().enumerate() {
-        // A run starts and ends in the middle of a dash, but for the ends of an open path.
+        // A run starts and ends in the middle of a dash, except at the ends of an open path.
         let before = if index == 0 && !closed { first } else { first / 2.0 };
         let after = if index + 1 == runs.len() && !closed { first } else { first / 2.0 };
         let inner = period - first;
@@ -162,14 +162,13 @@ fn across_corners(runs: &[f64], closed: bool, pattern: &[f64], period: f64) -> O
         return Some((Vec::new(), 0.0));
     }
     if closed {
-        // The dash that ends the path and the one that begins it are one; the pattern ends with
-        // the gap before it.
+        // The last dash of the path and the first one are one dash. The pattern ends with the gap before it.
         let tail = dashes.pop()?;
         let head = dashes.first_mut()?;
         *head += tail;
         Some((dashes, tail))
     } else {
-        // The pattern must be of even length; its last gap lies beyond the end.
+        // The pattern must have even length. Its last gap lies past the end of the path.
         dashes.push(period - first);
         Some((dashes, 0.0))
     }
@@ -206,7 +205,7 @@ mod tests {
         for share in [0.0, 0.13, 0.5, 0.99] {
             let (dashes, offset) = super::fit_round(&circle, share, &[8.0, 4.0]);
             let at = |by: f64| inked(&dashes, offset, (share * length + by).rem_euclid(length));
-            // Ink for half a dash to both sides, and no further.
+            // Ink for half a dash to both sides, and no farther.
             assert!(at(0.0) && at(3.7) && at(-3.7) && !at(4.9) && !at(-4.9), "{share}: {dashes:?} {offset}");
         }
     }
@@ -285,7 +284,7 @@ mod tests {
 
     #[test]
     fn corners_between_curves_lie_on_dashes() {
-        // Two half circles and a quarter that meet at corners, and a slot, which has none.
+        // Two half circles and a quarter circle that meet at corners, and a slot without corners.
         let arc = |r: f64| std::f64::consts::PI * r;
         let text = "M0 0A60 60 0 0 1 120 0A90 90 0 0 1 300 0A45 45 0 0 1 345 45";
         let (dashes, offset) = fit(&path(text), false, &[12.0, 3.0]);
@@ -316,7 +315,7 @@ mod tests {
         assert_eq!(fit(&path("M0 0L100 0"), false, &[5.0, 2.0, 1.0]).0.len(), 6);
     }
 
-    /// Where on a path dashes are whole, in hundredths.
+    /// Whole dashes on a path, in hundredths.
     fn dashes(from: f64, to: f64, all: f64) -> Vec<[i64; 2]> {
         let mut path = BezPath::new();
         path.move_to((from, 0.0));

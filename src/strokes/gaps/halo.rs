@@ -1,4 +1,4 @@
-//! Halos: farther lines break off a little before a nearer one passes over them.
+//! Halos: farther lines are interrupted where a nearer one passes over them.
 //!
 //! Source: Appel, Rohlf and Stein, The haloed line effect for hidden line elimination, SIGGRAPH 1979.
 
@@ -7,39 +7,39 @@ use rustc_hash::FxHashMap;
 
 use crate::strokes::axes::stroke_axis::Axis;
 
-/// A line is nearer than another if it is by more than this part of the depth of all lines.
+/// Least depth difference between a nearer and a farther line, as a share of the depth range of all lines.
 const NEARER: f64 = 0.01;
 
-/// Lines that meet leave each other alone up to this many reaches from where they do.
+/// Distance from a junction within which joined lines do not interrupt each other, in halo reaches.
 const MEETING: f64 = 8.0;
 
-/// How near an end lies to the line that it meets, px.
+/// Greatest distance of a line's end from the line that it meets, px.
 const TOUCH_PX: f64 = 1.0;
 
-/// Rounds of halving that find where a gap begins and ends.
+/// Bisections that find where a gap begins and ends.
 const ROUNDS: usize = 24;
 
-/// A line that may have a halo.
+/// Line that may have a halo.
 pub(crate) struct Haloed<'a> {
     pub axis: &'a Axis,
-    /// How far from its axis nothing farther is drawn; 0 = no halo.
+    /// Distance from its axis within which nothing farther is drawn; 0 for no halo.
     pub reach: f64,
 }
 
-/// A stretch of an axis with a halo.
+/// Run of consecutive points of an axis with a halo.
 #[derive(Debug, Clone, Copy)]
 struct Stretch {
     line: u32,
-    /// Its first point, and the one after its last.
+    /// Its first point and the point after its last.
     from: u32,
     to: u32,
 }
 
-/// Points of an axis in a stretch.
+/// Number of points in a run.
 const STRETCH: usize = 4;
 
-/// The gaps in each line, as arc lengths, ascending; those over the seam of a closed line begin before 0 or
-/// end beyond it.
+/// The gaps in each line as arc lengths, ascending. Gaps over the seam of a closed line start before 0 or end
+/// past its length.
 pub(crate) fn gaps(lines: &[Haloed], depths: [f64; 2], px: f64) -> Vec<Vec<[f64; 2]>> {
     use crate::parallel::prelude::*;
     let greatest = lines.iter().map(|line| line.reach).fold(0.0, f64::max);
@@ -95,7 +95,7 @@ impl<'a> Field<'a> {
             return Vec::new();
         }
         let covered: Vec<bool> = axis.arcs.iter().map(|arc| self.covers(line, *arc)).collect();
-        // Where between a place that is covered and one that is not the halo ends.
+        // Arc length where the halo ends, between a covered and an uncovered point.
         let border = |mut inside: f64, mut outside: f64| {
             for _ in 0..ROUNDS {
                 let middle = (inside + outside) / 2.0;
@@ -135,7 +135,7 @@ impl<'a> Field<'a> {
         gaps
     }
 
-    /// Whether a nearer line's halo lies over a place of a line.
+    /// Whether the halo of a nearer line covers a point of a line.
     fn covers(&self, line: usize, arc: f64) -> bool {
         let own = self.lines[line].axis;
         let (p, sample) = own.at(arc);
@@ -182,7 +182,7 @@ impl<'a> Field<'a> {
         let ends = [(arc - axis.arcs[0], 0), (axis.length() - arc, axis.len() - 1)];
         ends.into_iter().filter(|(way, _)| *way < near).any(|(_, end)| {
             let (p, depth) = (axis.points[end], axis.samples[end].depth);
-            // The place of the other line that is nearest to the end, along it from where it is now.
+            // Search the other line around its current position for a point that touches the end.
             let touch = TOUCH_PX * self.px;
             let steps = (2.0 * near / self.px).ceil() as usize;
             (0..=steps).any(|k| {
@@ -194,7 +194,7 @@ impl<'a> Field<'a> {
     }
 }
 
-/// Whether two places of a line are no farther apart than so much, along it.
+/// Whether two points of a line are less than `most` apart along it.
 fn near_along(axis: &Axis, a: f64, b: f64, most: f64) -> bool {
     let way = (a - b).abs();
     let way = if axis.closed { way.min(axis.length() - way) } else { way };

@@ -1,18 +1,18 @@
-//! Small gaps that the hand leaves in a line.
+//! Hand-drawn gaps in a line.
 
 use crate::geometry::numbers::noise::{hash, unit};
 use crate::strokes::axes::axis_pieces::{AxisPart, parted};
 
-/// Most gaps that the hand leaves in a line.
+/// Greatest number of gaps in a line.
 const MOST: f64 = 10_000.0;
 
-/// Part of the way from one gap to the next that no gap has its middle in, at its begin; as much is at its end.
+/// Margin at either end of a step where no gap has its middle, as a share of the step.
 const CLEAR: f64 = 0.2;
 
-/// A gap takes no more of the way to the next than twice this part.
+/// Greatest half length of a gap as a share of the step.
 const WIDEST_HALF: f64 = 0.15;
 
-/// Gaps of about a length, on the mean so far from each other; in user units.
+/// Random gaps in a line. Lengths are in user units.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Breaks {
     pub mean: f64,
@@ -20,8 +20,8 @@ pub(crate) struct Breaks {
     pub seed: u64,
 }
 
-/// From which place of a chain its gaps are counted, where they lie on the model: an arc length, which may be beyond its ends, and
-/// whether they are counted backwards.
+/// Origin of gaps that are fixed to the model. `arc` is an arc length, possibly outside the chain;
+/// `backwards` reverses the count.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Moored {
     pub arc: f64,
@@ -29,7 +29,8 @@ pub(crate) struct Moored {
 }
 
 impl Breaks {
-    /// A piece of an axis, the `number`th, without its gaps. How many there are does not depend on the seed, unless they lie on the model.
+    /// Splits piece `number` of an axis at its gaps. The number of gaps does not depend on the seed, unless
+    /// they are fixed to the model.
     pub fn leave(&self, piece: AxisPart, number: usize, moored: Option<Moored>, px: f64) -> Vec<AxisPart> {
         let (Some(first), true) = (piece.axis.arcs.first(), self.mean > 0.0 && self.gap > 0.0) else {
             return vec![piece];
@@ -42,7 +43,7 @@ impl Breaks {
         parted(&piece.axis, &gaps, false, piece.ends, px)
     }
 
-    /// Gaps that are spread over all of a piece.
+    /// Gaps spread over all of a piece.
     fn along(&self, [from, to]: [f64; 2], seed: u64) -> Vec<[f64; 2]> {
         let count = ((to - from) / self.mean).round().min(MOST) as usize;
         let step = (to - from) / count as f64;
@@ -53,7 +54,7 @@ impl Breaks {
         (0..count).map(gap).collect()
     }
 
-    /// Gaps that stay where they are while the piece begins and ends elsewhere; those at its ends are left out.
+    /// Gaps at fixed positions, independent of where the piece begins and ends. Gaps at its ends are dropped.
     fn on_model(&self, [from, to]: [f64; 2], Moored { arc, backwards }: Moored) -> Vec<[f64; 2]> {
         let step = self.mean.max((to - from) / MOST);
         let cells = [from, to].map(|end| ((end - arc) / step).floor());
@@ -68,14 +69,14 @@ impl Breaks {
         gaps.filter(|gap| from < gap[0] && gap[1] < to).collect()
     }
 
-    /// A gap about a place; the next one is so far away on the mean.
+    /// A gap around a position. `step` is the mean distance to the next one.
     fn around(&self, middle: f64, step: f64, chance: f64) -> [f64; 2] {
         let half = (self.gap * (0.6 + 0.8 * chance) / 2.0).min(WIDEST_HALF * step);
         [middle - half, middle + half]
     }
 }
 
-/// At which part of its stretch of a line a gap lies.
+/// Position of a gap within its step, 0 to 1.
 fn place(chance: f64) -> f64 {
     CLEAR + (1.0 - 2.0 * CLEAR) * chance
 }
@@ -95,11 +96,11 @@ mod tests {
         let moored = |arc: f64| Moored { arc, backwards: false };
         let all = BREAKS.on_model([0.0, 200.0], moored(-30.0));
         assert!((9..=10).contains(&all.len()), "{all:?}");
-        // Its first 70 are hidden.
+        // The same line without its first 70 units, which are hidden.
         let rest = BREAKS.on_model([0.0, 130.0], moored(-100.0));
         let moved: Vec<_> = rest.iter().map(|gap| gap.map(|arc| arc + 70.0)).collect();
         assert!(near(&all[all.len() - rest.len()..], &moved), "{all:?} {moved:?}");
-        // From the other end.
+        // The same line in the opposite direction.
         let turned = BREAKS.on_model([0.0, 200.0], Moored { arc: 230.0, backwards: true });
         let turned: Vec<_> = turned.iter().rev().map(|[from, to]| [200.0 - to, 200.0 - from]).collect();
         assert!(near(&all, &turned), "{all:?} {turned:?}");

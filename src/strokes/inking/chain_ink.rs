@@ -1,7 +1,8 @@
-//! Lines with a hand: from a chain and its pen to the shapes that are painted.
+//! Chains with their inks and pens as the shapes that are painted.
 //!
-//! The axis of the chain is cut where nothing is drawn; each piece runs on at its ends, is given its
-//! widths, and is moved a little; what comes out is a path or the outline of a line of varying width.
+//! 1. The axis of the chain is cut at gaps.
+//! 2. Each piece is extended at its ends, gets its widths, and is moved by tremor.
+//! 3. The piece becomes a path, or an outline if its width varies.
 
 use super::frame_cut;
 use super::ink_pieces::{Drawn, parts};
@@ -23,45 +24,45 @@ use crate::strokes::pens::ink_context::InkContext;
 use crate::strokes::pens::pen::Pen;
 use crate::strokes::widths::width_profile::{Setting, mean, meet, taper};
 
-/// Where surfaces are painted, lines that bound them stay over their borders by this, px; and by this on
-/// smooth surfaces, where lines are smoothed more than borders are.
+/// Distance to either side that a line must cover on the border of painted surfaces, px. On smooth surfaces
+/// lines are smoothed more than borders, so the distance is greater.
 const OVER_BORDER_PX: f64 = 0.3;
 const OVER_SMOOTH_BORDER_PX: f64 = 0.6;
 
-/// An end runs on by this part of what it may, at least.
+/// Least extension of an end as a share of the greatest one.
 const LEAST_OVERSHOOT: f64 = 0.35;
 
-/// No end runs on by more than this part of its line.
+/// Greatest extension of an end as a share of its line.
 const MOST_OVERSHOOT: f64 = 0.2;
 
-/// Widths that differ by no more than this part of the pen's are one width.
+/// Greatest difference of widths that count as equal, as a share of the pen's width.
 const SAME_WIDTH: f64 = 1e-6;
 
-/// Chains of the same kind and part that begin in the same square of this size, px, are drawn by the same
-/// hand, where nothing in the model tells them apart.
+/// Side of the squares that identify chains, px. Chains of one kind and part that start in the same square
+/// share a random seed, if nothing in the model distinguishes them.
 const CELL_PX: f64 = 96.0;
 
-/// Sets the chance of widths apart from all others.
+/// Separates the random seed of widths from all others.
 const WIDTH: u64 = 0x7769_6474;
 
-/// A chain and what it is to be drawn with.
+/// Chain with everything needed to draw it.
 pub(crate) struct Inked<'a> {
     pub chain: &'a Chain,
     pub axis: &'a Axis,
     pub pen: &'a Pen,
-    /// Its widths, before its ends are tapered.
+    /// Widths before the ends are tapered.
     pub thick: &'a [f64],
-    /// The widths of the lines that go on from its ends.
+    /// Widths of the lines that continue from its ends.
     pub joined: [Option<f64>; 2],
-    /// Where nearer lines pass over it.
+    /// Gaps where nearer lines pass over it.
     pub gaps: &'a [[f64; 2]],
-    /// What tells the parts apart.
+    /// A stable number for each part.
     pub identities: &'a [u64],
-    /// The depths of what counts as near and as far.
+    /// Depths that count as near and far.
     pub depths: [f64; 2],
-    /// Whether its width may vary: not that of dashed lines.
+    /// Whether its width may vary. It may not on dashed lines.
     pub solid: bool,
-    /// What it is drawn with, from its start to its end.
+    /// Ink from its start to its end.
     pub inks: &'a [Stretch],
 }
 
@@ -86,7 +87,7 @@ impl Inked<'_> {
         if self.pen.swell.is_on() && !axis.closed {
             meet(&axis, &mut thick, self.joined, px);
         }
-        // The widths travel in place of the strengths, which they have used up.
+        // From here on, `strength` carries the width; the strengths themselves have been used.
         axis.samples.iter_mut().zip(&thick).for_each(|(sample, width)| sample.strength = *width);
         let breaks = Breaks { mean: in_unit(hand.breaks), gap: in_unit(hand.break_gap), seed };
         let moored = gap_origin::of(self.chain, self.axis.length());
@@ -160,7 +161,7 @@ impl Inked<'_> {
         };
         let before = axis.points.clone();
         tremor.shake(&mut axis, &limits);
-        // A brush has to reach back to the border of the paint from wherever its axis has moved.
+        // A brush must still reach the border of the paint after its axis has moved.
         let covers = setting.covers.filter(|_| pass == 0 && self.pen.brush.is_some());
         let moved = before.iter().zip(&axis.points).map(|(from, to)| length(*to - *from));
         let reach: Vec<f64> = moved.map(|way| covers.map_or(0.0, |to_side| to_side + way)).collect();
@@ -182,7 +183,7 @@ impl Inked<'_> {
         parts.iter().filter_map(shape).collect()
     }
 
-    /// The shape of a piece of one ink.
+    /// The shape of a piece with one ink.
     fn shape(&self, drawn: &Drawn, colour: Colour, setting: &Setting, context: &InkContext) -> Option<Shape> {
         let (Drawn { axis, thick, reach, caps }, px) = (drawn, context.px());
         let path = axis.path(px);
@@ -200,7 +201,7 @@ impl Inked<'_> {
         let (low, high) = thick.iter().fold((f64::INFINITY, 0.0_f64), |(l, h), w| (l.min(*w), h.max(*w)));
         let varies = high - low > SAME_WIDTH * setting.width
             || (high - setting.width).abs() > SAME_WIDTH * setting.width;
-        // A path has the same caps at both ends.
+        // A stroked path has equal caps at both ends.
         let is_cut = *caps != [self.pen.cap; 2];
         if !(self.solid && (varies || is_cut)) {
             return Some(Shape::Path(path, axis.closed));
@@ -215,13 +216,15 @@ impl Inked<'_> {
     }
 }
 
-/// What tells the part of a chain from others.
+/// The stable number of a chain's part.
 fn part(chain: &Chain, identities: &[u64]) -> u64 {
     identities.get(chain.part.index()).copied().unwrap_or_default()
 }
 
-/// A number that tells the chain from others and lasts while the eye moves: from edges of the mesh where it runs along them,
-/// elsewhere from about where it begins. `identities` tell parts apart.
+/// Stable identity of a chain while the camera moves.
+///
+/// The chain's own number is used if it has one. Otherwise kind and part are combined with the mesh edge of
+/// the chain, or with the page square where it starts. `identities` holds a stable number for each part.
 fn identity(chain: &Chain, identities: &[u64], context: &InkContext) -> u64 {
     if chain.identity != 0 {
         return chain.identity;
@@ -236,7 +239,7 @@ fn identity(chain: &Chain, identities: &[u64], context: &InkContext) -> u64 {
     hash(place, &[chain.kind as u64, part(chain, identities)])
 }
 
-/// What the widths of a chain follow.
+/// Inputs of a chain's widths.
 pub(crate) fn setting(
     chain: &Chain,
     pen: &Pen,

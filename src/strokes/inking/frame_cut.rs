@@ -1,7 +1,7 @@
-//! Lines that leave the frame: drawn past its border, then cut there.
+//! Lines that leave the frame: drawn past its border and cut there.
 //!
-//! Such a line goes on outside the picture. Its end is no end of a stroke: it does not taper, and the border cuts its ink straight,
-//! however slanted the line is.
+//! Such a line continues outside the picture, so its end does not taper. The border cuts its ink straight, at
+//! any slant of the line.
 
 use kurbo::{PathEl, Point, Rect, Shape as _, Vec2};
 
@@ -14,24 +14,26 @@ use crate::strokes::axes::stroke_axis::Axis;
 use crate::strokes::brushes::brush::BrushShape;
 use crate::strokes::pens::pen::Pen;
 
-/// The border cuts a line of this slant (sine) from edge to edge past its end; ink of a flatter one may lack a corner.
+/// Least slant (sine) for which a line is drawn far enough past the border to be cut from edge to edge. Ink
+/// of flatter lines may lack a corner.
 const MIN_SLANT_SINE: f64 = 0.1;
 
-/// The part of a brush that is laid inside the frame, at least.
+/// Least share of a brush that lies inside the frame.
 const MIN_INSIDE: f64 = 0.1;
 
-/// Tips of brushes are measured in so many columns, on an outline flattened to a part of its length or width.
+/// Number of columns for measuring brush tips, and the flattening tolerance as a share of the brush's length
+/// or width.
 const TIP_COLUMNS: usize = 64;
 const TIP_FLAT: f64 = 1e-3;
 
-/// A brush has its full width where it has this part of its greatest one.
+/// Share of the greatest width that counts as full width.
 const FULL_WIDTH: f64 = 0.95;
 
-/// How far the outline of ink that is cut may be off, px.
+/// Tolerance of cut outlines, px.
 const TOLERANCE_PX: f64 = 0.02;
 
-/// For the first and last point of a chain, how steeply it leaves the frame there: the sine of its angle to the border. `None` where
-/// it ends inside.
+/// For the first and last point of a chain, the sine of the angle between line and border where it leaves the
+/// frame. `None` where it ends inside.
 pub(crate) fn leaving(chain: &Chain, axis: &Axis, frame: Option<Rect>, px: f64) -> [Option<f64>; 2] {
     let Some(frame) = frame.filter(|_| !chain.closed && axis.len() > 1) else { return [None; 2] };
     let ends = [chain.points.first(), chain.points.last()];
@@ -42,7 +44,7 @@ pub(crate) fn leaving(chain: &Chain, axis: &Axis, frame: Option<Rect>, px: f64) 
     })
 }
 
-/// The direction out of the frame at a point on its border; in a corner that of its left or right side.
+/// The outward direction at a point on the frame's border. In a corner, the left or right side counts.
 fn outward(p: Point, frame: Rect, near: f64) -> Option<Vec2> {
     let sides = [
         (p.x - frame.x0, Vec2::new(-1.0, 0.0)),
@@ -53,8 +55,8 @@ fn outward(p: Point, frame: Rect, near: f64) -> Option<Vec2> {
     sides.into_iter().find(|(inside, _)| inside.abs() <= near).map(|(_, out)| out)
 }
 
-/// How far past the border a line must be drawn at each end, where it leaves at a slant: its taper and the tip of its brush lie
-/// outside, and neither its end nor tremor shows at the border.
+/// Distance past the border that a line is drawn at each end where it leaves. The taper, the brush tip, the
+/// end and its tremor then lie outside the frame.
 pub(crate) fn past(leaving: [Option<f64>; 2], length: f64, pen: &Pen, unit: Unit) -> [f64; 2] {
     let in_unit = |length: Length| length.in_unit(unit);
     let across = in_unit(pen.width) + 2.0 * in_unit(pen.hand.tremor) + in_unit(pen.hand.stray);
@@ -62,7 +64,7 @@ pub(crate) fn past(leaving: [Option<f64>; 2], length: f64, pen: &Pen, unit: Unit
     let stretched = pen.brush.as_ref().filter(|brush| !brush.repeats && leaving != [None; 2]);
     let tips = stretched.map_or([0.0; 2], |brush| tips(&brush.shape));
     let tips = [0, 1].map(|side| if leaving[side].is_some() { tips[side] } else { 0.0 });
-    // The line inside is what the tips leave of the whole brush.
+    // The line inside the frame is the brush without its tips.
     let whole = length / (1.0 - tips[0] - tips[1]).max(MIN_INSIDE);
     [0, 1].map(|side| {
         let taper = if leaving[side].is_some() { in_unit(pen.swell.taper) } else { 0.0 };
@@ -70,7 +72,7 @@ pub(crate) fn past(leaving: [Option<f64>; 2], length: f64, pen: &Pen, unit: Unit
     })
 }
 
-/// How long the tips of a brush are at its start and end, in parts of its length: up to where it has its full width.
+/// Lengths of the tips at the start and end of a brush, up to its full width, as shares of its length.
 fn tips(shape: &BrushShape) -> [f64; 2] {
     let columns = TIP_COLUMNS as f64;
     let path = shape.path([columns, columns / shape.ratio().max(1.0)]);
@@ -96,7 +98,7 @@ fn tips(shape: &BrushShape) -> [f64; 2] {
     [part(edges.iter().position(is_full)), part(edges.iter().rev().position(is_full))]
 }
 
-/// The part of a shape in the frame; `None` if nothing does.
+/// The part of a shape inside the frame; `None` if it is empty.
 pub(crate) fn cut(shape: Shape, frame: Rect, px: f64) -> Option<Shape> {
     let tolerance = TOLERANCE_PX * px;
     let region = Region::new(&frame.to_path(tolerance), tolerance);
@@ -108,7 +110,7 @@ pub(crate) fn cut(shape: Shape, frame: Rect, px: f64) -> Option<Shape> {
         }
         Shape::Outline { path, axis, width } => {
             let (kept, kept_axis) = (region.area(&path, tolerance), region.line(&axis));
-            // The mean width of what is left, as that of the whole is of the whole.
+            // Scale the mean width by the change of area per length, so that it describes the remaining part.
             let mean =
                 |path: &kurbo::BezPath, axis: &kurbo::BezPath| path.area().abs() / axis.perimeter(tolerance);
             let width = width * mean(&kept, &kept_axis) / mean(&path, &axis);

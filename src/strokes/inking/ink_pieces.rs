@@ -1,36 +1,36 @@
-//! [`Drawn`]: a piece of a line as it is drawn, cut where its ink changes.
+//! [`Drawn`]: a piece of a line ready to be drawn, and its division where the ink changes.
 
 use super::ink_spans::{Stretch, Tint};
 use crate::drawing::Cap;
 use crate::strokes::axes::stroke_axis::Axis;
 
-/// A piece of a line as it is drawn.
+/// Piece of a line ready to be drawn.
 #[derive(Debug, Clone)]
 pub(crate) struct Drawn {
     pub axis: Axis,
-    /// Its width at each point.
+    /// Width at each point.
     pub thick: Vec<f64>,
-    /// How far to either side a brush must reach at each point at least.
+    /// Least extent of a brush to either side at each point.
     pub reach: Vec<f64>,
-    /// At its start and at its end.
+    /// Caps at the start and at the end.
     pub caps: [Cap; 2],
 }
 
 impl Drawn {
-    /// This piece, so many times as thick.
+    /// This piece with its width multiplied by a factor.
     pub fn times(mut self, factor: f64) -> Self {
         self.thick.iter_mut().for_each(|width| *width *= factor);
         self
     }
 }
 
-/// A piece cut where its ink changes; `round` is the length of a closed chain. Cut ends are straight.
+/// Splits a piece where its ink changes. `round` is the length of a closed chain. Cut ends get butt caps.
 pub(crate) fn parts(drawn: &Drawn, inks: &[Stretch], round: Option<f64>) -> Vec<(Drawn, Tint)> {
     let Drawn { axis, thick, reach, caps } = drawn;
     let (Some(first), Some(last)) = (axis.arcs.first().copied(), axis.arcs.last().copied()) else {
         return Vec::new();
     };
-    // Widths and reaches travel with the samples, whose own have been used up.
+    // The samples carry widths and reaches from here on; their own values have been used.
     let mut carrier = axis.clone();
     for ((sample, width), reach) in carrier.samples.iter_mut().zip(thick).zip(reach) {
         (sample.strength, sample.gap) = (*width, *reach);
@@ -53,15 +53,17 @@ pub(crate) fn parts(drawn: &Drawn, inks: &[Stretch], round: Option<f64>) -> Vec<
     laid(inks, round, axis.closed).into_iter().filter_map(part).collect()
 }
 
-/// The stretches over all arc lengths that pieces may have: pieces of a closed chain go on beyond its seam, and
-/// open chains run on at their ends. A whole closed chain is begun where its ink first changes.
+/// The spans over all arc lengths that pieces can have.
+///
+/// Pieces of a closed chain continue past its seam, and open chains are extended at their ends. A whole
+/// closed chain starts where its ink first changes.
 fn laid(inks: &[Stretch], round: Option<f64>, whole: bool) -> Vec<Stretch> {
     let mut all = inks.to_vec();
     match round {
         Some(round) => {
             all.extend(inks.iter().map(|s| Stretch { from: s.from + round, to: s.to + round, ..*s }));
             if whole {
-                // Of twice round once, from the first change.
+                // Of two rounds, keep one round from the first change.
                 all = all.into_iter().skip(1).take(inks.len()).collect();
             }
         }
@@ -95,7 +97,7 @@ mod tests {
         Stretch { from, to, tint: Tint { colour: Colour::rgb(grey, grey, grey), width: 1.0 } }
     }
 
-    /// Where each part begins and ends, and its grey.
+    /// Start, end and grey of each part.
     fn found(closed: bool, inks: &[Stretch]) -> Vec<(f64, f64, u8)> {
         let corners = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0), (0.0, 0.0)].map(Point::from);
         let axis = Axis {
@@ -117,7 +119,7 @@ mod tests {
     fn lines_change_their_ink_where_they_should() {
         let inks = [stretch(0.0, 15.0, 1), stretch(15.0, 25.0, 2), stretch(25.0, 40.0, 1)];
         assert_eq!(found(false, &inks), [(0.0, 15.0, 1), (15.0, 25.0, 2), (25.0, 40.0, 1)]);
-        // Round a closed line the ink of both its ends is one.
+        // On a closed line, equal inks at both ends of the list form one span.
         assert_eq!(found(true, &inks), [(15.0, 25.0, 2), (25.0, 55.0, 1)]);
         assert_eq!(found(true, &inks[..2]).len(), 2);
     }

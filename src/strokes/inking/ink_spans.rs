@@ -1,7 +1,7 @@
-//! The inks of a line: where it changes its colour along its way, because the material beside it does or
-//! because it parts two blacks.
+//! Inks along a line. The ink changes where the adjacent material changes, or where the line separates two
+//! blacks.
 //!
-//! Ink on black is not seen. As comics have it, a line between two spot blacks is left white.
+//! Ink on black is invisible. As in comics, a line between two spot blacks is left white.
 
 use crate::chains::Chain;
 use crate::colour::srgb::Colour;
@@ -10,21 +10,21 @@ use crate::strokes::axes::stroke_axis::Axis;
 use crate::strokes::pens::ink_context::InkContext;
 use crate::strokes::pens::pen::{Ink, Pen};
 
-/// Stretches shorter than this take the ink of the longer stretch beside them, px.
+/// Least length of a span, px. Shorter ones take the ink of their longer neighbour.
 const LEAST_PX: f64 = 5.0;
 
-/// Blacks on both sides of a white line show if they are at least this wide, px.
+/// Least visible width of the black on either side of a white line, px.
 const SHOWS_PX: f64 = 1.0;
 
-/// What a stretch of a line is drawn with.
+/// Ink of a span.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Tint {
     pub colour: Colour,
-    /// The part of the pen's width that it has.
+    /// Width as a share of the pen's width.
     pub width: f64,
 }
 
-/// A stretch of an axis, as arc lengths, and its tint.
+/// Span of an axis in arc lengths, with its ink.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Stretch {
     pub from: f64,
@@ -32,13 +32,13 @@ pub(crate) struct Stretch {
     pub tint: Tint,
 }
 
-/// The stretches of a chain, from its start to its end; neighbours differ. Lines without points have one.
+/// The spans of a chain from start to end; neighbours differ. A chain without points has one.
 pub(crate) fn stretches(axis: &Axis, chain: &Chain, pen: &Pen, context: &InkContext) -> Vec<Stretch> {
     let tint = |i: usize| tint(axis, i, chain, pen, context);
     let mut stretches: Vec<Stretch> = Vec::new();
     for i in 0..axis.len() {
         let tint = tint(i);
-        // Each point stands for what is nearer to it than to others.
+        // Each point stands for the stretch closer to it than to its neighbours.
         let border = |k: usize| f64::midpoint(axis.arcs[k], axis.arcs[k.saturating_sub(1)]);
         match stretches.last_mut() {
             Some(last) if last.tint == tint => {}
@@ -59,7 +59,7 @@ pub(crate) fn stretches(axis: &Axis, chain: &Chain, pen: &Pen, context: &InkCont
     settled(stretches, LEAST_PX * context.px())
 }
 
-/// Stretches without those that are too short to be seen as such.
+/// Merges spans that are too short to be noticed.
 fn settled(mut stretches: Vec<Stretch>, least: f64) -> Vec<Stretch> {
     let long = |stretch: &Stretch| stretch.to - stretch.from;
     while stretches.len() > 1 {
@@ -83,7 +83,7 @@ fn settled(mut stretches: Vec<Stretch>, least: f64) -> Vec<Stretch> {
     stretches
 }
 
-/// The tint at a point of an axis.
+/// The ink at a point of an axis.
 fn tint(axis: &Axis, i: usize, chain: &Chain, pen: &Pen, context: &InkContext) -> Tint {
     let under = axis.samples[i].under;
     if let Some(parting) = context.parting.filter(|_| chain.invisibility == 0 && parts(chain.kind)) {
@@ -97,7 +97,7 @@ fn tint(axis: &Axis, i: usize, chain: &Chain, pen: &Pen, context: &InkContext) -
     Tint { colour: plain(chain, pen, under.colour, context), width: 1.0 }
 }
 
-/// The colour of a pen on a line, beside a material of this colour.
+/// The colour of a pen on a line next to a material of colour `beside`.
 pub(crate) fn plain(chain: &Chain, pen: &Pen, beside: Option<Colour>, context: &InkContext) -> Colour {
     let mut colour = match pen.colour {
         Ink::Fixed(colour) => colour,
@@ -115,7 +115,7 @@ fn material_colour(chain: &Chain, context: &InkContext) -> Option<Colour> {
     context.materials.get(chain.material.index()).map(|(_, base)| *base)
 }
 
-/// Whether lines of a kind are between surfaces, not on one.
+/// Whether lines of a kind separate surfaces, rather than lie on one.
 fn parts(kind: LineKind) -> bool {
     use LineKind::{Border, Contour, Crease, Intersection, Material};
     matches!(kind, Contour | Border | Crease | Material | Intersection)

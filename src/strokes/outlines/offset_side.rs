@@ -1,8 +1,8 @@
-//! The two sides of a line of varying width: its axis moved to the left and to the right.
+//! The two sides of a line of varying width: its axis offset to the left and to the right.
 //!
-//! On the inside of a bend or corner, points that would lie in the ink of the line's neighbouring points are
-//! left out, so that a side does not turn back on itself; what remains meets where the sides cross. On
-//! the outside of a corner the sides are joined as the pen says.
+//! On the inside of a bend or corner, points inside the ink of neighbouring axis points are removed, so that
+//! a side does not fold back. The rest meets where the side crosses itself. On the outside of a corner the
+//! pen's join connects the side.
 
 use kurbo::{BezPath, Point, Vec2};
 
@@ -11,46 +11,46 @@ use crate::drawing::Join;
 use crate::geometry::numbers::portable_math::{atan2, cos, sin};
 use crate::strokes::axes::stroke_axis::{Axis, add_stretch};
 
-/// Directions and bends are taken over this many points on either side.
+/// Number of points on either side for measuring directions and bends.
 pub(crate) const REACH: isize = 2;
 
-/// A point of a side lies in the ink if it is nearer to the axis than this part of its own distance.
+/// A side point is inside the ink if its distance to the axis is below this share of the point's offset.
 const IN_INK: f64 = 0.985;
 
-/// How far along the axis ink is looked for, half widths.
+/// Length of axis around a point that is tested for ink, in half widths.
 const WINDOW: f64 = 7.0;
 
-/// Where a side crosses itself is looked for among so many points before and after those in the ink.
+/// Number of points before and after a removed run where a self-crossing is searched.
 const BEYOND: usize = 5;
 
-/// Points of a side nearer to a crossing than this part of their spacing crowd.
+/// Least distance of side points from a crossing, as a share of their spacing.
 const CROWD: f64 = 0.6;
 
-/// No more good points than this between bad ones are good by chance.
+/// Greatest length of a run of points between removed ones that is removed as well.
 const CHANCE: usize = 2;
 
-/// So many points before and after those in the ink go where they are a spike.
+/// Number of points removed on either side of a spike.
 const SPIKE: usize = 2;
 
-/// A joint that would point out farther than this, half widths, is cut off, as in SVG.
+/// Greatest length of a mitre in half widths, as in SVG. Longer ones are bevelled.
 const MITER_LIMIT: f64 = 4.0;
 
-/// Points of a round joint are this far apart, radians.
+/// Angle between points of a round join, radians.
 const ROUND_STEP: f64 = 0.35;
 
-/// A point of a side.
+/// Point of a side.
 #[derive(Debug, Clone, Copy)]
 struct SidePoint {
     at: Point,
-    /// The point of the axis that it belongs to.
+    /// Index of its axis point.
     of: usize,
     /// Whether the side has a corner here.
     corner: bool,
-    /// Whether it must go, wherever it lies: the ends of both sides within a corner.
+    /// Whether it is always removed: the ends of both sides at the inside of a corner.
     dropped: bool,
 }
 
-/// One side of a line, cleaned of what lies in the ink.
+/// One side of a line, without points inside the ink.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Side {
     pub points: Vec<Point>,
@@ -58,7 +58,7 @@ pub(crate) struct Side {
 }
 
 impl Side {
-    /// The left (`sign` 1) or right (-1) side of an axis, `halves` away from it.
+    /// The left (`sign` 1) or right (-1) side of an axis, at distance `halves`.
     pub fn new(axis: &Axis, halves: &[f64], sign: f64, join: Join) -> Self {
         let raw = raw(axis, halves, sign, join);
         let bad: Vec<bool> = raw.iter().map(|p| p.dropped || in_ink(axis, halves, p)).collect();
@@ -67,14 +67,14 @@ impl Side {
         if side.points.len() > 1 { side } else { cleaned(&raw, &vec![false; raw.len()], axis.closed, near) }
     }
 
-    /// The side run through from its other end.
+    /// The side in reverse.
     pub fn reversed(mut self) -> Self {
         self.points.reverse();
         self.corners.reverse();
         self
     }
 
-    /// Adds the side to a path that stands at its first point.
+    /// Adds the side to a path whose current point is the first point.
     pub fn add_to(&self, tolerance: f64, path: &mut BezPath) {
         let last = self.points.len().saturating_sub(1);
         let mut from = 0;
@@ -86,7 +86,7 @@ impl Side {
         }
     }
 
-    /// Adds a closed side to a path, as a loop of its own.
+    /// Adds a closed side to a path as a separate loop.
     pub fn add_loop_to(mut self, tolerance: f64, path: &mut BezPath) {
         let n = self.points.len();
         if n < 3 {
@@ -109,7 +109,7 @@ impl Side {
     }
 }
 
-/// All points of a side, with the joints of its corners; those of a closed axis once round.
+/// All points of a side, with the joins of its corners. A closed axis is followed once.
 fn raw(axis: &Axis, halves: &[f64], sign: f64, join: Join) -> Vec<SidePoint> {
     let n = axis.len();
     let count = if axis.closed { n - 1 } else { n };
@@ -141,7 +141,7 @@ fn raw(axis: &Axis, halves: &[f64], sign: f64, join: Join) -> Vec<SidePoint> {
     points
 }
 
-/// The points of a side at the outside of a corner.
+/// The join points of a side on the outside of a corner.
 fn joint(p: Point, from: Vec2, to: Vec2, half: f64, join: Join) -> impl Iterator<Item = Point> {
     let middle = unit(from + to);
     let cosine = middle.dot(from);
@@ -162,7 +162,7 @@ fn joint(p: Point, from: Vec2, to: Vec2, half: f64, join: Join) -> impl Iterator
     points.into_iter()
 }
 
-/// Whether a point of a side lies in the ink of points of the axis near its own.
+/// Whether a side point lies inside the ink of axis points near its own.
 fn in_ink(axis: &Axis, halves: &[f64], point: &SidePoint) -> bool {
     let n = axis.len();
     let (own, half) = (axis.arcs[point.of], halves[point.of]);
@@ -195,17 +195,19 @@ fn in_ink(axis: &Axis, halves: &[f64], point: &SidePoint) -> bool {
     false
 }
 
-/// The points that are not bad, and where the side crosses itself instead of those that are.
-/// Points nearer than `near` to such a crossing go as well: they would bend the curves that end there.
+/// The points that are not bad, with self-crossings in place of removed runs.
+///
+/// Points closer than `near` to a crossing are removed too, because they would bend the curves that end
+/// there.
 fn cleaned(raw: &[SidePoint], bad: &[bool], closed: bool, near: f64) -> Side {
     let n = raw.len();
     let mut keep: Vec<bool> = bad.iter().map(|bad| !bad).collect();
     if !closed && n > 0 {
-        // The caps begin here.
+        // The caps start at these points.
         keep[0] = true;
         keep[n - 1] = true;
     }
-    // A few good points between bad ones are by chance.
+    // Remove short runs of good points between bad ones.
     for i in 1..n {
         let run = if bad[i - 1] { keep[i..].iter().take_while(|keep| **keep).count() } else { 0 };
         if (1..=CHANCE).contains(&run) && i + run < n {
@@ -213,7 +215,7 @@ fn cleaned(raw: &[SidePoint], bad: &[bool], closed: bool, near: f64) -> Side {
         }
     }
     let Some(first) = keep.iter().position(|keep| *keep) else { return Side::default() };
-    // What comes after a point instead of the bad ones: a corner, perhaps at a crossing.
+    // Replacement for the removed points after each kept one: a corner, and its crossing if there is one.
     let mut after: Vec<Option<Option<Point>>> = vec![None; n];
     let mut before = first;
     for step in 1..=n {
@@ -232,7 +234,7 @@ fn cleaned(raw: &[SidePoint], bad: &[bool], closed: bool, near: f64) -> Side {
             let (from, to) = ((before + n - back) % n, (i + ahead) % n);
             after[from] = Some(at);
             if let Some(at) = at {
-                // Its neighbours would bend the curves that end at the crossing.
+                // Drop neighbours that would bend the curves at the crossing.
                 for k in [from, to] {
                     keep[k] &=
                         (raw[k].at - at).hypot2() >= near * near || (!closed && (k == 0 || k + 1 == n));
@@ -271,8 +273,8 @@ fn cleaned(raw: &[SidePoint], bad: &[bool], closed: bool, near: f64) -> Side {
     side
 }
 
-/// Where the side crosses itself first near a gap between two points: how many points before and after the gap
-/// lie beyond the crossing as well, and where it is. None if it does not.
+/// The first self-crossing near a removed run: numbers of further points to remove before and after it, and
+/// its position if it exists.
 fn crossing_near(
     raw: &[SidePoint],
     before: usize,
@@ -295,12 +297,12 @@ fn crossing_near(
             }
         }
     }
-    // A spike without width: its tip goes.
+    // A spike without width: remove its tip.
     let ends = !closed && (before < SPIKE || next + SPIKE >= n);
     if ends || 4 * SPIKE + 4 > n { (0, 0, None) } else { (SPIKE, SPIKE, None) }
 }
 
-/// Where two segments cross.
+/// The crossing point of two segments.
 fn crossing(a: Point, b: Point, c: Point, d: Point) -> Option<Point> {
     let (u, v, w) = (b - a, d - c, c - a);
     let across = u.cross(v);

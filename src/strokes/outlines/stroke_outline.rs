@@ -1,9 +1,10 @@
-//! The outline of a line of varying width.
+//! Outline of a line of varying width.
 //!
-//! Points close together along the axis are moved to either side by half the width there; Béziers
-//! are fitted to both sides and joined by the caps. A line without a hand is drawn without corners: on the
-//! inside of a bend a side is never farther off than the bend's centre, so that it does not turn back on
-//! itself. For the others see [`super::offset_side`].
+//! Points of the axis are moved to both sides by half the width. Béziers are fitted to both sides and joined
+//! by the caps.
+//!
+//! A line without hand-drawn effects is drawn without corners. On the inside of a bend the offset is limited
+//! by the bend's radius, so the side does not fold back. For other lines see [`super::offset_side`].
 
 use kurbo::{BezPath, Point, Vec2};
 
@@ -13,27 +14,27 @@ use crate::drawing::{Cap, Join};
 use crate::geometry::plane::planar_distance::length;
 use crate::strokes::axes::stroke_axis::Axis;
 
-/// How far the sides may lie from what they are fitted to, px.
+/// Greatest distance of fitted sides from their points, px.
 const TOLERANCE_PX: f64 = 0.1;
 
-/// The inner side of a bend keeps this part of the way to its centre.
+/// Greatest offset on the inside of a bend, as a share of the bend's radius.
 const INNER: f64 = 0.7;
 
-/// Handle of a quarter circle of radius 1.
+/// Bézier handle length of a quarter circle of radius 1.
 const QUARTER: f64 = 0.552_284_749_830_793_4;
 
-/// The shape of ends and corners.
+/// Caps and joins of a stroke.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Nib {
-    /// At the start and at the end.
+    /// Caps at the start and at the end.
     pub caps: [Cap; 2],
     pub join: Join,
-    /// User units in a px.
+    /// The length of a px in user units.
     pub px: f64,
 }
 
-/// The outline of a line from its distances to the left and to the right at every point of its axis;
-/// `None` for one without length.
+/// The outline of a line from its distances to the left and right at every point of its axis. `None` if it
+/// has fewer than three points.
 pub(crate) fn outline(axis: &Axis, halves: [&[f64]; 2], nib: &Nib) -> Option<BezPath> {
     if axis.len() < 3 {
         return None;
@@ -60,7 +61,7 @@ pub(crate) fn outline(axis: &Axis, halves: [&[f64]; 2], nib: &Nib) -> Option<Bez
     Some(path)
 }
 
-/// The outline of a line without corners.
+/// The outline of a line without corners; `None` if it has fewer than three points.
 pub(crate) fn soft_outline(axis: &Axis, widths: &[f64], nib: &Nib) -> Option<BezPath> {
     let n = axis.len();
     if n < 3 {
@@ -88,7 +89,7 @@ pub(crate) fn soft_outline(axis: &Axis, widths: &[f64], nib: &Nib) -> Option<Bez
     Some(path)
 }
 
-/// The points moved by half the width to the left and to the right.
+/// The points offset by half the width to the left and to the right.
 fn sides(axis: &[Point], widths: &[f64], closed: bool) -> [Vec<Point>; 2] {
     let n = axis.len();
     let neighbour = |i: usize, step: isize| -> usize {
@@ -109,7 +110,7 @@ fn sides(axis: &[Point], widths: &[f64], closed: bool) -> [Vec<Point>; 2] {
             unit(after - before)
         };
         let normal = Vec2::new(along.y, -along.x);
-        // Turn to the right is positive, as y points down.
+        // The page's y points down, so a positive turn is to the right.
         let (to, from) = (after - axis[i], axis[i] - before);
         let turn = unit(from).cross(unit(to)) / ((length(to) + length(from)) / 2.0).max(f64::MIN_POSITIVE);
         let half = widths[i] / 2.0;
@@ -129,14 +130,14 @@ fn add_side(points: &[Point], tolerance: f64, path: &mut BezPath) {
     fit(points, start, end, tolerance, path);
 }
 
-/// From the one side round the end of the axis to the other.
+/// Adds a cap from one side around the end of the axis to the other side.
 fn cap(path: &mut BezPath, middle: Point, from: Point, to: Point, cap: Cap, px: f64) {
     let radius = from - middle;
     if length(radius) < TOLERANCE_PX * px {
         path.line_to(to);
         return;
     }
-    // Out of the end of the line.
+    // Direction out of the end of the line.
     let out = Vec2::new(-radius.y, radius.x);
     let opposite = to - middle;
     match cap {
@@ -172,7 +173,7 @@ mod tests {
         Axis { arcs: arcs(&points), points, samples, corners, closed }
     }
 
-    /// A polyline with points a px apart and corners where it turns.
+    /// Polyline with points a px apart and corners at its vertices.
     fn polyline(vertices: &[(f64, f64)]) -> Axis {
         let mut points = vec![Point::from(vertices[0])];
         let mut corners = Vec::new();
@@ -191,7 +192,7 @@ mod tests {
         outline(axis, [&halves, &halves], nib).expect("an outline")
     }
 
-    /// Where two sides of a flattened closed path cross.
+    /// A crossing of two sides of a flattened closed path.
     fn crossing(path: &BezPath) -> Option<Point> {
         let mut points: Vec<Point> = Vec::new();
         kurbo::flatten(path, 0.02, |element| points.extend(element.end_point()));
@@ -219,7 +220,7 @@ mod tests {
         let line: Vec<Point> = (0..=100).map(|i| Point::new(f64::from(i), 50.0)).collect();
         let line = axis(line, vec![], false);
         let widths: Vec<f64> = (0..=100).map(|i| 0.04 * f64::from(i)).collect();
-        // The wedge and the half circle at its thick end.
+        // The wedge, and the half circle at its thick end.
         let area = 200.0 + std::f64::consts::PI * 2.0;
         for wedge in [both(&line, &widths, &NIB), soft_outline(&line, &widths, &NIB).unwrap()] {
             assert!((wedge.area().abs() - area).abs() < 4.0, "{}", wedge.area());
@@ -231,7 +232,7 @@ mod tests {
 
     #[test]
     fn tight_bends_do_not_fold() {
-        // A hairpin of radius 3 between straight legs, under a pen of width 5.
+        // Hairpin of radius 3 between straight legs, under a pen of width 5.
         let mut line: Vec<Point> = (0..40).map(|i| Point::new(f64::from(i), 0.0)).collect();
         line.extend((0..=8).map(|i| {
             let angle = std::f64::consts::PI * f64::from(i) / 8.0;
@@ -262,7 +263,7 @@ mod tests {
             assert_ne!(path.winding(Point::new(57.1, 2.9)), 0);
             assert_eq!(path.winding(Point::new(56.9, 3.1)), 0, "{}", path.to_svg());
         }
-        // A corner of 150 degrees: too sharp for a mitre of 4.
+        // A corner of 150 degrees is too sharp for a mitre limit of 4.
         let needle = polyline(&[(0.0, 0.0), (60.0, 0.0), (60.0 - 51.96, 30.0)]);
         for join in [Join::Miter, Join::Bevel, Join::Round] {
             let path = both(&needle, &vec![4.0; needle.len()], &nib(join));
@@ -275,8 +276,8 @@ mod tests {
     fn random_lines_with_corners_do_not_fold() {
         for case in 0..300_u64 {
             let dice = |k: u64| chance(hash(case, &[k]));
-            // Legs longer than the pen is wide and turns up to 150 degrees, never twice to the same side, so
-            // that the line does not come back to itself.
+            // Legs are longer than the pen is wide. Turns reach 150 degrees and alternate, so the line does
+            // not return to itself.
             let mut vertices = vec![(0.0, 0.0)];
             let (mut x, mut y, mut heading) = (0.0, 0.0, 0.0);
             for k in 0..5 {
@@ -300,7 +301,7 @@ mod tests {
     #[test]
     fn random_curves_do_not_fold() {
         for case in 0..300_u64 {
-            // The heading wanders, with bends down to less than half the pen's width, but not at the ends.
+            // The heading wanders, with bends down to less than half the pen's width, except at the ends.
             let (mut at, mut points) = (Point::ZERO, vec![Point::ZERO]);
             for k in 0..160 {
                 let calm = (f64::from(k.min(160 - k)) / 24.0).min(1.0);

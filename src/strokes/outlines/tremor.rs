@@ -1,4 +1,4 @@
-//! Moves the points of an axis as an unsteady hand would: waves of chance along its arc length.
+//! Tremor: moves the points of an axis by smooth noise along its arc length.
 
 use kurbo::Vec2;
 
@@ -7,36 +7,36 @@ use crate::geometry::numbers::noise::{hash, smooth, solid};
 use crate::geometry::numbers::portable_math::{ln, pow};
 use crate::strokes::axes::stroke_axis::Axis;
 
-/// Ends and corners stay, and the line is whole in its motion this part of a wave away from them.
+/// Distance from ends and corners where the motion reaches its full size, in wavelengths.
 const PINNED: f64 = 0.4;
 
-/// The finer of two waves: its length and its share, so that the motion is not even.
+/// Relative length and share of the second, finer wave, which makes the motion irregular.
 const FINE: [f64; 2] = [0.43, 0.3];
 
-/// Further passes drift in waves so many times longer.
+/// Wavelength of the drift of further passes, relative to the tremor.
 const DRIFT: f64 = 2.5;
 
-/// The motion of one pass over a chain.
+/// Motion of one pass over a chain.
 #[derive(Debug, Clone)]
 pub(crate) struct Tremor {
-    /// Greatest way to either side.
+    /// Greatest sideways motion.
     pub amplitude: f64,
-    /// Length of the waves.
+    /// Wavelength.
     pub wave: f64,
-    /// Greatest way in any direction by which all of the pass may be off.
+    /// Greatest drift of the whole pass, in any direction.
     pub stray: f64,
     pub seed: u64,
-    /// Arc lengths of what stays: ends and corners of the chain.
+    /// Arc lengths of fixed points: ends and corners of the chain.
     pub pins: Vec<f64>,
-    /// Length of a closed chain.
+    /// Length of a closed chain; `None` for an open one.
     pub round: Option<f64>,
-    /// The seed where lines know their place on the model: there the waves run over its surface and not along the line, so that
-    /// they stay while it moves, however much of the line is seen.
+    /// Random seed for lines with known positions on the model. There the noise varies over the surface
+    /// instead of along the line, so it stays when the model moves or the visible part changes.
     pub solid: u64,
 }
 
 impl Tremor {
-    /// Moves the points, each less far than its limit.
+    /// Moves each point by at most its limit.
     pub fn shake(&self, axis: &mut Axis, limits: &[f64]) {
         if self.amplitude <= 0.0 && self.stray <= 0.0 {
             return;
@@ -61,13 +61,13 @@ impl Tremor {
         axis.points = moved.collect();
     }
 
-    /// The finer and the longer wave together, -1 to 1.
+    /// Sum of the main and the finer wave, -1 to 1.
     fn tremor(&self, at: Place) -> f64 {
         let [length, share] = FINE;
         (1.0 - share) * self.noise(0, at, self.wave) + share * self.noise(1, at, self.wave * length)
     }
 
-    /// 0 at a pin, 1 away from all.
+    /// Attenuation: 0 at a pin, 1 away from all pins.
     fn pin(&self, arc: f64) -> f64 {
         let away = |pin: &f64| {
             let way = (arc - pin).abs();
@@ -78,7 +78,7 @@ impl Tremor {
         t * t * (3.0 - 2.0 * t)
     }
 
-    /// Noise along the chain; in a closed one it comes back to where it began.
+    /// Noise along the chain. In a closed chain it is periodic.
     fn noise(&self, word: u64, Place { arc, anchor }: Place, wave: f64) -> f64 {
         if wave <= 0.0 {
             return 0.0;
@@ -89,7 +89,7 @@ impl Tremor {
         let seed = hash(self.seed, &[word]);
         let Some(round) = self.round else { return smooth(seed, arc / wave) };
         let arc = arc.rem_euclid(round);
-        // Over its last wave it turns into what comes before its beginning.
+        // Over the last wavelength it blends into the noise before the start.
         let t = ((arc - round) / wave.min(round) + 1.0).clamp(0.0, 1.0);
         let share = t * t * (3.0 - 2.0 * t);
         let before = |arc: f64| smooth(seed, arc / wave);
@@ -97,15 +97,16 @@ impl Tremor {
     }
 }
 
-/// Where a point of an axis is: along it, and on the model.
+/// Position of an axis point: along the axis, and on the model.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     arc: f64,
     anchor: Anchor,
 }
 
-/// Noise on the surface of the model, in waves about so long on the page. Waves have lengths that are powers of two on the
-/// model, and as it comes nearer one turns into the next.
+/// Noise on the model's surface, with waves about `wave` long on the page.
+///
+/// Wavelengths on the model are powers of two. As the model comes closer, one octave blends into the next.
 fn on_surface(seed: u64, anchor: Anchor, wave: f64) -> f64 {
     let exponent = ln(f64::from(anchor.scale) / wave) / std::f64::consts::LN_2;
     if !exponent.is_finite() {
@@ -119,7 +120,7 @@ fn on_surface(seed: u64, anchor: Anchor, wave: f64) -> f64 {
     (1.0 - t) * at(coarse) + t * at(coarse + 1.0)
 }
 
-/// The part of a way that keeps it within a limit, without a kink.
+/// Factor that keeps a displacement within a limit, smoothly.
 fn within(way: f64, limit: f64) -> f64 {
     if limit.is_infinite() {
         return 1.0;

@@ -1,26 +1,26 @@
-//! [`Hand`]: how unsteady the hand is that draws a line: the table `[pen.hand]` of a style sheet.
+//! [`Hand`]: hand-drawn effects on a line: the table `[pen.hand]` of a style sheet.
 
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
 
 use crate::drawing::Length;
 
-/// What chance does to a line. All is off by default; `seed` decides the rest.
+/// Random hand-drawn effects on a line, all off by default. `seed` in the style selects the random numbers.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hand {
-    /// How far a line strays to either side, at most; its ends and corners stay. Default: 0.
+    /// Greatest sideways motion of a line. Its ends and corners stay. Default: 0.
     pub tremor: Length,
-    /// How long the waves are in which it does. Default: 60 px.
+    /// Wavelength of that motion. Default: 60 px.
     pub tremor_length: Length,
-    /// How far open ends run on, at most; lines are then also lifted at their corners. Default: 0.
+    /// Greatest extension of open ends. With it, the pen is also lifted at corners. Default: 0.
     pub overshoot: Length,
-    /// Mean distance of small gaps in a line; 0 = none. Default: 0.
+    /// Mean distance between small gaps; 0 for none. Default: 0.
     pub breaks: Length,
-    /// Length of such a gap. Default: 3 px.
+    /// Length of a gap. Default: 3 px.
     pub break_gap: Length,
-    /// How often each line is drawn, 1 to 8. Default: 1.
+    /// Number of times each line is drawn, 1 to 8. Default: 1.
     pub passes: u8,
-    /// How far all passes but the first stray, at most, their ends as well. Default: 1 px.
+    /// Greatest drift of all passes except the first, including their ends. Default: 1 px.
     pub stray: Length,
 }
 
@@ -39,36 +39,36 @@ impl Default for Hand {
 }
 
 impl Hand {
-    /// Whether it does anything to lines.
+    /// Whether it changes lines at all.
     #[must_use]
     pub fn is_on(&self) -> bool {
         self.passes > 1 || [self.tremor, self.overshoot, self.breaks].iter().any(|length| length.value > 0.0)
     }
 }
 
-/// The fields of a hand that are to change; the others stay.
+/// Fields of a hand to be changed. Absent ones stay.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct HandChange {
-    /// How far a line strays.
+    /// Sideways motion.
     pub tremor: Option<Length>,
-    /// How long the waves of that are.
+    /// Wavelength of that motion.
     pub tremor_length: Option<Length>,
-    /// How far open ends run on.
+    /// Extension of open ends.
     pub overshoot: Option<Length>,
-    /// Mean distance of gaps.
+    /// Mean distance between gaps.
     pub breaks: Option<Length>,
     /// Length of a gap.
     pub break_gap: Option<Length>,
-    /// How often each line is drawn.
+    /// Number of times each line is drawn.
     #[serde(deserialize_with = "passes")]
     pub passes: Option<u8>,
-    /// How far further passes stray.
+    /// Drift of further passes.
     pub stray: Option<Length>,
 }
 
 impl HandChange {
-    /// Changes the fields that are named.
+    /// Applies the present fields.
     pub fn apply(&self, hand: &mut Hand) {
         *hand = Hand {
             tremor: self.tremor.unwrap_or(hand.tremor),
@@ -82,7 +82,7 @@ impl HandChange {
     }
 }
 
-/// A number from 1 to 8.
+/// Reads a number from 1 to 8.
 fn passes<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<u8>, D::Error> {
     let value = i64::deserialize(deserializer)?;
     match u8::try_from(value) {

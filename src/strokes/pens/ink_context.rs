@@ -1,4 +1,4 @@
-//! [`InkContext`]: what strokes need of the scene and the page.
+//! [`InkContext`]: scene and page data for strokes.
 
 use std::sync::Arc;
 
@@ -8,44 +8,44 @@ use crate::colour::srgb::Colour;
 use crate::drawing::{Length, Unit};
 use crate::lines::HiddenLines;
 
-/// What strokes need of the scene and the page: names, colours and the unit.
+/// Scene and page data for strokes: names, colours and units.
 #[derive(Debug, Clone, Copy)]
 pub struct InkContext<'a> {
-    /// Unit of the chains' points and of the drawing.
+    /// Unit of chain points and of the drawing.
     pub unit: Unit,
     /// Names of the parts, by [`crate::mesh::PartId`].
     pub parts: &'a [Arc<str>],
     /// Names and base colours of the materials, by [`crate::mesh::MaterialId`].
     pub materials: &'a [(Arc<str>, Colour)],
-    /// What becomes of hidden chains.
+    /// Treatment of hidden chains.
     pub hidden: HiddenLines,
-    /// The part of their pen's width that veiled chains have.
+    /// Width of veiled chains as a share of their pen's width.
     pub behind_glass: f64,
-    /// The hand: seeds all that varies by chance.
+    /// Random seed for hand-drawn effects.
     pub seed: u64,
-    /// Whether surfaces are painted under the lines, so that lines must not leave their borders.
+    /// Whether surfaces are painted under the lines. Lines must then cover the borders of the paint.
     pub painted: bool,
-    /// The depths of what counts as near and as far.
+    /// Depths that count as near and far.
     pub depths: [f64; 2],
-    /// For feature segments, by their number, what lasts while the eye moves; 0 = nothing. May be empty.
+    /// A stable number for each feature segment, independent of the camera; 0 means none. May be empty.
     pub names: &'a [u64],
-    /// What parts spot blacks, where there are any.
+    /// The gap between spot blacks, if there is one.
     pub parting: Option<Parting>,
-    /// The camera's frame on the page, which cuts lines that leave it; without it they end there as others do.
+    /// The camera's frame on the page, which cuts lines that leave it. Without it they end there like others.
     pub frame: Option<Rect>,
 }
 
-/// The line between two spot blacks, on which ink would not be seen.
+/// Paper-coloured line between two spot blacks, where ink would be invisible.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Parting {
-    /// Its colour: that of the paper.
+    /// Colour of the paper.
     pub colour: Colour,
-    /// Its width, in parts of the pen's.
+    /// Width as a share of the pen's width.
     pub width: f64,
 }
 
 impl InkContext<'_> {
-    /// User units in a px.
+    /// The length of a px in user units.
     pub(crate) fn px(&self) -> f64 {
         Length::px(1.0).in_unit(self.unit)
     }

@@ -1,4 +1,4 @@
-//! [`InkWidths`]: how wide the ink of lines is before they are strokes.
+//! [`InkWidths`]: the ink width of view edges, before they become strokes.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use crate::colour::srgb::Colour;
 use crate::drawing::Unit;
 use crate::visibility::{ViewEdge, ViewMap};
 
-/// How wide the ink of the edges of a view map is.
+/// Ink widths of the edges of a view map.
 pub struct InkWidths<'a> {
     selection: Selection<'a>,
     options: &'a StrokeOptions,
@@ -15,7 +15,8 @@ pub struct InkWidths<'a> {
 }
 
 impl<'a> InkWidths<'a> {
-    /// The widths by the pens of `options`, from the names of parts and materials; `unit` is that of the page.
+    /// The widths from the pens of `options` and the names of parts and materials. `unit` is that of the
+    /// page.
     #[must_use]
     pub fn new(
         options: &'a StrokeOptions,
@@ -26,7 +27,8 @@ impl<'a> InkWidths<'a> {
         Self { selection: options.selection_for(parts, materials, 1.0), options, unit }
     }
 
-    /// Half the least width of an edge's ink, user units; 0 where the pen has a varying width or does not follow the line.
+    /// Half the least ink width of an edge, user units. 0 if the pen has a varying width or does not follow
+    /// the line.
     #[must_use]
     pub fn half(&self, map: &ViewMap, edge: &ViewEdge) -> f64 {
         let ViewEdge { kind, silhouette, both_seen, part, material, .. } = *edge;

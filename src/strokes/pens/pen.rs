@@ -1,4 +1,4 @@
-//! [`Pen`]: width, colour, ends, corners and dashes of strokes, and the changes that rules make to it.
+//! [`Pen`]: width, colour, caps, joins and dashes of strokes, and the changes that rules make.
 
 use std::sync::Arc;
 
@@ -13,46 +13,46 @@ use crate::strokes::brushes::brush_source::BrushChange;
 use crate::strokes::fraction::fraction;
 use crate::strokes::widths::swell::{Swell, SwellChange};
 
-/// What a pen is filled with.
+/// Colour of a pen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ink {
     /// One colour. Written `"#1a1a1a"`.
     Fixed(Colour),
-    /// A darker shade of the material beside the line: its channels times this factor, 0 = black,
-    /// 1 = the material's own colour. Written `{ shade = 0.5 }`.
+    /// A darker shade of the material next to the line: its channels times this factor, 0 for black and 1 for
+    /// the material's colour. Written `{ shade = 0.5 }`.
     Shade(f64),
 }
 
-/// How strokes are drawn.
+/// Appearance of strokes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Pen {
     /// Width of the line; 0 draws nothing. Default: 1 px.
     pub width: Length,
     /// Colour. Default: `#1a1a1a`.
     pub colour: Ink,
-    /// Ends. Default: round.
+    /// Caps. Default: round.
     pub cap: Cap,
-    /// Corners. Default: round.
+    /// Joins. Default: round.
     pub join: Join,
-    /// Dashes and gaps in turn; empty = solid. Default: solid.
+    /// Dashes and gaps in turn; empty means solid. Default: solid.
     pub dash: Vec<Length>,
-    /// 0 = invisible, 1 = opaque; multiplies the colour's own. Default: 1.
+    /// Opacity, 0 to 1; multiplies the colour's alpha. Default: 1.
     pub opacity: f64,
-    /// How much of its width a line loses where it is weakest: 0 = none, 1 = all. Only suggestive
-    /// contours, ridges and valleys are ever weak. Default: 1.
+    /// Share of the width that a line loses where its strength is 0. Only suggestive contours, ridges and
+    /// valleys vary in strength. Default: 1.
     pub fade: f64,
-    /// How the width varies along a line. Default: not.
+    /// Variation of the width along a line. Default: none.
     pub swell: Swell,
-    /// What chance does to a line. Default: nothing.
+    /// Random hand-drawn effects. Default: none.
     pub hand: Hand,
-    /// How far beside the line nothing farther is drawn where it passes over; 0 = no halo. Default: 0.
+    /// Distance from the line within which no farther line is drawn; 0 for no halo. Default: 0.
     pub halo: Length,
-    /// A shape that is laid along lines in place of a plain width. Default: none.
+    /// Shape laid along lines in place of a plain width. Default: none.
     pub brush: Option<Arc<Brush>>,
 }
 
 impl Pen {
-    /// Whether lines are more than strokes of the pen's width that fade.
+    /// Whether strokes differ from plain or fading lines of the pen's width.
     #[must_use]
     pub fn has_hand(&self) -> bool {
         self.swell.is_on() || self.hand.is_on() || self.halo.value > 0.0 || self.brush.is_some()
@@ -77,7 +77,7 @@ impl Default for Pen {
     }
 }
 
-/// The fields of a pen that are to change; the others stay.
+/// Fields of a pen to be changed. Absent ones stay.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PenChange {
@@ -86,9 +86,9 @@ pub struct PenChange {
     /// Colour.
     #[serde(alias = "color")]
     pub colour: Option<Ink>,
-    /// Ends.
+    /// Caps.
     pub cap: Option<Cap>,
-    /// Corners.
+    /// Joins.
     pub join: Option<Join>,
     /// Dashes and gaps in turn.
     #[serde(deserialize_with = "dash")]
@@ -96,21 +96,21 @@ pub struct PenChange {
     /// Opacity, 0 to 1.
     #[serde(deserialize_with = "fraction")]
     pub opacity: Option<f64>,
-    /// Part of the width that is lost where a line is weakest, 0 to 1.
+    /// Share of the width lost where strength is 0, 0 to 1.
     #[serde(deserialize_with = "fraction")]
     pub fade: Option<f64>,
-    /// How the width varies.
+    /// Variation of the width.
     pub swell: SwellChange,
-    /// What chance does.
+    /// Hand-drawn effects.
     pub hand: HandChange,
-    /// How wide the halo is.
+    /// Width of the halo.
     pub halo: Option<Length>,
-    /// The shape along lines.
+    /// Shape laid along lines.
     pub brush: Option<BrushChange>,
 }
 
 impl PenChange {
-    /// Changes the fields of a pen that are named.
+    /// Applies the present fields to a pen.
     pub fn apply(&self, pen: &mut Pen) {
         if let Some(width) = self.width {
             pen.width = width;
@@ -144,7 +144,7 @@ impl PenChange {
     }
 }
 
-/// Lengths of dashes and gaps: none, or such that something is drawn and something is not.
+/// Reads lengths of dashes and gaps: an empty list, or at least one length above 0.
 pub(crate) fn dash<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<Length>>, D::Error> {
     let lengths = Vec::<Length>::deserialize(deserializer)?;
     if lengths.is_empty() || lengths.iter().any(|length| length.value > 0.0) {
@@ -160,7 +160,7 @@ impl<'de> Deserialize<'de> for Ink {
     }
 }
 
-/// Reads either form by what it meets, so that errors keep their place in the sheet.
+/// Reads either form by its type, so that errors keep their position in the sheet.
 struct InkVisitor;
 
 impl<'de> Visitor<'de> for InkVisitor {

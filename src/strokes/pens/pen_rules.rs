@@ -1,4 +1,4 @@
-//! [`StrokeOptions`]: the default pen and the rules that change it, by kind, visibility and name.
+//! [`StrokeOptions`]: the default pen and the rules that change it by kind, visibility and name.
 //!
 //! In a style sheet these are the tables `[pen]`, `[pen.NAME]`, `[[rule]]` and `[layers]`.
 
@@ -14,38 +14,38 @@ use crate::geometry::names::glob::Glob;
 use crate::lines::LineKind;
 use crate::mesh::{MaterialId, PartId};
 
-/// How chains get their ink.
+/// Choice of ink for chains.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct StrokeOptions {
-    /// The pen that rules start from.
+    /// Pen that rules start from.
     pub pen: Pen,
-    /// Applied in order; later ones override single fields of earlier ones.
+    /// Rules, applied in order. Later rules override single fields of earlier ones.
     pub rules: Vec<Rule>,
-    /// Which layers there are and how they are ordered.
+    /// Layers and their order.
     pub layers: LayerOptions,
 }
 
-/// A change of pen for some chains.
+/// Change of pen for some chains.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Rule {
-    /// Which chains; no condition means all.
+    /// Condition on the chains. Without conditions the rule covers all.
     pub when: Condition,
-    /// What changes.
+    /// Changes of the pen.
     pub pen: PenChange,
 }
 
-/// Which chains a rule is for: all that is named must hold.
+/// Condition of a rule. Every field that is set must hold.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Condition {
-    /// Kinds of line; empty = every kind.
+    /// Kinds of line; empty means every kind.
     pub kinds: Vec<LineKind>,
-    /// Behind surfaces, or visible.
+    /// Whether the line is hidden behind surfaces.
     pub hidden: Option<bool>,
-    /// Whether there is background on one side of the line.
+    /// Whether one side of the line is background.
     pub silhouette: Option<bool>,
-    /// Whether both surfaces that meet in the line face the eye.
+    /// Whether both surfaces at the line face the camera.
     pub both_seen: Option<bool>,
     /// Name of the part.
     pub part: Option<Glob>,
@@ -53,51 +53,51 @@ pub struct Condition {
     pub material: Option<Glob>,
 }
 
-/// What layers hold.
+/// Division of lines into layers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum LayersBy {
-    /// One layer of visible lines, one of hidden ones.
+    /// One layer of visible lines and one of hidden lines.
     #[default]
     Visibility,
-    /// Those, split to one layer for each pen, named by number, width and colour.
+    /// These layers, split by pen. Layers are named by number, width and colour.
     Pen,
 }
 
-/// The order of the marks of a layer.
+/// Order of the marks in a layer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Order {
     /// Weak kinds first, so that outlines paint over the lines that end at them.
     #[default]
     Strength,
-    /// Short ways between the end of a path and the start of the next.
+    /// Short pen-up ways between the end of a path and the start of the next.
     Travel,
 }
 
-/// Which layers there are and how they are ordered: the `[layers]` table of a style sheet.
+/// Layers and their order: the `[layers]` table of a style sheet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LayerOptions {
-    /// What layers hold. Default: visibility.
+    /// Division into layers. Default: visibility.
     pub by: LayersBy,
-    /// The order inside a layer. Default: strength.
+    /// Order inside a layer. Default: strength.
     pub order: Order,
 }
 
-/// The rules with their name patterns already tried on the names of the scene.
+/// Rules with their name patterns already matched against the names of the scene.
 pub(crate) struct Selection<'a> {
     options: &'a StrokeOptions,
-    /// The part of their pen's width that veiled lines have.
+    /// Width of veiled lines as a share of their pen's width.
     behind_glass: f64,
-    /// For each rule, whether each part fits.
+    /// For each rule, whether each part matches.
     parts: Vec<Vec<bool>>,
-    /// For each rule, whether each material fits.
+    /// For each rule, whether each material matches.
     materials: Vec<Vec<bool>>,
 }
 
 impl StrokeOptions {
-    /// Tries the patterns of all rules once, so that a chain costs only lookups.
+    /// Matches the patterns of all rules once, so that a chain needs only lookups.
     pub(crate) fn selection<'a>(&'a self, context: &InkContext) -> Selection<'a> {
         let InkContext { parts, materials, behind_glass, .. } = *context;
         self.selection_for(parts, materials, behind_glass)
@@ -123,7 +123,7 @@ impl StrokeOptions {
     }
 }
 
-/// The conditions of rules for a line.
+/// Properties of a line that conditions of rules test.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LineTraits {
     pub kind: LineKind,
@@ -136,14 +136,14 @@ pub(crate) struct LineTraits {
 }
 
 impl Selection<'_> {
-    /// The pen of a chain, from the one that rules start from.
+    /// The pen of a chain, starting from `pen`.
     pub(crate) fn pen(&self, chain: &Chain, pen: Pen) -> Pen {
         let Chain { kind, silhouette, both_seen, veiled, part, material, .. } = *chain;
         let hidden = chain.invisibility > 0;
         self.pen_of(&LineTraits { kind, hidden, silhouette, both_seen, veiled, part, material }, pen)
     }
 
-    /// The pen of a line, from the one that rules start from.
+    /// The pen of a line, starting from `pen`.
     pub(crate) fn pen_of(&self, line: &LineTraits, mut pen: Pen) -> Pen {
         let behind = if line.veiled { self.behind_glass } else { 1.0 };
         let named = |table: &[bool], index: usize, glob: &Option<Glob>| {

@@ -1,35 +1,35 @@
-//! [`Swell`]: how the width of a line follows its ends, its bends, the light and the depth: the table
-//! `[pen.swell]` of a style sheet.
+//! [`Swell`]: variation of line width by ends, bends, light and depth: the table `[pen.swell]` of a style
+//! sheet.
 //!
-//! Source: strokes chosen by the turn to the next piece of the line, Lake, Marshall, Harris and
-//! Blackstein, Stylized rendering techniques for scalable real-time 3D animation, 2000, section 4.3; here
-//! the width follows the curvature itself.
+//! Source: Lake, Marshall, Harris and Blackstein, Stylized rendering techniques for scalable real-time 3D
+//! animation, 2000, section 4.3, where strokes are chosen by the turn to the next piece of the line. Here the
+//! width follows the curvature.
 
 use serde::Deserialize;
 
 use crate::drawing::Length;
 use crate::strokes::fraction::fraction;
 
-/// How the width of a line varies along it. All is off by default; what is on multiplies.
+/// Variation of the width along a line. All effects are off by default and multiply.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Swell {
-    /// Length at each open end over which the width falls; shorter lines fall over their half. Default: 0.
+    /// Length of the taper at each open end. Shorter lines taper over their half. Default: 0.
     pub taper: Length,
-    /// The part of the width that is left at a tapered end. Default: 0.2.
+    /// Share of the width left at a tapered end. Default: 0.2.
     pub taper_to: f64,
-    /// By how much bends are thicker where the line bulges out of the shape and thinner where it bulges in, 0
-    /// to 1. Default: 0.
+    /// Effect of bends, 0 to 1: thicker where the line bulges out of the shape, thinner where it bulges in.
+    /// Default: 0.
     pub bend: f64,
-    /// The radius of bends of half that effect. Default: 40 px.
+    /// Bend radius where the effect is half. Default: 40 px.
     pub bend_radius: Length,
-    /// The part of the width that is lost where the surface beside the line is fully lit, 0 to 1. Default: 0.
+    /// Share of the width lost where the surface next to the line is fully lit, 0 to 1. Default: 0.
     pub lit: f64,
-    /// The part of the width that the farthest lines lose, 0 to 1; the nearest lose none. Default: 0.
+    /// Share of the width that the farthest lines lose, 0 to 1. The nearest lose none. Default: 0.
     pub near: f64,
-    /// The part of the width that is lost where what lies behind the line touches it, 0 to 1; before background
-    /// none is. Default: 0.
+    /// Share of the width lost where the surface behind touches the line, 0 to 1. In front of the background
+    /// nothing is lost. Default: 0.
     pub gap: f64,
-    /// The part of the width that a line loses by chance at most, 0 to 1: each its own part. Default: 0.
+    /// Greatest random share of the width that a line loses, 0 to 1. It is constant along a line. Default: 0.
     pub chance: f64,
 }
 
@@ -56,43 +56,43 @@ impl Swell {
             || [self.bend, self.lit, self.near, self.gap, self.chance].iter().any(|part| *part > 0.0)
     }
 
-    /// Whether the width follows anything that has to be asked beside the line.
+    /// Whether the width depends on samples next to the line.
     #[must_use]
     pub fn asks(&self) -> bool {
         self.bend > 0.0 || self.lit > 0.0 || self.gap > 0.0
     }
 }
 
-/// The fields of a swell that are to change; the others stay.
+/// Fields of a swell to be changed. Absent ones stay.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct SwellChange {
     /// Length of the tapered ends.
     pub taper: Option<Length>,
-    /// What is left at a tapered end.
+    /// Share of the width left at a tapered end.
     #[serde(deserialize_with = "fraction")]
     pub taper_to: Option<f64>,
-    /// How much bends count.
+    /// Effect of bends.
     #[serde(deserialize_with = "fraction")]
     pub bend: Option<f64>,
-    /// The radius of bends of half the effect.
+    /// Bend radius where the effect is half.
     pub bend_radius: Option<Length>,
-    /// What is lost in the light.
+    /// Share of the width lost in full light.
     #[serde(deserialize_with = "fraction")]
     pub lit: Option<f64>,
-    /// What the farthest lines lose.
+    /// Share of the width that the farthest lines lose.
     #[serde(deserialize_with = "fraction")]
     pub near: Option<f64>,
-    /// What is lost without a gap in depth.
+    /// Share of the width lost without a gap in depth.
     #[serde(deserialize_with = "fraction")]
     pub gap: Option<f64>,
-    /// What is lost by chance at most.
+    /// Greatest random loss of width.
     #[serde(deserialize_with = "fraction")]
     pub chance: Option<f64>,
 }
 
 impl SwellChange {
-    /// Changes the fields that are named.
+    /// Applies the present fields.
     pub fn apply(&self, swell: &mut Swell) {
         *swell = Swell {
             taper: self.taper.unwrap_or(swell.taper),

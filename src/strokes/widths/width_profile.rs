@@ -1,4 +1,4 @@
-//! The width of a line at every point of its axis: its pen's, times what swells and fades it.
+//! Widths of a line at every point of its axis: the pen's width times swell and fade.
 
 use kurbo::Vec2;
 
@@ -7,42 +7,41 @@ use crate::chains::fit::bezier_fit::unit;
 use crate::geometry::plane::planar_distance::length;
 use crate::strokes::axes::stroke_axis::Axis;
 
-/// Length over which the width is evened out, px.
+/// Window for smoothing widths, px.
 const EVEN_PX: f64 = 10.0;
 
-/// Bends are measured over this length to either side, px.
+/// Length to either side for measuring bends, px.
 const BEND_PX: f64 = 5.0;
 
-/// Length over which bends are evened out, px: a brush does not follow every wiggle.
+/// Window for smoothing bends, px, so that the width does not follow every small wiggle.
 const BEND_EVEN_PX: f64 = 24.0;
 
-/// Length over which lines of unlike width that go on in each other become alike, px.
+/// Length of the blend between joined lines of different widths, px.
 const MEET_PX: f64 = 16.0;
 
-/// No line of varying width is thinner than this, px.
+/// Least width of a line of varying width, px.
 const LEAST_PX: f64 = 0.12;
 
-/// Where surfaces are painted, lines that bound them are by this part of a px thicker than what they must
-/// cover.
+/// Extra width of lines that border painted surfaces, on top of the border that they cover, px.
 const MORE_PX: f64 = 0.1;
 
-/// What widths follow beside the line itself.
+/// Inputs of the width, besides the line itself.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Setting {
     /// Width of the pen, user units.
     pub width: f64,
-    /// The part of the width that is lost where there is no strength.
+    /// Share of the width lost where strength is 0.
     pub fade: f64,
     pub swell: Swell,
     /// User units in a px.
     pub px: f64,
-    /// The depths of what counts as near and as far.
+    /// Depths that count as near and far.
     pub depths: [f64; 2],
-    /// User units in which bends count by half.
+    /// Bend radius where bends have half their effect, user units.
     pub bend_radius: f64,
-    /// The part of its width that the line has by chance.
+    /// Random factor of the line's width.
     pub chance: f64,
-    /// How far to either side the line has to cover the border of something painted, user units.
+    /// Distance to either side that the line must cover on the border of paint, user units.
     pub covers: Option<f64>,
 }
 
@@ -54,7 +53,7 @@ impl Setting {
     }
 }
 
-/// The width by strength alone.
+/// Widths from strength alone.
 pub(crate) fn faded(axis: &Axis, width: f64, fade: f64) -> Vec<f64> {
     let strengths: Vec<f64> = axis.samples.iter().map(|sample| sample.strength).collect();
     let strengths = even(&strengths, axis.closed, EVEN_PX as usize);
@@ -88,8 +87,8 @@ pub(crate) fn widths(axis: &Axis, setting: &Setting) -> Vec<f64> {
     factors.iter().map(|factor| (setting.width * factor).max(setting.least())).collect()
 }
 
-/// How much each point bends out of the shape, -1 to 1: x/(1 + |x|) with x the bend's radius of half
-/// effect times the curvature.
+/// Bend of each point out of the shape, -1 to 1: x/(1 + |x|), where x is curvature times the radius of half
+/// effect.
 fn bends(axis: &Axis, setting: &Setting) -> Vec<f64> {
     let n = axis.len();
     let reach = BEND_PX as isize;
@@ -102,8 +101,8 @@ fn bends(axis: &Axis, setting: &Setting) -> Vec<f64> {
         }
         let (p, q, r) = (axis.point(before), axis.point(k), axis.point(after));
         let (from, to): (Vec2, Vec2) = (q - p, r - q);
-        // A turn to the right is positive, as y points down. Sine of the turn between chords, over half the
-        // way: the circle through the three points.
+        // The page's y points down, so a turn to the right is positive. The curvature is that of the circle
+        // through the three points: twice the sine of the turn between chords, divided by their span.
         let way = length(r - p).max(f64::MIN_POSITIVE);
         2.0 * unit(from).cross(unit(to)) / way
     };
@@ -112,7 +111,7 @@ fn bends(axis: &Axis, setting: &Setting) -> Vec<f64> {
     let sides = even(&sides, axis.closed, BEND_EVEN_PX as usize);
     let hand = handedness(axis);
     let bend = |(curvature, side): (f64, f64)| {
-        // With the shape on the right, a line that bulges out of it turns to the right.
+        // With the shape on the right, a line that bulges outwards turns to the right.
         let outward = if side.abs() > 0.3 { -side.signum() * side.abs().min(1.0) } else { hand };
         let x = curvature * outward * setting.bend_radius;
         x / (1.0 + x.abs())
@@ -120,8 +119,11 @@ fn bends(axis: &Axis, setting: &Setting) -> Vec<f64> {
     curvatures.into_iter().zip(sides).map(bend).collect()
 }
 
-/// Where no side is nearer, lines are drawn as a right hand draws them, from left to right or from the top
-/// down, and closed ones clockwise; to the right is out. 1 if the axis runs so, -1 if it runs backwards.
+/// Assumed drawing direction for lines with no nearer side: 1 if the axis runs that way, -1 if it runs
+/// backwards.
+///
+/// Lines are drawn left to right or top to bottom, and closed ones clockwise, as by a right-handed artist.
+/// The right side counts as outside.
 fn handedness(axis: &Axis) -> f64 {
     let points = &axis.points;
     let (first, last) = (points[0], points[points.len() - 1]);
@@ -137,8 +139,9 @@ fn handedness(axis: &Axis) -> f64 {
     if runs_on { 1.0 } else { -1.0 }
 }
 
-/// Thins the ends of an open axis that are to be tapered, over a length: (2 - t) t of the width, t from 0 at
-/// the end to 1. Lines shorter than that are thinner throughout, as they would be dots.
+/// Tapers the ends of an open axis over the length `over`. The width is multiplied by a factor that rises
+/// from `to` at the end to 1, as (2 - t) t for t from 0 to 1. Shorter lines are thinner throughout, so that
+/// they do not become dots.
 pub(crate) fn taper(axis: &Axis, widths: &mut [f64], ends: [bool; 2], over: f64, to: f64, least: f64) {
     let (Some(first), Some(last)) = (axis.arcs.first(), axis.arcs.last()) else { return };
     let count = ends.iter().filter(|end| **end).count();
@@ -161,7 +164,7 @@ pub(crate) fn taper(axis: &Axis, widths: &mut [f64], ends: [bool; 2], over: f64,
     }
 }
 
-/// Brings the ends of a line that go on in others half-way to the widths of these.
+/// Blends the ends of a line half-way towards the widths of the lines that continue there.
 pub(crate) fn meet(axis: &Axis, widths: &mut [f64], others: [Option<f64>; 2], px: f64) {
     let (Some(first), Some(last)) = (axis.arcs.first(), axis.arcs.last()) else { return };
     let over = (MEET_PX * px).min((last - first) / 2.0);
@@ -184,13 +187,13 @@ pub(crate) fn mean(axis: &Axis, widths: &[f64]) -> f64 {
     area / axis.length().max(f64::MIN_POSITIVE)
 }
 
-/// Values evened out by two running means; at the ends of an open line the window shrinks, so that
-/// the ends stay.
+/// Smooths values with two running means. At the ends of an open line the window shrinks, so the end values
+/// stay.
 fn even(values: &[f64], closed: bool, window: usize) -> Vec<f64> {
     let n = values.len();
     let mut even = values.to_vec();
     for _ in 0..2 {
-        // Closed lines repeat their first point.
+        // Closed lines repeat their first point at the end.
         let ring = n - 1;
         let mut sums = vec![0.0; n + 1];
         for i in 0..n {

@@ -1,4 +1,4 @@
-//! Reads the pictures that a style names for artist lines.
+//! Pictures of artist lines: reads the files that a style names.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -7,7 +7,7 @@ use super::picture_file::{place, read_picture};
 use crate::error::Error;
 use crate::scene::ArtistTextures;
 
-/// Reads the pictures.
+/// Reads the pictures of all artist textures.
 pub(crate) fn read_artist_textures(textures: &mut ArtistTextures) -> Result<(), Error> {
     for texture in &mut textures.0 {
         texture.picture = Some(Arc::new(read_picture(
@@ -19,7 +19,7 @@ pub(crate) fn read_artist_textures(textures: &mut ArtistTextures) -> Result<(), 
     Ok(())
 }
 
-/// Makes the paths of the pictures in a sheet relative to what the sheet's own path is relative to.
+/// Makes the paths of artist textures relative to the folder of their sheet.
 pub(crate) fn place_artist_textures(sheet: &mut toml::Table, folder: &Path) {
     let Some(toml::Value::Table(lines)) = sheet.get_mut("lines") else { return };
     match lines.get_mut("artist_texture") {

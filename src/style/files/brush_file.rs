@@ -1,4 +1,4 @@
-//! Reads the files of brushes: paths of SVG files, and image strips.
+//! Brushes from files: SVG paths and pictures of strokes.
 
 use std::fmt;
 use std::path::Path;
@@ -12,10 +12,10 @@ use crate::colour::pixel_picture::Picture;
 use crate::error::Error;
 use crate::strokes::{BrushChange, BrushShape, ShapeSource};
 
-/// Bytes of a brush that are read.
+/// Maximum size of a brush file, bytes.
 const GREATEST_FILE: u64 = 1 << 24;
 
-/// Reads the files of a brush.
+/// Reads the files of a brush that has not been read.
 pub(crate) fn read_brush(change: &mut BrushChange) -> Result<(), Error> {
     if let BrushChange::Unread(source) = change {
         let brush = source.brush(read)?;
@@ -24,7 +24,7 @@ pub(crate) fn read_brush(change: &mut BrushChange) -> Result<(), Error> {
     Ok(())
 }
 
-/// Makes the paths of brushes in a sheet relative to what the sheet's own path is relative to.
+/// Makes the paths of brushes relative to the folder of their sheet.
 pub(crate) fn place_brushes(sheet: &mut toml::Table, folder: &Path) {
     let place_shape = |shape: &mut toml::Table| {
         for key in ["file", "image"] {

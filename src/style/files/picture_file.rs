@@ -1,4 +1,4 @@
-//! Reads the pictures that a style names by a path.
+//! Reads the pictures that a style names by path.
 
 use std::fmt;
 use std::path::Path;
@@ -6,10 +6,10 @@ use std::path::Path;
 use crate::colour::pixel_picture::Picture;
 use crate::error::Error;
 
-/// Bytes of a picture that are read.
+/// Maximum size of a picture file, bytes.
 const GREATEST_FILE: u64 = 1 << 26;
 
-/// Reads a picture; `of` says what it is a picture of, `remedy` what else to give.
+/// Reads a picture. `of` names its use in errors, `remedy` is the advice.
 pub(crate) fn read_picture(path: &Path, of: &str, remedy: &str) -> Result<Picture, Error> {
     let unread = |error: std::io::Error| {
         Error::io(format!("cannot read the picture {of}"), error).in_file(path).remedy("check the path")
@@ -24,7 +24,7 @@ pub(crate) fn read_picture(path: &Path, of: &str, remedy: &str) -> Result<Pictur
     Picture::decode(&bytes).map_err(|message| unfit(&message))
 }
 
-/// Makes the path at a key of a table relative to what the sheet's own path is relative to.
+/// Makes the path at a key of a table relative to the folder of its sheet.
 pub(crate) fn place(table: &mut toml::Table, key: &str, folder: &Path) {
     if let Some(toml::Value::String(path)) = table.get_mut(key)
         && !path.is_empty()
@@ -33,7 +33,7 @@ pub(crate) fn place(table: &mut toml::Table, key: &str, folder: &Path) {
     }
 }
 
-/// Makes the path of the paper's picture in a sheet relative to what the sheet's own path is relative to.
+/// Makes the path of the paper's picture relative to the folder of its sheet.
 pub(crate) fn place_paper(sheet: &mut toml::Table, folder: &Path) {
     if let Some(toml::Value::Table(page)) = sheet.get_mut("page") {
         place(page, "paper", folder);

@@ -1,4 +1,4 @@
-//! Reads SVG files of a style: what brushes and tiles are made of.
+//! Reads the paths of SVG files for brushes and tiles.
 
 use kurbo::BezPath;
 
@@ -7,11 +7,11 @@ use crate::hatching::Filling;
 /// The paths of an SVG file.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct SvgPaths {
-    /// Width and height of the picture.
+    /// Width and height of the SVG picture.
     pub size: [f64; 2],
-    /// All paths as they run, painted or not.
+    /// All paths, painted or not.
     pub paths: Vec<BezPath>,
-    /// What is painted in dark colours: fillings, and strokes as their outlines.
+    /// The areas painted in dark colours: fills, and strokes as their outlines.
     pub painted: Vec<(BezPath, Filling)>,
 }
 
@@ -63,11 +63,11 @@ fn gather(group: &usvg::Group, found: &mut SvgPaths) {
     }
 }
 
-/// Outlines of strokes are as fine as for a picture this many times as large.
+/// Resolution scale for stroke outlines: they are as fine as for a picture this many times larger.
 #[cfg(feature = "png")]
 const FINE: f32 = 8.0;
 
-/// Whether paint is ink rather than paper.
+/// Whether a paint is dark; gradients and patterns count as dark.
 #[cfg(feature = "png")]
 fn is_dark(paint: &usvg::Paint) -> bool {
     match paint {

@@ -10,14 +10,14 @@ use crate::colour::pixel_picture::Picture;
 use crate::error::Error;
 use crate::hatching::{Filling, Pattern, PatternKind, Tile};
 
-/// Bytes of a tile that are read.
+/// Maximum size of a tile file, bytes.
 const GREATEST_FILE: u64 = 1 << 24;
 
-/// Makes the tile of a pattern, if it is one of tiles.
+/// Reads the tile of a pattern of tiles; does nothing for other patterns.
 pub(crate) fn read_tile(pattern: &mut Pattern) -> Result<(), Error> {
     let named = [pattern.path.is_some(), pattern.file.is_some(), pattern.image.is_some()];
     if pattern.kind != PatternKind::Tile {
-        // A path without a use has always been let pass.
+        // A `path` without effect is accepted, as it always was.
         if named[1] || named[2] {
             return Err(Error::new("`file` and `image` of a pattern are tiles")
                 .at("fills.pattern")
@@ -50,7 +50,7 @@ pub(crate) fn read_tile(pattern: &mut Pattern) -> Result<(), Error> {
     Ok(())
 }
 
-/// Makes the paths of tiles in a sheet relative to what the sheet's own path is relative to.
+/// Makes the paths of tiles relative to the folder of their sheet.
 pub(crate) fn place_tiles(sheet: &mut toml::Table, folder: &Path) {
     let Some(Value::Table(fills)) = sheet.get_mut("fills") else { return };
     let Some(Value::Array(patterns)) = fills.get_mut("pattern") else { return };

@@ -1,21 +1,24 @@
-//! Advice in error messages: the key that an unknown word stands for, and how the value of a key is written.
+//! Advice for error messages: the key that the user may have intended, and how to write its value.
+//!
+//! A wrong path is compared with the ends of all paths, so `crease_deg` is found as `lines.crease_deg`. If
+//! nothing matches, the first misspelt part is replaced by the nearest known word.
 
 use super::key_table::{KeyType, StyleKey};
 use crate::error::nearest::nearest;
 use crate::error::spelling::british;
 
-/// Keys that are suggested at once.
+/// Maximum number of suggested keys.
 const MAX_SUGGESTIONS: usize = 3;
 
-/// The keys in the whole tree whose path ends like a word or a dotted path that is no key; the most general ones first. A word that
-/// no path ends with stands for the nearest one.
+/// The keys whose path ends with an unknown word or dotted path, most general ones first. If there are none,
+/// the first misspelt part is replaced by the nearest known one.
 pub(crate) fn alternatives(typed: &str, only_settable: bool) -> Vec<String> {
     let typed = british(&typed.to_lowercase().replace('-', "_"));
     let exact = ending(&typed, only_settable);
     if !exact.is_empty() {
         return exact;
     }
-    // The first part that is misspelt is replaced.
+    // Replace the first misspelt part.
     let known: Vec<&str> = StyleKey::all().iter().flat_map(|key| key.path.split(['.', '['])).collect();
     let mut parts: Vec<&str> = typed.split('.').collect();
     let Some(wrong) = parts.iter_mut().find(|part| !known.contains(*part)) else { return Vec::new() };
@@ -24,10 +27,11 @@ pub(crate) fn alternatives(typed: &str, only_settable: bool) -> Vec<String> {
     ending(&parts.join("."), only_settable)
 }
 
-/// The keys, and the tables of keys, whose path ends with a word or a dotted path. For the command line only keys that `--set` sets.
+/// The keys and tables whose path ends with a word or dotted path. `only_settable` excludes keys that `--set`
+/// cannot set.
 pub(crate) fn ending(typed: &str, only_settable: bool) -> Vec<String> {
     let suffix = format!(".{typed}");
-    // The depth of each path, and whether it stands for others of its name as well.
+    // Depth of each path, its generality, and the path.
     let mut found: Vec<(usize, bool, &str)> = Vec::new();
     for key in StyleKey::all().iter().filter(|key| key.is_settable() || !only_settable) {
         let ends = key.path.match_indices('.').map(|(at, _)| at).chain([key.path.len()]);
@@ -51,7 +55,7 @@ pub(crate) fn ending(typed: &str, only_settable: bool) -> Vec<String> {
     found.into_iter().take(MAX_SUGGESTIONS).map(|(.., path)| path.to_owned()).collect()
 }
 
-/// Words in a list with "or" before the last one, each in back quotes.
+/// Words in back quotes as a list, with "or" before the last one.
 pub(crate) fn listed(words: &[String]) -> String {
     let quoted: Vec<String> = words.iter().map(|word| format!("`{word}`")).collect();
     match quoted.split_last() {
@@ -61,7 +65,7 @@ pub(crate) fn listed(words: &[String]) -> String {
     }
 }
 
-/// How the value of a key is written: the advice of an error. On the command line lists need quotes of the shell.
+/// Advice on how to write the value of a key. Lists on the command line need shell quotes.
 pub(crate) fn write_value(key: &StyleKey, on_command_line: bool) -> String {
     let words = key.words.join(", ");
     let range = match key.range {

@@ -1,4 +1,7 @@
-//! [`full_sheet`]: a sheet with every key of a style.
+//! [`full_sheet`]: prints a sheet with every key of a style.
+//!
+//! The order is that of the table of keys. Each key has its value or default, and its help as a comment.
+//! Named pens list only the keys that they set.
 
 use std::fmt::Write as _;
 
@@ -6,10 +9,11 @@ use toml::{Table, Value};
 
 use super::key_table::{KeyType, StyleKey};
 
-/// Columns of a comment that lists keys.
+/// Maximum width of a comment that lists keys, columns.
 const COLUMNS: usize = 100;
 
-/// A sheet with all keys: those that the style sets, and the defaults of the others. Keys without a value are comments.
+/// A sheet with all keys: the values of the style, and defaults for the rest. Keys without a value are
+/// commented out.
 pub(crate) fn full_sheet(name: &str, set: &Table) -> String {
     let mut sheet = format!("# All keys of the style `{name}`. A line that begins with # has no effect.\n\n");
     for key in StyleKey::all().iter().filter(|key| key.prefix.is_empty() && key.kind != KeyType::Tables) {
@@ -30,7 +34,7 @@ pub(crate) fn full_sheet(name: &str, set: &Table) -> String {
     sheet
 }
 
-/// A table `[prefix]` with its keys.
+/// Writes a table `[prefix]` with its keys.
 fn write_table(sheet: &mut String, prefix: &str, set: &Table) {
     let keys = || StyleKey::all().iter().filter(|key| key.prefix == prefix && key.kind != KeyType::Tables);
     let empty = Table::new();
@@ -56,7 +60,7 @@ fn write_table(sheet: &mut String, prefix: &str, set: &Table) {
     }
 }
 
-/// The entries of a list of tables, `[[list]]`, or its keys in a comment.
+/// Writes the entries of a list of tables, `[[list]]`, or its keys in a comment.
 fn write_list(sheet: &mut String, list: &str, set: &Table) {
     let start = format!("{list}[].");
     let keys: Vec<(&StyleKey, &str)> =
@@ -65,7 +69,7 @@ fn write_list(sheet: &mut String, list: &str, set: &Table) {
     for entry in entries.iter().filter_map(Value::as_table) {
         let _ = writeln!(sheet, "\n[[{list}]]");
         for (key, name) in &keys {
-            // What a rule or a material does not set stays as it is elsewhere.
+            // Keys that a rule or material does not set keep their values from elsewhere.
             let changes = key.inherits.is_some()
                 || ["fills.material[]", "rule[].pen"].iter().any(|table| key.prefix.starts_with(table));
             if !changes || is_set(entry, name) {
@@ -80,10 +84,10 @@ fn write_list(sheet: &mut String, list: &str, set: &Table) {
     }
 }
 
-/// A line with a key: its value, its default, or a comment.
+/// Writes the line of a key: its value, its default, or a comment.
 fn write_key(sheet: &mut String, key: &StyleKey, name: &str, own: &Table, with_defaults: bool) {
     let help = key.full_help();
-    // The table that holds a key may be written as the value of another key: a brush, a shade.
+    // The table that holds the key may be the value of another key, such as a brush or a shade.
     let start = key.path.strip_suffix(name).unwrap_or_default();
     let holders: Vec<&str> = name.match_indices('.').filter_map(|(at, _)| name.get(..at)).collect();
     let is_key = |holder: &&&str| StyleKey::find(&format!("{start}{holder}")).is_some();
@@ -107,7 +111,7 @@ fn write_key(sheet: &mut String, key: &StyleKey, name: &str, own: &Table, with_d
     }
 }
 
-/// A comment that lists keys, in lines that are not too long.
+/// Writes a comment that lists keys, wrapped to lines.
 fn comment(sheet: &mut String, head: &str, names: &[&str]) {
     let mut line = format!("# {head}:");
     for (number, name) in names.iter().enumerate() {
@@ -125,7 +129,7 @@ fn is_set(table: &Table, name: &str) -> bool {
     value_at(table, name).is_some()
 }
 
-/// The value at a dotted path.
+/// The value at a dotted path of a table.
 pub(crate) fn value_at<'a>(table: &'a Table, path: &str) -> Option<&'a Value> {
     match path.split_once('.') {
         None => table.get(path),

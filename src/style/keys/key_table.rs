@@ -1,39 +1,48 @@
 //! [`StyleKey`]: a row of the table of keys, and the parser of the table.
+//!
+//! Format of `table.txt`, by the start of a line:
+//!
+//! - `@ title | prefixes` starts a section, whose keys exist under each prefix. The first prefix has the
+//!   defaults, and the others inherit from it. `=` before a prefix gives it the same defaults.
+//! - `! note` is a remark about the section.
+//! - `name | type | default | values | unit | help` is a key; `-` stands for an empty cell.
+//! - `#` starts a comment.
 
 use std::sync::OnceLock;
 
-/// The table as text.
+/// Text of the table.
 const TEXT: &str = include_str!("table.txt");
 
-/// One key of a style sheet.
+/// A key of a style sheet.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct StyleKey {
-    /// The dotted path, such as `lines.crease_deg`. A part that ends in `[]` is a list of tables: `hatching.layer[].angle`.
+    /// Dotted path, such as `lines.crease_deg`. A part that ends in `[]` is a list of tables:
+    /// `hatching.layer[].angle`.
     pub path: String,
-    /// The type of its value.
+    /// Type of the value.
     pub kind: KeyType,
-    /// The words it may be, for a choice; words it may be besides a value of its type, otherwise.
+    /// The allowed words of a choice; for other types, words that are allowed in addition.
     pub words: Vec<&'static str>,
-    /// The range of its numbers, such as `0 to 180`; empty if there is none.
+    /// Range of numbers, such as `0 to 180`; may be empty.
     pub range: &'static str,
-    /// The default as TOML; `None` if the key has no value unless it is set, or inherits one.
+    /// Default as TOML; `None` if the key inherits its value or has none.
     pub default: Option<&'static str>,
-    /// The key whose value counts if this one is not set.
+    /// The key whose value applies if this one is not set.
     pub inherits: Option<String>,
-    /// The unit of a bare number; empty if it has none.
+    /// Unit of a bare number; may be empty.
     pub unit: &'static str,
     /// One line of help.
     pub help: &'static str,
     /// Index of its section in [`StyleKey::sections`].
     pub section: usize,
-    /// The prefix of its section that it stands under; empty for keys of the sheet itself.
+    /// The prefix of its section; empty for top-level keys.
     pub prefix: &'static str,
-    /// The key within its section.
+    /// Name of the key within its section.
     pub name: &'static str,
 }
 
-/// The type of a key's value.
+/// Type of a key's value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum KeyType {
@@ -63,15 +72,15 @@ pub enum KeyType {
     Palette,
     /// A colour, or a shade of the material.
     Ink,
-    /// A number, three numbers or a colour that a colour is multiplied by.
+    /// A factor for a colour: a number, three numbers or a colour.
     Factor,
     /// Three numbers.
     Point,
     /// Text.
     Text,
-    /// A name, with `*` and `?`.
+    /// A name pattern with `*` and `?`.
     Name,
-    /// A list of names.
+    /// A list of name patterns.
     Names,
     /// The path of a file.
     Path,
@@ -79,7 +88,7 @@ pub enum KeyType {
     Outline,
     /// A path, or a table of names and paths.
     Texture,
-    /// A speed: model units per second, or a length on the page as text.
+    /// A speed: model units per second, or a length on the page as a string.
     Speed,
     /// A table of further keys, or a word.
     Brush,
@@ -93,14 +102,14 @@ pub enum KeyType {
 pub struct Section {
     /// Its heading.
     pub title: &'static str,
-    /// The tables that its keys stand under; empty text for the sheet itself.
+    /// The tables that contain its keys; an empty string for the top level.
     pub prefixes: Vec<&'static str>,
-    /// Sentences about all its keys; may be empty.
+    /// Remarks about all its keys; may be empty.
     pub note: &'static str,
 }
 
 impl KeyType {
-    /// The names in `table.txt`, and how values are written.
+    /// For each type its name in `table.txt`, and how to write a value.
     const NAMES: [(Self, &'static str, &'static str); 24] = [
         (Self::Switch, "switch", "true or false"),
         (Self::Whole, "whole", "a whole number"),
@@ -137,13 +146,13 @@ impl KeyType {
         Self::NAMES.iter().find(|(kind, ..)| *kind == self).unwrap_or(&Self::NAMES[0])
     }
 
-    /// Its name in the table.
+    /// Name of the type in the table.
     #[must_use]
     pub fn name(self) -> &'static str {
         self.row().1
     }
 
-    /// How a value of this type is written.
+    /// How to write a value of this type.
     #[must_use]
     pub fn form(self) -> &'static str {
         self.row().2
@@ -163,13 +172,13 @@ impl StyleKey {
         &table().0
     }
 
-    /// The key at a path. In a path from a sheet the parts of lists of tables have no `[]`.
+    /// The key at a path. Paths from a sheet omit `[]`.
     #[must_use]
     pub fn find(path: &str) -> Option<&'static Self> {
         Self::all().iter().find(|key| key.path == path || key.is_at(path))
     }
 
-    /// Whether its path without `[]` is this one.
+    /// Whether the path without `[]` equals `path`.
     fn is_at(&self, path: &str) -> bool {
         let mut rest = Some(path);
         for piece in self.path.split("[]") {
@@ -184,26 +193,26 @@ impl StyleKey {
         self.path.replace("[]", "")
     }
 
-    /// Whether `--set` can set it: it is in no list of tables.
+    /// Whether `--set` can set the key: not if it is in a list of tables.
     #[must_use]
     pub fn is_settable(&self) -> bool {
         !self.path.contains("[]") && self.path != "extends"
     }
 
-    /// The help with the allowed values behind it.
+    /// The help text, followed by the allowed values.
     #[must_use]
     pub fn full_help(&self) -> String {
         let values = [self.values(), self.unit.to_owned()];
         let values: Vec<&str> = values.iter().map(String::as_str).filter(|text| !text.is_empty()).collect();
         match values[..] {
             [] => self.help.to_owned(),
-            // Such words are in the help.
+            // The help text already contains these words.
             _ if self.kind == KeyType::Switch || self.values().starts_with("or ") => self.help.to_owned(),
             _ => format!("{} ({})", self.help, values.join(" ")),
         }
     }
 
-    /// Its allowed values in one line: words, a range, or how they are written.
+    /// The allowed values in one line: words, or a range.
     #[must_use]
     pub fn values(&self) -> String {
         let words = self.words.join(", ");
@@ -222,11 +231,11 @@ fn table() -> &'static (Vec<Section>, Vec<StyleKey>) {
     TABLE.get_or_init(|| parse(TEXT))
 }
 
-/// Parses the table. Lines that are no rows are passed over; the tests find them.
+/// Parses the table. Invalid lines are ignored; tests report them.
 fn parse(text: &'static str) -> (Vec<Section>, Vec<StyleKey>) {
     let mut sections: Vec<Section> = Vec::new();
     let mut keys = Vec::new();
-    // The rows of the section that is read; they are expanded prefix by prefix at its end.
+    // Rows of the current section. At its end they are expanded for each prefix.
     let mut rows: Vec<Vec<&'static str>> = Vec::new();
     for line in text.lines().chain(["@ | "]) {
         if let Some(head) = line.strip_prefix("@ ") {
@@ -248,7 +257,7 @@ fn parse(text: &'static str) -> (Vec<Section>, Vec<StyleKey>) {
     (sections, keys)
 }
 
-/// The rows of the last section under each of its prefixes.
+/// Adds the rows of the last section for each of its prefixes.
 fn expand(sections: &[Section], rows: &[Vec<&'static str>], keys: &mut Vec<StyleKey>) {
     let Some(section) = sections.last() else { return };
     let first = section.prefixes.first().copied().unwrap_or_default();
@@ -270,7 +279,7 @@ fn expand(sections: &[Section], rows: &[Vec<&'static str>], keys: &mut Vec<Style
                 KeyType::Length | KeyType::Lengths => "px",
                 _ => given(unit).unwrap_or_default(),
             };
-            // The fields of a brush are set together, or not at all.
+            // The fields of a brush are set together, so each table has its own defaults.
             let own_defaults = own_defaults || name.starts_with("brush.");
             let inherits = (!own_defaults).then(|| joined(first, name));
             let key = StyleKey {
@@ -286,7 +295,7 @@ fn expand(sections: &[Section], rows: &[Vec<&'static str>], keys: &mut Vec<Style
                 prefix,
                 name,
             };
-            // A section may restate a key of an earlier one that has another default there.
+            // A section may repeat a key of an earlier one with another default.
             let is_alone = section.prefixes.len() == 1;
             match keys.iter_mut().find(|other| is_alone && other.path == key.path) {
                 Some(other) => *other = key,

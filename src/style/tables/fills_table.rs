@@ -1,4 +1,7 @@
-//! The table `[fills]`: tones and their colours, and how regions are gathered and painted.
+//! The table `[fills]`: tones and their colours, and how regions are merged and painted.
+//!
+//! Tones come from one of `thresholds`, `steps`, `ramp` and `table`; colours from one of `palette`, `gooch`,
+//! `ramp` and `table`. If a sheet sets one of a group, it replaces the others of the sheet it extends.
 
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
@@ -80,7 +83,7 @@ struct MaterialTable {
 }
 
 impl FillsTable {
-    /// Reads the pictures that ramps and tables name.
+    /// Reads the pictures of ramps and tables.
     pub fn read_pictures(&mut self) -> Result<(), Error> {
         self.highlight.read_pictures()?;
         let own = self.material.iter_mut().filter_map(|material| material.highlight.as_mut());
@@ -98,12 +101,12 @@ impl FillsTable {
         Ok(())
     }
 
-    /// Makes the tiles of patterns.
+    /// Reads the tiles of patterns.
     pub fn read_tiles(&mut self) -> Result<(), Error> {
         self.pattern.iter_mut().try_for_each(read_tile)
     }
 
-    /// The options that the table stands for.
+    /// Converts the table to options.
     pub fn into_options(self) -> (ToneOptions, RegionOptions, TextureOptions, Vec<Pattern>) {
         let tones = ToneOptions::default();
         let region = RegionOptions::default();
@@ -155,7 +158,7 @@ impl MaterialTable {
     }
 }
 
-/// The scale that is asked for; the more special one where there are two.
+/// The scale of tones; the more specific one if there are two.
 fn scale(
     thresholds: Option<Vec<f64>>,
     steps: Option<usize>,
@@ -171,15 +174,15 @@ fn colours(gooch: Option<Gooch>, palette: Option<Vec<Colour>>) -> Option<Colours
     gooch.map(Colours::Gooch).or(palette.map(Colours::Palette))
 }
 
-/// Ways to make tones of which a sheet uses one, and ways to colour them.
+/// Groups of keys that exclude each other: for tones, and for their colours.
 const WAYS: [&[&str]; 2] =
     [&["thresholds", "steps", "ramp", "table"], &["palette", "gooch", "ramp", "table"]];
 
-/// Takes out of a table `[fills]` what another one that is laid over it replaces: thresholds replace
-/// steps, a palette replaces a ramp, and so on.
+/// Removes the keys of a table `[fills]` that another table on top of it replaces. For example, thresholds
+/// replace steps, and a palette replaces a ramp.
 pub(crate) fn set_aside(below: &mut toml::Table, above: &toml::Table) {
     let is_used = |key: &str| match above.get(key) {
-        // A table of Gooch's colours that is switched off is no way to colour.
+        // A table of Gooch colours that is switched off sets no colours.
         Some(toml::Value::Table(gooch)) if key == "gooch" => {
             gooch.get("enabled").and_then(toml::Value::as_bool) != Some(false)
         }
@@ -224,7 +227,7 @@ fn texture_samples<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<
     Err(D::Error::custom(format!("{samples} is not a number of texels a px; write a number from 0.1 to 8")))
 }
 
-/// More colours than this are no few.
+/// Maximum number of texture colours.
 const GREATEST_COLOURS: u64 = 64;
 
 fn palette<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<Colour>>, D::Error> {

@@ -1,4 +1,4 @@
-//! The table `[hatching]`: bins of light, how much ink covers in each, and what the ink is.
+//! The table `[hatching]`: tone bins, ink coverage per bin, and the ink.
 
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer};
@@ -42,7 +42,7 @@ struct MaterialTable {
 }
 
 impl HatchingTable {
-    /// The options that the table stands for.
+    /// Converts the table to options.
     pub fn into_options(self) -> (ShadeOptions, HatchOptions) {
         let shade = ShadeOptions::default();
         let hatch = HatchOptions::default();
@@ -71,7 +71,7 @@ fn some_thresholds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<
     thresholds(deserializer).map(Some)
 }
 
-/// Falling shares of the paper: were the lighter bins darker, strokes could not be nested.
+/// Parses coverage. It must fall, because strokes of lighter bins are a subset of those of darker bins.
 fn coverage<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Vec<f64>>, D::Error> {
     let list = Vec::<f64>::deserialize(deserializer)?;
     let falls = list.windows(2).all(|pair| pair[0] >= pair[1]);

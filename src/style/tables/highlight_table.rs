@@ -12,7 +12,7 @@ use crate::error;
 use crate::light::lights::light_options::fraction;
 use crate::light::tones::tone_options::{Highlight, HighlightChange, exponent, thresholds};
 
-/// The table `[fills.highlight]`, and what of it another one changes.
+/// The table `[fills.highlight]`, also used as a change to another one.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub(crate) struct HighlightTable {
@@ -31,7 +31,7 @@ pub(crate) struct HighlightTable {
     near: Option<f64>,
 }
 
-/// The highlights of a material: on, off, or a table.
+/// The highlights of a material: on, off, or a table of changes.
 #[derive(Debug, Clone)]
 pub(crate) enum HighlightRule {
     Enabled(bool),
@@ -44,7 +44,7 @@ impl<'de> Deserialize<'de> for HighlightRule {
     }
 }
 
-/// Reads either form by its type, so that errors keep their place in the sheet.
+/// Dispatches on the type of the value, which keeps the position of errors in the sheet.
 struct RuleVisitor;
 
 impl<'de> Visitor<'de> for RuleVisitor {
@@ -70,7 +70,7 @@ impl<'de> Visitor<'de> for RuleVisitor {
 }
 
 impl HighlightTable {
-    /// Reads the picture that the ramp names.
+    /// Reads the picture of the ramp.
     pub fn read_pictures(&mut self) -> Result<(), error::Error> {
         self.ramp.iter_mut().try_for_each(RampSource::read)
     }
@@ -96,7 +96,7 @@ impl HighlightTable {
 }
 
 impl HighlightRule {
-    /// Reads the picture that the ramp names.
+    /// Reads the picture of the ramp.
     pub fn read_pictures(&mut self) -> Result<(), error::Error> {
         match self {
             Self::Enabled(_) => Ok(()),
@@ -104,7 +104,7 @@ impl HighlightRule {
         }
     }
 
-    /// What changes; a table switches highlights on unless it says otherwise.
+    /// Converts to a change. A table enables highlights unless it sets `enabled`.
     pub fn into_change(self) -> HighlightChange {
         match self {
             Self::Enabled(enabled) => {
@@ -130,7 +130,7 @@ fn some_fraction<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f6
     fraction(deserializer).map(Some)
 }
 
-/// How near the eye and the lights stand, in sides of the frame.
+/// Parses the distance of the camera and the lights, in sides of the frame.
 fn some_near<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<f64>, D::Error> {
     let value = f64::deserialize(deserializer)?;
     if value == 0.0 || (0.1..=1000.0).contains(&value) {

@@ -1,4 +1,4 @@
-//! Ramps and tables of tones as they are written: colours, or the path of a picture.
+//! Ramps and tables of tones in a style sheet: colours, or the path of a picture.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -12,13 +12,13 @@ use crate::colour::srgb::Colour;
 use crate::error::Error;
 use crate::light::tones::tone_ramps::{Strip, Table};
 
-/// Bytes of a picture of tones that are read.
+/// Maximum size of a picture of tones, bytes.
 const GREATEST_FILE: u64 = 1 << 24;
 
-/// Greatest width and height of a table of tones, pixels.
+/// Maximum width and height of a table of tones, px.
 const GREATEST_TABLE: usize = 1024;
 
-/// A strip of tones: the path of a picture, or colours from dark to light.
+/// A ramp: the path of a picture, or colours from dark to light.
 #[derive(Debug, Clone)]
 pub(crate) enum RampSource {
     Picture(PathBuf),
@@ -72,7 +72,7 @@ impl TableSource {
     }
 }
 
-/// Makes the paths of pictures in a sheet relative to what the sheet's own path is relative to.
+/// Makes the paths of pictures of tones relative to the folder of their sheet.
 pub(crate) fn place_pictures(sheet: &mut toml::Table, folder: &Path) {
     let Some(toml::Value::Table(fills)) = sheet.get_mut("fills") else { return };
     let place = |table: &mut toml::Table| {
@@ -117,7 +117,7 @@ impl<'de> Deserialize<'de> for TableSource {
     }
 }
 
-/// Reads either form by what it meets, so that errors keep their place in the sheet.
+/// Dispatches on the type of the value, which keeps the position of errors in the sheet.
 struct RampVisitor;
 
 impl<'de> Visitor<'de> for RampVisitor {
@@ -138,7 +138,7 @@ impl<'de> Visitor<'de> for RampVisitor {
     }
 }
 
-/// Reads either form by what it meets, so that errors keep their place in the sheet.
+/// Dispatches on the type of the value, which keeps the position of errors in the sheet.
 struct TableVisitor;
 
 impl<'de> Visitor<'de> for TableVisitor {

@@ -1,4 +1,4 @@
-//! The tables and keys of a style sheet, as they are written.
+//! [`Sheet`]: a style sheet as serde reads it, with the tables `[page]` and `[pen]`.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -27,11 +27,11 @@ use crate::style::Style;
 use crate::style::files::brush_file::read_brush;
 use crate::style::files::picture_file::read_picture;
 
-/// A whole style sheet; every key may be left out.
+/// A style sheet; every key is optional.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub(crate) struct Sheet {
-    /// The sheet this one starts from: a built-in name, or a path relative to this sheet.
+    /// The sheet that this one extends: a built-in name, or a path relative to this sheet.
     pub extends: Option<String>,
     seed: u64,
     page: PageTable,
@@ -55,7 +55,7 @@ struct PageTable {
     background: Option<Colour>,
     #[serde(deserialize_with = "fraction")]
     grain: Option<f64>,
-    /// The path of a picture of the paper; empty for none.
+    /// Path of a picture of the paper; empty for none.
     paper: PathBuf,
     #[serde(skip)]
     picture: Option<Arc<Picture>>,
@@ -73,7 +73,7 @@ impl Default for PageTable {
     }
 }
 
-/// The table `[pen]`: the fields of the default pen, and a table for each kind of line.
+/// The table `[pen]`: the fields of the default pen, and a table for each named pen.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 struct PenTable {
@@ -124,7 +124,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// Reads the files of brushes.
+    /// Reads the files of all brushes.
     pub fn read_brushes(&mut self) -> Result<(), Error> {
         self.pen
             .brushes()
@@ -133,7 +133,7 @@ impl Sheet {
             .try_for_each(read_brush)
     }
 
-    /// The options that the sheet stands for.
+    /// Converts the sheet to a style.
     pub fn into_style(self) -> Style {
         let mut stroke = self.pen.into_options();
         stroke.rules.extend(self.rule);
@@ -166,7 +166,7 @@ impl Sheet {
 }
 
 impl PenTable {
-    /// The brushes of all pens.
+    /// The brushes of all pens, set or not.
     fn brushes(&mut self) -> impl Iterator<Item = &mut Option<BrushChange>> {
         let pens = [
             &mut self.contour,
@@ -190,8 +190,8 @@ impl PenTable {
         pens.into_iter().map(|pen| &mut pen.brush).chain([&mut self.brush])
     }
 
-    /// The default pen and one rule for each named pen, weakest claim first: a line's kind, then
-    /// whether it is thick or thin, then whether it is a silhouette, then whether it is hidden.
+    /// The default pen and one rule for each named pen. Later rules win: the kind of line comes first, then
+    /// thick or thin, then silhouette, then hidden.
     fn into_options(self) -> StrokeOptions {
         let mut pen = Pen::default();
         let Self { width, colour, cap, join, dash, opacity, fade, swell, hand, halo, brush, .. } = self;
@@ -233,12 +233,12 @@ impl PenTable {
     }
 }
 
-/// Kinds of line that have surfaces beside them, so that they can be thick or thin.
+/// The kinds of line with adjacent surfaces; only these can be thick or thin.
 fn surface_kinds() -> Vec<LineKind> {
     LineKind::ALL.into_iter().filter(|kind| !matches!(kind, LineKind::Wire | LineKind::Motion)).collect()
 }
 
-/// A length above 0.
+/// Parses a length above 0.
 fn breadth<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Length>, D::Error> {
     let length = Length::deserialize(deserializer)?;
     if length.in_unit(Unit::Px) > 0.0 {
@@ -248,7 +248,7 @@ fn breadth<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Length>,
     }
 }
 
-/// A colour, or `"none"`.
+/// Parses a colour or `"none"`.
 fn colour_or_none<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Colour>, D::Error> {
     struct ColourOrNone;
 

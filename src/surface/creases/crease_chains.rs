@@ -1,9 +1,12 @@
-//! [`Folds`]: the edges where a surface turns noticeably, and the chains they make end to end.
+//! [`Folds`]: crease candidates, and the chains that they form end to end.
+//!
+//! 1. Edges that turn by more than the low threshold are candidates.
+//! 2. At each vertex, candidates are paired by straightness and similar turn, best pair first. A ridge is
+//!    never paired with a valley.
+//! 3. Paired candidates form chains, which run straight through junctions.
 //!
 //! Source: Hubeli and Gross, "Multiresolution feature extraction from unstructured meshes", IEEE
-//! Visualization 2001: edges are given weights, thinned and joined to lines by
-//! hysteresis. Here lines are followed straight on through junctions, and never from a ridge into
-//! a valley.
+//! Visualization 2001: edges are weighted, thinned and joined to lines by hysteresis.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -14,49 +17,50 @@ use crate::mesh::normals::dihedral::{Dihedral, turn_of};
 use crate::mesh::{FaceId, Mesh, Turns};
 use crate::parallel::concatenation::joined;
 
-/// Two folds whose directions make less than this cosine do not continue each other, even where no
-/// other fold ends there: 80 degrees, so that the zigzag of a regular triangulation is one chain.
+/// Minimum cosine of the bend between two candidates at a vertex without others. At 80 degrees the zigzag of
+/// a regular triangulation is one chain.
 const BEND_COSINE: f64 = 0.17;
 
-/// Where more than two folds meet, two continue each other above this cosine: 53 degrees.
+/// Minimum cosine of the bend between two candidates at a vertex with more than two: 53 degrees.
 const JUNCTION_COSINE: f64 = 0.6;
 
-/// A vertex where more folds meet is a tip, through which no line runs.
+/// Maximum number of candidates at a vertex through which a chain may run.
 const TIP: usize = 24;
 
-/// Folds that turn by more than this many degrees are neither ridge nor valley: the surface nearly
-/// lies on itself.
+/// Candidates that turn by more than this many degrees are neither ridge nor valley: the surface almost folds
+/// onto itself.
 const FLAPPED_DEG: f32 = 170.0;
 
-/// An edge at which the surface turns by more than the low threshold.
+/// Edge where the surface turns by more than the low threshold.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fold {
-    /// Its edge.
+    /// Edge id.
     pub edge: u32,
-    /// Degrees by which the surface turns.
+    /// Turn of the surface, degrees.
     pub turn: f32,
 }
 
-/// All folds of a mesh, and which of them end at which vertex.
+/// All candidates of a mesh, indexed by vertex.
 pub(crate) struct Folds<'a> {
     mesh: &'a Mesh,
     /// In edge order.
     pub folds: Vec<Fold>,
-    /// By vertex: the fold shifted left by one; bit 0 says which of its vertices.
+    /// Candidate ends at each vertex: candidate index shifted left by one; bit 0 selects which of its
+    /// vertices.
     ends: Grouped<u32>,
 }
 
-/// Folds end to end.
+/// Candidates joined end to end.
 pub(crate) struct Chain {
     /// In order along the chain.
     pub folds: Vec<Fold>,
-    /// How straight it runs: the mean cosine of its bends, above 0, at most 1.
+    /// Mean cosine of the bends, above 0 and at most 1.
     pub straightness: f64,
-    /// Whether its last fold continues into its first.
+    /// Whether the last candidate continues into the first.
     pub closed: bool,
 }
 
-/// All edges at which the surface turns by more than `low_deg` degrees, in edge order.
+/// All edges where the surface turns by more than `low_deg` degrees, in edge order.
 pub(crate) fn folds(mesh: &Mesh, turns: &Turns, low_deg: f64) -> Vec<Fold> {
     const CHUNK: usize = 1 << 12;
     let low_cosine = cos(low_deg.to_radians()) as f32;
@@ -79,8 +83,8 @@ pub(crate) fn folds(mesh: &Mesh, turns: &Turns, low_deg: f64) -> Vec<Fold> {
 }
 
 impl<'a> Folds<'a> {
-    /// Of these folds of a mesh those that end where one ends that turns by no more than `high_deg` degrees: no others tell
-    /// [where folds go on](Self::going_on), and most machined parts have few of them or none.
+    /// Keeps the candidates that share a vertex with one that turns by at most `high_deg` degrees.
+    /// [`Self::going_on`] needs no others, and most machined parts have few of them or none.
     pub fn around_faint(mesh: &'a Mesh, mut folds: Vec<Fold>, high_deg: f64) -> Self {
         let ends = |f: &Fold| mesh.edges.vertices[f.edge as usize].map(|v| v as usize);
         let faint: Vec<&Fold> = folds.iter().filter(|f| f.turn <= high_deg as f32).collect();
@@ -93,7 +97,7 @@ impl<'a> Folds<'a> {
         Self::new(mesh, folds)
     }
 
-    /// Sorts the ends of folds by vertex.
+    /// Sorts candidate ends by vertex.
     pub fn new(mesh: &'a Mesh, folds: Vec<Fold>) -> Self {
         let vertices = |f: &Fold| mesh.edges.vertices[f.edge as usize];
         let of_fold = |(fold, id): (&Fold, u32)| {
@@ -104,7 +108,7 @@ impl<'a> Folds<'a> {
         Self { mesh, folds, ends }
     }
 
-    /// The chains that hold a fold of more than `high_deg` degrees, each as long as it goes.
+    /// The maximal chains that contain a candidate of more than `high_deg` degrees.
     pub fn chains(&self, high_deg: f64) -> Vec<Chain> {
         let links = self.links();
         let mut taken = vec![false; self.folds.len()];
@@ -133,12 +137,14 @@ impl<'a> Folds<'a> {
         chains
     }
 
-    /// The edges on which folds of more than `high_deg` degrees go on from where they would end inside the surface:
-    /// along folds that continue each other, to the first vertex at which another fold of more than `high_deg` degrees
-    /// ends. Where there is none they do not go on.
+    /// Edges that extend creases which would end inside the surface.
+    ///
+    /// Starts at ends of candidates of more than `high_deg` degrees where no other such candidate ends.
+    /// Follows paired candidates to the first vertex where one ends. An end that reaches none is not
+    /// extended.
     pub fn going_on(&self, high_deg: f64) -> Vec<usize> {
         let is_high = |end: &u32| self.folds[(end >> 1) as usize].turn > high_deg as f32;
-        // The fold that leads to an end is passed over.
+        // Skips the candidate that leads to this end.
         let meets = |end: u32| {
             self.ends.of(self.vertex(end)).iter().any(|other| other >> 1 != end >> 1 && is_high(other))
         };
@@ -159,8 +165,7 @@ impl<'a> Folds<'a> {
         ends.filter(|end| is_high(end) && !meets(*end)).flat_map_iter(walked_from).collect()
     }
 
-    /// Which ends continue each other: for each end the other one and the cosine of the bend
-    /// between them.
+    /// For each candidate end, the end that continues it and the cosine of the bend between them.
     fn links(&self) -> Vec<Option<(u32, f32)>> {
         const CHUNK: usize = 1 << 12;
         let vertices = self.ends.count();
@@ -194,8 +199,8 @@ impl<'a> Folds<'a> {
                 candidates.extend(self.pair(*a, *b, least));
             }
         }
-        // The best pair goes first, what is left pairs up after it; ties are broken by place, so
-        // that they do not depend on the order of the file.
+        // Greedy matching, best pair first. Ties are broken by position, so that the order of the file has no
+        // effect.
         candidates.sort_by(|a, b| b.rank.total_cmp(&a.rank).then_with(|| a.place.total_cmp(&b.place)));
         let first = pairs.len();
         for pair in candidates {
@@ -205,7 +210,7 @@ impl<'a> Folds<'a> {
         }
     }
 
-    /// Two ends at one vertex as a pair, if the one continues the other.
+    /// Two ends at one vertex as a pair, if one continues the other.
     fn pair(&self, a: u32, b: u32, least: f64) -> Option<Pair> {
         let cosine = -self.away(a).dot(self.away(b));
         if cosine < least || !self.same_bend(a, b) {
@@ -222,20 +227,20 @@ impl<'a> Folds<'a> {
         self.mesh.edges.vertices[fold.edge as usize][(end & 1) as usize] as usize
     }
 
-    /// The direction of a fold away from one of its vertices.
+    /// Unit direction of a candidate away from one of its vertices.
     fn away(&self, end: u32) -> DVec3 {
         let [near, far] = [end, end ^ 1].map(|end| self.mesh.positions[self.vertex(end)]);
         (far - near).normalize_or_zero()
     }
 
-    /// Whether two folds are both ridges or both valleys, seen from one side of the surface.
+    /// Whether two candidates are both ridges or both valleys, seen from one side of the surface.
     fn same_bend(&self, a: u32, b: u32) -> bool {
         let [(a, outward_a), (b, outward_b)] = [a, b].map(|end| self.bend(end));
         a * b * outward_a.dot(outward_b) >= 0.0
     }
 
-    /// Below 0 for a ridge, above for a valley, 0 where it cannot be told; and a direction between
-    /// the normals of the two faces on the side from which it is so.
+    /// Sign of the bend (negative for a ridge, positive for a valley, 0 if undecided), and a direction
+    /// between the two face normals. The sign is as seen from the side of that direction.
     fn bend(&self, end: u32) -> (f64, DVec3) {
         let fold = self.folds[(end >> 1) as usize];
         let Some(dihedral) = Dihedral::at(self.mesh, fold.edge as usize) else { return (0.0, DVec3::ZERO) };
@@ -249,8 +254,8 @@ impl<'a> Folds<'a> {
     }
 }
 
-/// Walks on from an end of a fold: the folds on the way, the sum of the cosines of the bends
-/// between them, and whether the walk comes back to where it began.
+/// Follows links from a candidate end. Returns the candidates on the way, the sum of the cosines of the bends
+/// between them, and whether the chain closes.
 fn walk(links: &[Option<(u32, f32)>], from: u32, taken: &mut [bool]) -> (Vec<usize>, f64, bool) {
     let (mut walked, mut cosines, mut end) = (Vec::new(), 0.0, from);
     while let Some((next, cosine)) = links[end as usize] {
@@ -266,19 +271,19 @@ fn walk(links: &[Option<(u32, f32)>], from: u32, taken: &mut [bool]) -> (Vec<usi
     (walked, cosines, false)
 }
 
-/// Two ends at one vertex.
+/// Two candidate ends at one vertex.
 struct Pair {
     ends: [u32; 2],
     /// Cosine of the bend between them.
     cosine: f64,
-    /// How well they go together: straight on, and turning alike.
+    /// Quality of the pair: straightness times similarity of the turns.
     rank: f64,
-    /// Breaks ties.
+    /// Position key that breaks ties.
     place: f64,
 }
 
 impl Pair {
-    /// The end that continues one of the two.
+    /// The end paired with `end`.
     fn other(&self, end: u32) -> Option<u32> {
         let [a, b] = self.ends;
         (a == end).then_some(b).or((b == end).then_some(a))
@@ -291,7 +296,7 @@ mod tests {
     use crate::geometry::numbers::noise::hash;
     use crate::mesh::Soup;
 
-    /// A sheet of squares whose points lie at heights of chance, so that it turns by more here and by less there.
+    /// Sheet of squares with random heights, so that its edges turn by different angles.
     fn rough_sheet(seed: u64, height: f64) -> Mesh {
         const N: u32 = 40;
         let up = |k: u32| height * (hash(seed, &[u64::from(k)]) as f64 / u64::MAX as f64 - 0.5);

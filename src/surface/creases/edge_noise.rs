@@ -1,39 +1,37 @@
-//! [`Roughness`]: by how much a surface turns at the edges around a line, where nothing is meant.
+//! [`Roughness`]: noise of the turns at the edges around a chain.
 //!
-//! The median of absolute turns estimates the spread of noise, whatever the few edges that are
-//! features do to the mean (Huber and Ronchetti, "Robust Statistics"). So does their
-//! lower quartile. Noise spares no edge, so there both agree; a tessellated cylinder turns at two
-//! edges of three, and its diagonals are flat: there the quartile is 0. The geometric mean of both
-//! is taken.
+//! The median of absolute turns estimates the spread of noise and is robust against a few feature edges
+//! (Huber and Ronchetti, "Robust Statistics"). The lower quartile is a second estimate. Noise affects every
+//! edge, so both agree there. A tessellated cylinder turns at two of three edges and is flat at its
+//! diagonals, so its quartile is 0. The result is the geometric mean of both estimates.
 
 use super::crease_chains::Chain;
 use crate::geometry::numbers::portable_math::{acos, cos};
 use crate::mesh::normals::dihedral::Dihedral;
 use crate::mesh::{FirstEdges, Mesh, Turns};
 
-/// The standard deviation of a normal distribution is this many times the median of its absolute
-/// values.
+/// Standard deviation of a normal distribution, in medians of its absolute values.
 const DEVIATION_OF_MEDIAN: f64 = 1.4826;
 
-/// And this many times their lower quartile.
+/// Standard deviation of a normal distribution, in lower quartiles of its absolute values.
 const DEVIATION_OF_QUARTILE: f64 = 3.1383;
 
-/// At most so many edges of a chain are looked around at: a longer chain is sampled evenly.
+/// Maximum number of edges of a chain that are sampled. Longer chains are sampled evenly.
 const SAMPLES: usize = 64;
 
-/// Finds the edges around a line.
+/// Estimates the noise around chains of a mesh.
 pub(crate) struct Roughness<'a> {
     mesh: &'a Mesh,
     turns: &'a Turns,
     edges: FirstEdges<'a>,
-    /// Edges that turn by more than the angle of this cosine are no noise.
+    /// Edges that turn by more than the angle of this cosine are features, not noise.
     high_cosine: f32,
 }
 
-/// What lies around a line.
+/// Noise and edge length around a chain.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Around {
-    /// Standard deviation of the turns, degrees: 0 where all is flat.
+    /// Standard deviation of the turns, degrees; 0 where the surface is flat.
     pub deviation: f64,
     /// Median length of the edges, world units.
     pub edge_length: f64,
@@ -45,8 +43,8 @@ impl<'a> Roughness<'a> {
         Self { mesh, turns, edges, high_cosine: cos(high_deg.to_radians()) as f32 }
     }
 
-    /// The edges of the faces beside a chain and of their neighbours, without those of the chain
-    /// and without other sharp ones.
+    /// Samples the edges of the faces next to a chain and of their neighbours. Edges of the chain and other
+    /// sharp edges are left out of the noise estimate.
     pub fn around(&self, chain: &Chain) -> Around {
         let mut own: Vec<u32> = chain.folds.iter().map(|f| f.edge).collect();
         own.sort_unstable();
@@ -68,7 +66,7 @@ impl<'a> Roughness<'a> {
                 }
             }
         }
-        // Where the cosine is less, the turn is more.
+        // Cosines are negated: a smaller cosine is a larger turn.
         let mut turn = |share| quantile(&mut cosines, share).map_or(0.0, |c| acos(-c).to_degrees());
         let (median, quartile) = (turn(2), turn(4));
         Around {
@@ -77,7 +75,7 @@ impl<'a> Roughness<'a> {
         }
     }
 
-    /// The edges of a face at which it meets another, but for one.
+    /// The edges of a face, except one, where it meets another face.
     fn sides(&self, face: u32, except: usize) -> impl Iterator<Item = (usize, Dihedral)> + '_ {
         let [a, b, c] = self.mesh.triangles[face as usize];
         let edges = [(a, b), (b, c), (c, a)].into_iter().filter_map(|(u, v)| self.edges.between(u, v));
@@ -87,7 +85,7 @@ impl<'a> Roughness<'a> {
     }
 }
 
-/// The number below which one in `share` of some numbers lies, the lower of two.
+/// The quantile 1/`share` of some numbers, rounded down to an element.
 fn quantile(numbers: &mut [f64], share: usize) -> Option<f64> {
     let at = numbers.len().checked_sub(1)? / share;
     Some(*numbers.select_nth_unstable_by(at, f64::total_cmp).1)

@@ -1,8 +1,12 @@
-//! [`HardEdges`]: the edges of a mesh where its surface is meant to be creased.
+//! [`HardEdges`]: the edges where the surface of a mesh is creased.
 //!
-//! Source: Canny, "A computational approach to edge detection", IEEE PAMI 8(6), 1986, section on
-//! thresholding with hysteresis: a line is followed from where it is surely one into where it is
-//! faint. Whether it is one at all is told by the noise around it.
+//! 1. Edges above a low threshold are joined to chains.
+//! 2. Chains with an edge above the high threshold are candidates (hysteresis thresholding).
+//! 3. A chain is a crease if it stands out from the noise of the surface around it.
+//! 4. Edge marks of the file override the result.
+//!
+//! Source: Canny, "A computational approach to edge detection", IEEE PAMI 8(6), 1986, section on thresholding
+//! with hysteresis.
 
 use crate::parallel::prelude::*;
 
@@ -14,50 +18,51 @@ use crate::mesh::edges::edge_set::EdgeSet;
 use crate::mesh::normals::dihedral::{Dihedral, is_unfolded_diagonal, mark};
 use crate::mesh::{EdgeMark, Mesh, Turns};
 
-/// The low threshold as a share of the high one: a crease goes on where it turns by more.
+/// Low threshold as a share of the high one: a crease continues where it turns by more than this.
 pub const LOW_OF_HIGH: f64 = 0.5;
 
-/// A chain is a crease if n²·t/σ is as large as this (see `stands_out`): one right angle by itself
-/// where the surface around is flat within a degree, five straight edges of 40 degrees on a
-/// scan whose triangles turn by ten or so at random.
+/// Minimum of n²·t/σ for a chain to be a crease (see `stands_out`). One right angle reaches it where the
+/// surface around is flat within a degree. On a scan whose triangles turn by about ten degrees at random,
+/// five straight edges of 40 degrees reach it.
 const EVIDENCE: f64 = 80.0;
 
-/// A mean turn of this many deviations is clear of the noise.
+/// Mean turn, in standard deviations of the noise, that counts in full.
 const CLEAR: f64 = 4.0;
 
-/// A chain that comes back to where it began counts as so many times as long.
+/// Factor on the length of a closed chain.
 const LOOP: f64 = 2.0;
 
-/// An edge is tiny if this many times its length is less than the length of the edges around it.
+/// Maximum number of edges that a chain counts for, per median edge length around it.
 const TINY: f64 = 2.0;
 
-/// Turns beyond this many degrees say no more than this one: folded slivers of scans turn by 180.
+/// Turns are capped at this many degrees: folded slivers of scans turn by 180.
 const FULL_TURN_DEG: f64 = 90.0;
 
-/// Edges where the surface is creased: one flag for each edge of a mesh.
+/// Edges where the surface is creased: one flag per edge of a mesh.
 ///
-/// Only edges where two faces meet can be hard; the surface ends at borders, and where three faces
-/// meet, in any case.
+/// Only edges with two faces can be hard. Borders and non-manifold edges always end a surface.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct HardEdges {
-    /// One bit an edge, or empty if none is hard.
+    /// One bit per edge, or empty if none is hard.
     bits: Vec<u64>,
     count: usize,
 }
 
 impl HardEdges {
-    /// Creases as chains: those that hold an edge whose faces turn by more than `crease_deg`
-    /// degrees, go on where they turn by more than half of it ([`LOW_OF_HIGH`]), and stand out
-    /// from the noise around them. Where the surface around is flat, one edge is enough; the
-    /// rougher it is, the longer and straighter a crease must be.
+    /// Finds creases as chains.
     ///
-    /// What the file says of an edge goes before all this.
+    /// A chain is a crease if it has an edge that turns by more than `crease_deg` degrees and stands out from
+    /// the noise around it. It continues where it turns by more than half of that ([`LOW_OF_HIGH`]). Where
+    /// the surface around is flat, one edge is enough. On rougher surfaces a crease must be longer and
+    /// straighter.
+    ///
+    /// Edge marks of the file take precedence.
     #[must_use]
     pub fn find(mesh: &Mesh, crease_deg: f64) -> Self {
         Self::find_with(mesh, &Turns::of(mesh), crease_deg, |_| true)
     }
 
-    /// The same among those edges with two faces for whose first face `is_asked` holds: what they belong to is asked as a whole.
+    /// Same as [`Self::find`], among the two-face edges whose first face satisfies `is_asked`.
     pub(crate) fn find_with(
         mesh: &Mesh,
         turns: &Turns,
@@ -78,8 +83,7 @@ impl HardEdges {
         Self::of_edges(mesh, edges).with_marks(mesh)
     }
 
-    /// Every edge whose faces turn by more than `crease_deg` degrees, and those that the file
-    /// marks.
+    /// Every edge that turns by more than `crease_deg` degrees, and those that the file marks.
     #[must_use]
     pub fn above(mesh: &Mesh, crease_deg: f64) -> Self {
         Self::above_with(mesh, &Turns::of(mesh), crease_deg)
@@ -89,9 +93,11 @@ impl HardEdges {
         Self::of_edges(mesh, folds(mesh, turns, crease_deg).iter().map(|f| f.edge as usize)).with_marks(mesh)
     }
 
-    /// Every edge whose faces turn by more than `crease_deg` degrees, those that the file marks, and of those edges
-    /// of which `goes_on` says so the ones on which a crease goes on to the next line while it turns by more
-    /// than `low_deg` degrees; and the sharp ones among the latter that are none, since they are wrinkles alone.
+    /// Every edge that turns by more than `crease_deg` degrees, edges marked by the file, and extensions.
+    ///
+    /// Extensions continue a crease to the next line through edges that turn by more than `low_deg` degrees.
+    /// They are sought only among edges that satisfy `goes_on`. The second result holds edges that are sharp
+    /// only because of a sliver; they are no creases.
     pub(crate) fn above_and_on(
         mesh: &Mesh,
         turns: &Turns,
@@ -100,7 +106,7 @@ impl HardEdges {
     ) -> (Self, EdgeSet) {
         let folds = folds(mesh, turns, low_deg);
         let cosine = cos(crease_deg.to_radians()) as f32;
-        // As sharp as `above` has it, by cosine and angle.
+        // The same comparison as in `above`: by cosine and by angle.
         let is_above = |f: &Fold| f.turn > crease_deg as f32 && turns.at(mesh, f.edge as usize) < cosine;
         let all = folds.par_iter().with_min_len(1 << 10);
         let mut edges: Vec<usize> = all.clone().filter(|f| is_above(f)).map(|f| f.edge as usize).collect();
@@ -115,14 +121,14 @@ impl HardEdges {
         (Self::of_edges(mesh, edges.into_iter()).with_marks(mesh), wrinkles)
     }
 
-    /// No edge.
+    /// The empty set.
     #[must_use]
     pub fn none() -> Self {
         Self::default()
     }
 
-    /// These hard edges in a mesh with `count` edges made of this one: `ids` tells which of them each edge of this one
-    /// is, `u32::MAX` for none.
+    /// These edges as edges of a derived mesh with `count` edges. `ids` maps the edges of this mesh to it,
+    /// with `u32::MAX` for edges that are gone.
     #[must_use]
     pub fn carried(&self, ids: &[u32], count: usize) -> Self {
         if self.is_empty() {
@@ -140,14 +146,14 @@ impl HardEdges {
         Self { count: self::count(&bits), bits }
     }
 
-    /// Those edges of a mesh of which it is said that they are hard.
+    /// The edges of a mesh that satisfy `is_hard`.
     #[must_use]
     pub fn of(mesh: &Mesh, is_hard: impl Fn(usize) -> bool + Sync) -> Self {
         let bits = EdgeSet::collect(mesh.edges.len(), is_hard).into_words();
         Self { count: count(&bits), bits }
     }
 
-    /// These and more edges of a mesh.
+    /// Adds edges of the mesh.
     #[must_use]
     pub fn with(mut self, mesh: &Mesh, more: &[usize]) -> Self {
         if more.is_empty() {
@@ -169,7 +175,8 @@ impl HardEdges {
         if mesh.edge_marks.is_empty() {
             return self;
         }
-        // Most files have none of those that make creases: then only sharp edges are looked at.
+        // Few files have marks that create creases. Without them only edges that are already hard need a
+        // check.
         let makes = |mark: &EdgeMark| matches!(mark, EdgeMark::Hard | EdgeMark::Cut);
         let makes_creases = mesh.edge_marks.par_iter().any(|marks| marks.iter().any(makes));
         for edge in 0..mesh.edges.len() {
@@ -207,7 +214,7 @@ impl HardEdges {
         self.count
     }
 
-    /// Whether there are none.
+    /// Whether no edge is hard.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.count == 0
@@ -218,13 +225,14 @@ fn count(bits: &[u64]) -> usize {
     bits.iter().map(|word| word.count_ones() as usize).sum()
 }
 
-/// Whether a chain is a feature and not noise: n²·t/σ is large, where n is its length in edges, σ
-/// the spread of the turns around it, and t its mean turn, stretched so that the low threshold
-/// counts nothing and the high one itself.
+/// Whether a chain is a feature rather than noise: n²·t/σ is at least [`EVIDENCE`].
 ///
-/// The mean of n turns of noise spreads by σ/√n only, and noise does not go straight on: most lines
-/// of it end after two or three edges. Hence length counts for more than sharpness, unless the mean
-/// turn is within a few deviations: such lines noise makes too, and they count for less.
+/// n is the length in edges and σ the standard deviation of the turns around the chain. t is the mean turn,
+/// stretched so that the low threshold counts as 0 and the high threshold as itself.
+///
+/// The mean of n noisy turns has a deviation of σ/√n only. Noise also does not run straight: most noisy
+/// chains end after two or three edges. Length therefore counts more than sharpness. Chains whose mean turn
+/// is within a few deviations of zero can be noise, so they count less.
 fn stands_out(mesh: &Mesh, chain: &Chain, crease_deg: f64, roughness: &Roughness) -> bool {
     let around = roughness.around(chain);
     let n = chain.folds.len() as f64;
@@ -234,7 +242,7 @@ fn stands_out(mesh: &Mesh, chain: &Chain, crease_deg: f64, roughness: &Roughness
     let ends = chain.folds.iter().map(|f| mesh.edges.vertices[f.edge as usize]);
     let length: f64 =
         ends.map(|[a, b]| mesh.positions[a as usize].distance(mesh.positions[b as usize])).sum();
-    // Many tiny edges are no more than one that is as long.
+    // Many tiny edges count as one edge of their total length.
     let edges = (TINY * length / around.edge_length.max(f64::MIN_POSITIVE)).clamp(1.0, n);
     let straight = edges * chain.straightness * if chain.closed { LOOP } else { 1.0 };
     let clear = (turn / (CLEAR * around.deviation).max(f64::MIN_POSITIVE)).min(1.0);

@@ -1,8 +1,8 @@
-//! Edges that only a pose creases: folds of a sheet, a hinge that opens.
+//! Edges creased only by a pose: folds of a sheet, an opening hinge.
 //!
-//! Whether an edge is one has a memory, so that none flickers about a threshold: it appears when it turns by more than the upper one,
-//! and goes when it turns by less than the lower one. In between it is what it was. This is Canny's hysteresis (1986) in time instead of
-//! along a line.
+//! Hysteresis in time prevents flicker at the threshold. An edge becomes a crease above the upper threshold
+//! and stops being one below the lower threshold. In between it keeps its earlier state. This is Canny's
+//! hysteresis (1986), applied along time instead of along a line.
 
 use std::cmp::Ordering;
 
@@ -12,10 +12,10 @@ use crate::geometry::numbers::portable_math::cos;
 use crate::mesh::{Dihedral, FaceId, Mesh};
 use crate::parallel::task_size::GRAIN;
 
-/// The thresholds are so far above and below the angle of a crease, as a share of it.
+/// Distance of both thresholds from the crease angle, as a share of that angle.
 const MEMORY: f64 = 0.125;
 
-/// Degrees between which an edge stays what it was.
+/// Hysteresis thresholds, degrees.
 #[derive(Debug, Clone, Copy)]
 struct Thresholds {
     lower: f32,
@@ -23,11 +23,13 @@ struct Thresholds {
     upper: f32,
 }
 
-/// The edges of a mesh that a pose creases, ascending: those at which the surface turns by more than about `crease_deg` degrees, and by as
-/// much more, or the other way, than at rest. `may` says which edges are asked.
+/// Edges that a pose creases, ascending.
 ///
-/// `before` has the same mesh as it was at earlier moments, the latest first; it is asked for no more of them than decide. What they
-/// leave open is a crease if it turns by more than `crease_deg` now.
+/// At such an edge the surface turns by more than about `crease_deg` degrees, and differs from the rest pose
+/// by at least as much. Only edges that satisfy `may` are examined.
+///
+/// `before` yields the mesh at earlier moments, latest first. Only as many are taken as the decision needs.
+/// Edges that stay undecided are creases if they turn by more than `crease_deg` now.
 pub fn bent(
     rest: &Mesh,
     posed: &Mesh,
@@ -38,7 +40,7 @@ pub fn bent(
     let at = |share: f64| (crease_deg * share) as f32;
     let thresholds = Thresholds { lower: at(1.0 - MEMORY), middle: at(1.0), upper: at(1.0 + MEMORY) };
     let least = cos(f64::from(thresholds.lower.min(180.0)).to_radians()) as f32;
-    // Nearly all edges turn too little, which their cosine tells.
+    // Nearly all edges are ruled out by their cosine.
     let turns = |edge: &usize| {
         may(*edge) && Dihedral::at(posed, *edge).is_some_and(|dihedral| dihedral.cosine < least)
     };
@@ -69,7 +71,7 @@ pub fn bent(
 }
 
 impl Thresholds {
-    /// Whether an edge is a crease, where that does not depend on what it was.
+    /// Whether an edge is a crease, or `None` if that depends on its earlier state.
     fn decide(&self, bend: f32) -> Option<bool> {
         match (bend.partial_cmp(&self.upper), bend.partial_cmp(&self.lower)) {
             (Some(Ordering::Greater), _) => Some(true),
@@ -79,14 +81,14 @@ impl Thresholds {
     }
 }
 
-/// Degrees by which the surface turns at an edge and by which it turns otherwise than at rest, whichever is less.
+/// Smaller of two angles, degrees: the turn at an edge, and its difference from the rest pose.
 fn bend(rest: &Mesh, posed: &Mesh, edge: usize) -> Option<f32> {
     let now = signed_turn(posed, edge)?;
     let then = signed_turn(rest, edge).unwrap_or(0.0);
     Some(now.abs().min((now - then).abs()))
 }
 
-/// Degrees by which the surface turns at an edge, less than 0 where its outside is hollow.
+/// Turn of the surface at an edge, degrees; negative where the outside is concave.
 fn signed_turn(mesh: &Mesh, edge: usize) -> Option<f32> {
     let dihedral = Dihedral::at(mesh, edge)?;
     let [first, second] = dihedral.faces;
@@ -106,7 +108,7 @@ mod tests {
     use crate::geometry::numbers::portable_math::sin;
     use crate::mesh::Soup;
 
-    /// Two squares that share a side, at which they turn by so many degrees.
+    /// Two squares that share a side and turn there by an angle.
     fn hinge(degrees: f64) -> Mesh {
         let (c, s) = (cos(degrees.to_radians()), sin(degrees.to_radians()));
         let points = [[-1., 0., 0.], [0., 0., 0.], [0., 1., 0.], [-1., 1., 0.], [c, 0., -s], [c, 1., -s]];
@@ -127,10 +129,10 @@ mod tests {
         assert_eq!(count(0.0, 46.0, &[]), 1);
         assert_eq!(count(0.0, 34.0, &[]), 0);
         assert_eq!(count(0.0, -46.0, &[]), 1);
-        // As at rest, or flatter.
+        // Unchanged from rest, or flatter.
         assert_eq!(count(90.0, 90.0, &[]), 0);
         assert_eq!(count(90.0, 30.0, &[]), 0);
-        // The other way.
+        // Folded the other way.
         assert_eq!(count(25.0, -46.0, &[]), 1);
         assert_eq!(count(25.0, 60.0, &[]), 0);
     }

@@ -1,7 +1,8 @@
-//! `wrinkles`: slivers that lean by themselves between faces that go on into each other.
+//! `wrinkles`: creases that are caused only by slivers in an otherwise smooth surface.
 //!
-//! Where two surfaces were cut along one curve at different steps, slivers close the gaps between both polygons. They lean
-//! by whatever the gap is deep, one edge of them turning as far as the others turn back, and the surface across them does not turn.
+//! Where two surfaces were tessellated along one curve at different steps, slivers close the gaps between the
+//! polygons. A sliver may tilt by any angle: it turns at one edge and back at the other, and the surface
+//! across it does not turn.
 
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
@@ -13,14 +14,16 @@ use crate::mesh::components::disjoint_sets::Groups;
 use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
 use crate::parallel::task_size::GRAIN;
 
-/// A sliver is more than so many times as long as wide.
+/// Minimum aspect ratio (length to width) of a sliver.
 const SLIVER: f64 = 6.0;
-/// The cosine (a degree) above which two faces are of one sliver.
+/// Minimum cosine (one degree) between two faces of one sliver.
 const FLAT_COSINE: f32 = 0.999_85;
-/// More faces than so many are no sliver.
+/// Maximum number of faces in a sliver.
 const MOST: usize = 8;
-/// Those of the edges of creases, in order, that are of slivers around which the surface turns by less than `crease_deg` degrees,
-/// where no other crease goes on from them: what goes on is a line, whatever lies beside it.
+/// The edges of `creases` (ascending) that are caused only by slivers, ascending.
+///
+/// The surface around such a sliver turns by less than `crease_deg` degrees. Lines that connect to other
+/// creases are kept.
 pub(crate) fn wrinkles(mesh: &Mesh, turns: &Turns, crease_deg: f64, creases: &[usize]) -> Vec<usize> {
     let least = cos(crease_deg.to_radians()) as f32;
     let beside = |edge: usize| match mesh.edges.faces(edge) {
@@ -32,13 +35,13 @@ pub(crate) fn wrinkles(mesh: &Mesh, turns: &Turns, crease_deg: f64, creases: &[u
     }
     let lines = lines(mesh, creases);
     let all = (0..creases.len() as u32).into_par_iter().with_min_len(GRAIN);
-    // Of most lines the first edge tells already that they lie at none.
+    // The first edge of a line already rules out most lines.
     let may = |k: u32| lines.of(k) == k && beside(creases[k as usize]) != [None; 2];
     let may: Vec<bool> = all.clone().map(may).collect();
     let mut by_line: Vec<(u32, u32)> =
         all.map(|k| (lines.of(k), k)).filter(|(line, _)| may[*line as usize]).collect();
     by_line.par_sort_unstable();
-    // All edges of a line have to lie at one wrinkle, which has no more than three for each of its faces.
+    // All edges of a line must touch the same sliver, which has at most three edges per face.
     let is_wrinkle = |line: &&[(u32, u32)]| {
         let mut edges = line.iter().map(|(_, k)| creases[*k as usize]);
         let Some(first) = edges.next().filter(|_| line.len() <= 3 * MOST) else { return false };
@@ -61,11 +64,11 @@ pub(crate) fn wrinkles(mesh: &Mesh, turns: &Turns, crease_deg: f64, creases: &[u
     found
 }
 
-/// Which creases hang together by their ends.
+/// Groups creases that are connected at their ends.
 fn lines(mesh: &Mesh, creases: &[usize]) -> Groups {
     let ends = |k: u32| mesh.edges.vertices[creases[k as usize]].map(|vertex| vertex as usize);
     let all = (0..creases.len() as u32).into_par_iter().with_min_len(GRAIN);
-    // Any one of those at a vertex will do, as all of them are joined with it.
+    // Any crease at a vertex can represent it, because all of them are joined to it.
     let one_at: Vec<AtomicU32> = (0..mesh.positions.len()).map(|_| AtomicU32::new(0)).collect();
     all.clone().for_each(|k| ends(k).iter().for_each(|vertex| one_at[*vertex].store(k, Relaxed)));
     Groups::new(creases.len(), |join| {
@@ -73,10 +76,11 @@ fn lines(mesh: &Mesh, creases: &[usize]) -> Groups {
     })
 }
 
-/// The least face of the sliver that a face is of, if all that is around it turns into each other by less than a cosine has it.
+/// The smallest face id of the sliver that contains `face`. `None` unless all faces around the sliver turn
+/// into each other by less than the angle of cosine `least`.
 fn wrinkle(mesh: &Mesh, turns: &Turns, least: f32, face: u32) -> Option<u32> {
     let mut own = vec![face];
-    // What is beyond, with its normal as seen from the side from which the sliver is seen.
+    // Normals of the faces around, as seen from the front of the sliver.
     let mut around: Vec<[f32; 3]> = Vec::new();
     let mut area = 0.0;
     let mut at = 0;

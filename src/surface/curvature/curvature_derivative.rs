@@ -1,7 +1,7 @@
-//! The derivative of the curvature tensor at the smooth vertices of a mesh.
+//! Derivative of the curvature tensor at the smooth vertices of a mesh.
 //!
-//! Source: Rusinkiewicz 2004, section 4: the same method once more, from the differences of the
-//! tensors at the corners of each face.
+//! Source: Rusinkiewicz 2004, section 4. The method for curvatures is applied again, to the differences of
+//! the tensors at the corners of each face.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -13,7 +13,7 @@ use crate::mesh::{FaceId, Mesh};
 use crate::parallel::task_size::GRAIN;
 use crate::surface::SmoothNormals;
 
-/// The derivatives along the principal directions, entries 111, 112, 122, 222.
+/// Derivatives along the principal directions, entries 111, 112, 122, 222.
 pub(crate) fn derivative(
     mesh: &Mesh,
     smooth: &SmoothNormals,
@@ -45,7 +45,7 @@ pub(crate) fn derivative(
         .collect()
 }
 
-/// The derivative over a face in its frame, in least squares.
+/// Derivative over a face in its frame, by least squares.
 fn of_face(
     mesh: &Mesh,
     smooth: &SmoothNormals,
@@ -87,10 +87,10 @@ fn of_face(
     solve(matrix, right)
 }
 
-/// A symmetric tensor of rank three given in axes `old`, in axes `new` of the same plane.
+/// Transforms a symmetric tensor of rank three from axes `old` to axes `new` of the same plane.
 fn in_axes3([a, b, c, d]: [f64; 4], old: [DVec3; 2], new: [DVec3; 2]) -> [f64; 4] {
     let [[p, q], [r, s]] = new.map(|axis| [axis.dot(old[0]), axis.dot(old[1])]);
-    // The tensor applied to the first axis, and to the second: two tensors of rank two.
+    // The tensor applied to the first and to the second axis: two tensors of rank two.
     let first = [a * p + b * q, b * p + c * q, c * p + d * q];
     let second = [a * r + b * s, b * r + c * s, c * r + d * s];
     let twice = |[x, y, z]: [f64; 3], i: [f64; 2], j: [f64; 2]| {

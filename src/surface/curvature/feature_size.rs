@@ -1,9 +1,11 @@
-//! `feature_size`: the length by which thresholds of curvature are measured.
+//! `feature_size`: length that makes curvature thresholds dimensionless.
 //!
-//! Source: the measure of the same name in Rusinkiewicz's rtsc: a hundredth of the radius of
-//! curvature that nine tenths of the surface do not exceed, but no more than a small part of the
-//! model. Here pieces of the surface count by their area, so that how finely they are cut does not
-//! matter, and each part of the model has its own size of features, so that no other part changes its lines.
+//! The feature size is a hundredth of a radius of curvature, limited to a small share of the part. 90 % of
+//! the surface has a radius of at most this value. Surface elements are weighted by area, so that the
+//! tessellation has no effect. Each part has its own feature size, so that its lines do not depend on other
+//! parts.
+//!
+//! Source: the measure of the same name in Rusinkiewicz's rtsc.
 
 use crate::parallel::prelude::*;
 
@@ -12,17 +14,17 @@ use super::vertex_fans::Fans;
 use crate::mesh::{Mesh, PartId};
 use crate::parallel::task_size::GRAIN;
 
-/// The part of the surface that may be flatter than the measured curvature.
+/// Share of the surface, by area, that may be flatter than the measured curvature.
 const FLATTER: f64 = 0.1;
 
-/// The feature size in radii of that curvature.
+/// Feature size, as a share of the radius of that curvature.
 const OF_RADIUS: f64 = 0.01;
 
-/// The largest feature size, as a fraction of the part.
+/// Maximum feature size, as a share of the part.
 pub const MOST_OF_PART: f64 = 0.025;
 
-/// The size of the features of each part, world units: thresholds of curvature are multiples of its
-/// inverse, those of derivatives of its inverse square. Scales with the part. `part_of` has one part per smooth
+/// Feature size of each part, world units. It scales with the part. Curvature thresholds are multiples of its
+/// inverse; thresholds on derivatives are multiples of its inverse square. `part_of` has one part per smooth
 /// vertex.
 pub(crate) fn feature_sizes(
     mesh: &Mesh,
@@ -39,7 +41,7 @@ pub(crate) fn feature_sizes(
             [(part, p.k1.abs(), area), (part, p.k2.abs(), area)]
         })
         .collect();
-    // Areas are summed in the order of the curvatures, whatever the order of vertices.
+    // Areas are summed in the order of curvatures, so that the order of vertices has no effect.
     bends.par_sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
     let mut sizes = vec![0.0; bends.last().map_or(0, |last| last.0.index() + 1)];
     for of_part in bends.chunk_by(|a, b| a.0 == b.0) {
@@ -49,7 +51,7 @@ pub(crate) fn feature_sizes(
     sizes
 }
 
-/// The size of the features of a part from its curvatures, ascending, with their areas.
+/// Feature size of a part from its curvatures, ascending, with their areas.
 fn feature_size(bends: &[(PartId, f64, f64)], most: f64) -> f64 {
     let total: f64 = bends.iter().map(|bend| bend.2).sum();
     let mut sum = 0.0;

@@ -1,11 +1,11 @@
-//! Normals smoothed over a length: the noise of scans goes, the shape stays.
+//! Normals smoothed by heat diffusion, which removes the noise of scans and keeps the shape.
 //!
-//! One step takes the mean normal of each face, and gives each vertex the mean of the faces around
-//! it, weighted by area. Heat that flows for a time is a sum of such steps, and Chebyshev's
-//! polynomials need far fewer of them than small steps would: about the square root.
+//! 1. One step S averages the corner normals of each face, and then the faces around each vertex by area.
+//! 2. Heat flow over a time is a series in S. In Chebyshev polynomials it needs about the square root of the
+//!    number of small steps.
 //!
-//! Source: Hammond, Vandergheynst and Gribonval, "Wavelets on graphs via spectral graph theory",
-//! 2011, section 6, for Chebyshev's polynomials of a smoothing matrix.
+//! Source: Hammond, Vandergheynst and Gribonval, "Wavelets on graphs via spectral graph theory", 2011,
+//! section 6, for Chebyshev polynomials of a smoothing matrix.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -15,16 +15,16 @@ use crate::mesh::PartId;
 use crate::parallel::task_size::GRAIN;
 use crate::surface::SmoothNormals;
 
-/// Terms that add less than this to the sum are left out.
+/// Minimum weight of a term of the series.
 const LEAST_TERM: f64 = 2e-3;
 
-/// Longest smoothing in usual lengths of edges; more would take long, and finer meshes are scanned
-/// more exactly.
+/// Maximum standard deviation of the smoothing, in typical edge lengths. It limits the run time; finer meshes
+/// are scanned more exactly.
 const MOST_EDGES: f64 = 4.0;
 
-/// The unit normals, smoothed with a bell curve of the standard deviation that `length` gives for each part,
-/// world units; no more than [`MOST_EDGES`]. Where edges are as long as that, normals stay as they are.
-/// `part_of` has one part per smooth vertex.
+/// Unit normals smoothed with a Gaussian. `length` returns its standard deviation for each part, world units,
+/// limited to [`MOST_EDGES`]. Normals stay unchanged where edges are as long as that. `part_of` has one part
+/// per smooth vertex.
 pub(crate) fn diffuse(
     smooth: &SmoothNormals,
     fans: &Fans,
@@ -47,7 +47,8 @@ pub(crate) fn diffuse(
         if length <= 0.0 || *edge2 <= 0.0 {
             return vec![1.0];
         }
-        // A step spreads by a third of the squared edge in each direction, where triangles are regular.
+        // On regular triangles, one step has a variance of a third of the squared edge length in each
+        // direction.
         let steps = 3.0 * (length * length / edge2).min(MOST_EDGES * MOST_EDGES);
         weights(steps / 2.0)
     };
@@ -58,7 +59,7 @@ pub(crate) fn diffuse(
     }
     let usual = |face: usize| edge2_of[part_of_face(face)] / EDGE2_OF_AREA;
     let mut flow = Flow::new(smooth, fans, &areas, usual);
-    // A vertex in no fan stays as it is.
+    // A vertex in no fan stays unchanged.
     let weight = |vertex: usize, k: usize| {
         let weights = weights_of.get(part_of[vertex].index());
         weights.map_or(f64::from(u8::from(k == 0)), |weights| weights.get(k).copied().unwrap_or(0.0))
@@ -75,16 +76,16 @@ pub(crate) fn diffuse(
     sum
 }
 
-/// A step of smoothing S and what it needs.
+/// One smoothing step S, with its data.
 struct Flow<'a> {
     smooth: &'a SmoothNormals,
     fans: &'a Fans,
-    /// The area by which each face takes part: large faces only by the share that keeps the length
-    /// of smoothing the same as elsewhere.
+    /// Effective area of each face. Large faces count only in part, so that the smoothing length is the same
+    /// everywhere.
     parts: Vec<f64>,
-    /// For each vertex, the inverse of the area around it, and the share that takes no part.
+    /// For each vertex, the inverse of the area around it, and the share of that area that is not smoothed.
     around: Vec<(f64, f64)>,
-    /// Room for the mean normals of the faces, weighted by their parts.
+    /// Buffer for the mean normals of the faces, weighted by effective area.
     means: Vec<DVec3>,
 }
 
@@ -108,9 +109,8 @@ impl<'a> Flow<'a> {
         Self { smooth, fans, parts, around, means }
     }
 
-    /// One step of Chebyshev's recurrence for the matrix 2 S − 1, whose eigenvalues lie from −1 to
-    /// 1: `before` becomes `factor` (2 S − 1) `now` − `before`, and `sum` grows by `weight` times
-    /// that.
+    /// One step of Chebyshev's recurrence for the matrix 2 S − 1, whose eigenvalues lie from −1 to 1.
+    /// `before` becomes `factor` (2 S − 1) `now` − `before`, and `sum` grows by `weight` times that.
     fn step(
         &mut self,
         now: &[DVec3],
@@ -137,10 +137,10 @@ impl<'a> Flow<'a> {
     }
 }
 
-/// Square of the edge of an even-sided triangle, in areas.
+/// Squared edge of an equilateral triangle, divided by its area.
 const EDGE2_OF_AREA: f64 = 2.309_401_076_758_503;
 
-/// The square of the edge of an even-sided triangle as large as the median of all, 0 without any.
+/// Squared edge of an equilateral triangle with the median area; 0 without triangles.
 fn usual_edge_squared(mut sound: Vec<f64>) -> f64 {
     if sound.is_empty() {
         return 0.0;
@@ -150,8 +150,8 @@ fn usual_edge_squared(mut sound: Vec<f64>) -> f64 {
     *median * EDGE2_OF_AREA
 }
 
-/// The coefficients of exp(−z (1 − x)) in Chebyshev's polynomials of x: the modified Bessel
-/// functions of z, by Miller's backward recurrence. Their sum is 1.
+/// Chebyshev coefficients of exp(−z (1 − x)): modified Bessel functions of z, by Miller's backward
+/// recurrence. Their sum is 1.
 fn weights(z: f64) -> Vec<f64> {
     let count = (16.0 + 12.0 * z.sqrt() + z).ceil() as usize;
     let mut bessel = vec![0.0; count + 2];

@@ -1,8 +1,11 @@
-//! [`Principal`]: the principal curvatures at the smooth vertices of a mesh.
+//! [`Principal`]: principal curvatures at the smooth vertices of a mesh.
 //!
-//! Source: Szymon Rusinkiewicz, "Estimating curvatures and their derivatives on triangle meshes",
-//! 3DPVT 2004: a tensor for each face from the differences of the normals at its corners, averaged
-//! over the faces around each vertex in frames that are turned into one plane.
+//! 1. A curvature tensor is fitted to each face, from the differences of the normals at its corners.
+//! 2. The tensors of the faces around a vertex are rotated into its tangent plane and averaged by Voronoi
+//!    area.
+//! 3. The average is diagonalised.
+//!
+//! Source: Szymon Rusinkiewicz, "Estimating curvatures and their derivatives on triangle meshes", 3DPVT 2004.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -16,15 +19,14 @@ use crate::surface::SmoothNormals;
 /// The principal curvatures at a point of a surface, and their directions.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Principal {
-    /// The curvature that is larger in size, per world unit; positive where the surface bends away
-    /// from its normal, as a ball does.
+    /// Curvature of larger magnitude, per world unit; positive where the surface is convex, as on a sphere.
     pub k1: f64,
-    /// The other one.
+    /// Curvature of smaller magnitude, per world unit.
     pub k2: f64,
-    /// Unit vector along which the surface bends by `k1`; its sense means nothing. Zero where
-    /// nothing is known.
+    /// Unit vector of the direction with curvature `k1`; its sign is arbitrary. Zero where the curvature is
+    /// unknown.
     pub dir1: DVec3,
-    /// Unit vector along which it bends by `k2`: the normal, `dir1` and `dir2` are right-handed.
+    /// Unit vector of the direction with curvature `k2`. The normal, `dir1` and `dir2` are right-handed.
     pub dir2: DVec3,
 }
 
@@ -61,8 +63,8 @@ pub(crate) fn principal(
         .collect()
 }
 
-/// The curvature tensor of a face in its frame, entries 11, 12, 22: the one by which the normals at
-/// its corners differ, in least squares.
+/// Curvature tensor of a face in its frame, entries 11, 12, 22: the least-squares fit to the differences of
+/// its corner normals.
 fn tensor(
     mesh: &Mesh,
     smooth: &SmoothNormals,
@@ -90,7 +92,7 @@ fn tensor(
     solve([[uu, uv, 0.0], [uv, uu + vv, uv], [0.0, uv, vv]], right)
 }
 
-/// Axes in the plane normal to `from`, turned by the shortest way into the plane normal to `to`.
+/// Axes in the plane normal to `from`, rotated by the shortest rotation into the plane normal to `to`.
 #[inline]
 pub(crate) fn turned(axes: [DVec3; 2], from: DVec3, to: DVec3) -> [DVec3; 2] {
     let cosine = from.dot(to);
@@ -102,7 +104,7 @@ pub(crate) fn turned(axes: [DVec3; 2], from: DVec3, to: DVec3) -> [DVec3; 2] {
     axes.map(|axis| axis - half * axis.dot(across))
 }
 
-/// A symmetric tensor (11, 12, 22) given in axes `old`, in axes `new` of the same plane.
+/// Transforms a symmetric tensor (11, 12, 22) from axes `old` to axes `new` of the same plane.
 #[inline]
 pub(crate) fn in_axes([a, b, c]: [f64; 3], old: [DVec3; 2], new: [DVec3; 2]) -> [f64; 3] {
     let [[p, q], [r, s]] = new.map(|axis| [axis.dot(old[0]), axis.dot(old[1])]);
@@ -113,12 +115,12 @@ pub(crate) fn in_axes([a, b, c]: [f64; 3], old: [DVec3; 2], new: [DVec3; 2]) -> 
     ]
 }
 
-/// Eigenvalues and eigenvectors of a tensor in axes.
+/// Eigenvalues and eigenvectors of a tensor given in axes.
 fn diagonal([a, b, c]: [f64; 3], [u, v]: [DVec3; 2]) -> Principal {
     let (mean, half) = ((a + c) / 2.0, (a - c) / 2.0);
     let spread = (half * half + b * b).sqrt();
     let (high, low) = (mean + spread, mean - spread);
-    // The eigenvector of `high`, from the row that loses fewest digits.
+    // The eigenvector of `high`, from the row with less cancellation.
     let (x, y) = if half >= 0.0 { (half + spread, b) } else { (b, spread - half) };
     let along = (u * x + v * y).try_normalize().unwrap_or(u);
     let across = v * x - u * y;

@@ -1,7 +1,6 @@
-//! [`Curvature`]: how the rounded surfaces of a mesh bend, and how that changes along them.
+//! [`Curvature`]: principal curvatures of the curved surfaces of a mesh, and their derivatives.
 //!
-//! Source: Rusinkiewicz 2004 (see `principal.rs`); here the normals are smoothed beforehand (see
-//! `diffusion.rs`).
+//! Source: Rusinkiewicz 2004 (see [`Principal`]). Here the normals are smoothed first (see `diffuse`).
 
 use glam::DVec3;
 
@@ -18,22 +17,21 @@ use crate::surface::SmoothNormals;
 pub struct Curvature {
     /// The faces around each smooth vertex.
     pub fans: Fans,
-    /// The smoothed unit normals. One per smooth vertex.
+    /// Smoothed unit normals, one per smooth vertex.
     pub normals: Vec<DVec3>,
-    /// One per smooth vertex.
+    /// Principal curvatures, one per smooth vertex.
     pub principal: Vec<Principal>,
-    /// The derivative of the curvature tensor along `dir1` and `dir2`, per world unit squared: the
-    /// four different entries of a symmetric 2 × 2 × 2 tensor, 111, 112, 122, 222. One per smooth
-    /// vertex.
+    /// Derivative of the curvature tensor along `dir1` and `dir2`, per world unit squared, one per smooth
+    /// vertex. The entries 111, 112, 122, 222 of a symmetric 2 × 2 × 2 tensor.
     pub derivative: Vec<[f64; 4]>,
-    /// Size of the features of each part, world units; see `feature_size::feature_sizes`.
+    /// Feature size of each part, world units; see `feature_size::feature_sizes`.
     pub feature_sizes: Vec<f64>,
-    /// The body of each smooth vertex, by its first part.
+    /// Body of each smooth vertex, by its first part.
     part_of: Vec<PartId>,
 }
 
 impl Curvature {
-    /// Measures a surface whose normals are smoothed over `smoothing` times the scale of each part.
+    /// Measures a surface. Normals are smoothed over `smoothing` times the scale of each part.
     #[must_use]
     pub fn new(mesh: &Mesh, smooth: &SmoothNormals, smoothing: f64) -> Self {
         let fans = Fans::new(mesh, smooth);
@@ -46,7 +44,7 @@ impl Curvature {
         Self { fans, normals, principal, derivative, feature_sizes, part_of }
     }
 
-    /// The size of the features around a smooth vertex, world units.
+    /// Feature size around a smooth vertex, world units.
     #[inline]
     #[must_use]
     pub fn feature_size(&self, vertex: u32) -> f64 {

@@ -1,4 +1,4 @@
-//! [`Fans`]: the rounded faces around each smooth vertex, with the shares of their areas.
+//! [`Fans`]: the curved faces around each smooth vertex, with their shares of area.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -9,7 +9,7 @@ use crate::parallel::task_size::GRAIN;
 use crate::surface::SmoothNormals;
 use crate::surface::normals::smooth_normals::NO_NORMAL;
 
-/// The rounded faces around each smooth vertex, and a frame of axes in each face.
+/// The curved faces around each smooth vertex, and a coordinate frame in each face.
 ///
 /// Flat faces and faces without area are in no fan.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -19,14 +19,13 @@ pub struct Fans {
     pub(crate) frames: Vec<FaceFrame>,
 }
 
-/// Axes in the plane of a face, and how its area is shared among its corners.
+/// Coordinate frame in the plane of a face, and the area of each corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct FaceFrame {
-    /// Unit vectors that make a right-handed frame with the normal; zero where the face is in no
-    /// fan.
+    /// Unit vectors that form a right-handed frame with the normal; zero where the face is in no fan.
     pub u: DVec3,
     pub v: DVec3,
-    /// The part of the area that is nearest to each corner, world units squared.
+    /// Voronoi area of each corner, world units squared.
     pub areas: [f64; 3],
 }
 
@@ -50,13 +49,14 @@ impl Fans {
         Self { corners, frames }
     }
 
-    /// The faces around a smooth vertex, and which of their corners it is, in mesh order.
+    /// The faces around a smooth vertex, with the index of their corner there, in mesh order.
     #[inline]
     pub fn around(&self, vertex: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.corners.of(vertex).iter().map(|corner| ((corner >> 2) as usize, (corner & 3) as usize))
     }
 
-    /// The body of each of so many smooth vertices, by its first part: that of the first face around it.
+    /// Body of each of `vertices` smooth vertices, by its first part: that of the first face around the
+    /// vertex.
     #[must_use]
     pub fn bodies(&self, mesh: &Mesh, vertices: usize) -> Vec<PartId> {
         let body = |vertex| {
@@ -72,7 +72,7 @@ impl Fans {
         self.frames[face].u != DVec3::ZERO
     }
 
-    /// The area of all rounded faces that is nearest to a smooth vertex, world units squared.
+    /// Voronoi area of a smooth vertex over its curved faces, world units squared.
     #[must_use]
     pub fn area(&self, vertex: usize) -> f64 {
         self.around(vertex).map(|(face, corner)| self.frames[face].areas[corner]).sum()
@@ -101,19 +101,19 @@ impl FaceFrame {
     }
 }
 
-/// The sides of a triangle, each opposite to its corner.
+/// The sides of a triangle, each opposite its corner.
 #[inline]
 pub(crate) fn sides([a, b, c]: &[DVec3; 3]) -> [DVec3; 3] {
     [c - b, a - c, b - a]
 }
 
-/// The Voronoi areas of the corners of a triangle; in an obtuse one, cut at its sides.
+/// Voronoi areas of the corners of a triangle, cut off at the sides of an obtuse triangle.
 ///
-/// Source: Meyer, Desbrun, Schröder and Barr, "Discrete differential-geometry operators for
-/// triangulated 2-manifolds", 2002, section 3.3.
+/// Source: Meyer, Desbrun, Schröder and Barr, "Discrete differential-geometry operators for triangulated
+/// 2-manifolds", 2002, section 3.3.
 fn corner_areas(sides: [DVec3; 3], area: f64) -> [f64; 3] {
     let squares = sides.map(DVec3::length_squared);
-    // Barycentric coordinates of the centre of the circle round the triangle, not normalised.
+    // Unnormalised barycentric coordinates of the circumcentre.
     let centre = [0, 1, 2].map(|i| {
         let (next, last) = ((i + 1) % 3, (i + 2) % 3);
         squares[i] * (squares[next] + squares[last] - squares[i])
@@ -147,7 +147,7 @@ mod tests {
         assert!(right.iter().zip([1.0, 0.5, 0.5]).all(|(a, b)| (a - b).abs() < 1e-12), "{right:?}");
         let obtuse = areas([[0.0, 0.0], [4.0, 0.0], [2.0, 0.5]]);
         assert!((obtuse.iter().sum::<f64>() - 1.0).abs() < 1e-12 && obtuse.iter().all(|a| *a > 0.0));
-        // What is nearest to an end of the long side ends where its neighbour side is halved.
+        // The Voronoi area of an end of the long side is bounded by the bisector of the neighbouring side.
         let half = 17f64.sqrt() / 4.0;
         assert!((obtuse[0] - half * half / 4.0 / 2.0 * 1.0).abs() < 0.02, "{obtuse:?}");
     }

@@ -1,6 +1,7 @@
-//! [`rims`]: cylinders of which there are narrow facets alone, such as the tips and roots of gears, about axes that are known.
+//! [`rims`]: cylinders made of separate narrow facets around known axes, such as the tips and roots of gears.
 //!
-//! A facet is a chord of a circle about an axis where its corners are all at one distance from that, and its normal leads through it.
+//! A facet is a chord of a circle around an axis if its corners are equally far from the axis and its normal
+//! passes through the axis.
 
 use std::f64::consts::TAU;
 
@@ -11,31 +12,32 @@ use crate::geometry::numbers::portable_math::atan2;
 use crate::mesh::components::bodies::body_of;
 use crate::mesh::{Groups, Mesh, PartId};
 
-/// So much of a turn makes an axis known, radians.
+/// Minimum arc, radians, of a cylinder whose axis is used.
 const WHOLE: f64 = 5.8;
 
-/// A facet of a rim spans no more, radians: sides of nuts are none.
+/// Maximum arc of a facet of a rim, radians. It excludes the sides of nuts.
 const WIDEST: f64 = 0.45;
 
-/// A rim has no fewer facets, each of no more triangles.
+/// Minimum number of facets of a rim, and maximum number of triangles of a facet.
 const FEWEST: usize = 6;
 const MOST_TRIANGLES: usize = 24;
 
-/// How far distances from the axis may differ, as a share of them: on a facet, and from facet to facet.
+/// Maximum difference of distances from the axis, as a share: within a facet, and between facets.
 const SAME: f64 = 2e-4;
 const ALIKE: f64 = 1e-3;
 
-/// A chord of a circle about an axis.
+/// Chord of a circle around an axis.
 struct Chord {
     radius: f64,
-    /// How far the distances of its corners differ.
+    /// Difference between the largest and smallest distance of its corners from the axis.
     spread: f64,
     hollow: bool,
     arc: f64,
     ends: [f64; 2],
 }
 
-/// The rims about the axes of whole cylinders of the same body, where none of their radius is known.
+/// The rims around the axes of complete cylinders of the same body, where no cylinder of the same radius is
+/// known.
 pub(crate) fn rims(mesh: &Mesh, normals: &[DVec3], facets: &Groups, known: &[Cylinder]) -> Vec<Cylinder> {
     let body = |part: PartId| body_of(&mesh.bodies, part);
     let mut axes: Vec<&Cylinder> = Vec::new();
@@ -85,7 +87,7 @@ fn is_coaxial(a: &Cylinder, b: &Cylinder) -> bool {
         && (apart - a.axis * apart.dot(a.axis)).length() < 5.0 * ALIKE * a.radius.min(b.radius)
 }
 
-/// A facet as a chord about an axis, if it is one.
+/// A facet as a chord around an axis, if it is one.
 fn chord(mesh: &Mesh, faces: &[u32], normal: DVec3, about: &Cylinder) -> Option<Chord> {
     if normal == DVec3::ZERO || normal.dot(about.axis).abs() > ALIKE {
         return None;
@@ -113,7 +115,7 @@ fn chord(mesh: &Mesh, faces: &[u32], normal: DVec3, about: &Cylinder) -> Option<
     is_chord.then_some(Chord { radius, spread: radii[1] - radii[0], hollow: out < 0.0, arc, ends })
 }
 
-/// The cylinder of chords about an axis.
+/// The cylinder formed by chords around an axis.
 fn whole(chords: &[Chord], part: PartId, about: &Cylinder) -> Cylinder {
     let ends = chords.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], chord| {
         [low.min(chord.ends[0]), high.max(chord.ends[1])]

@@ -1,26 +1,26 @@
-//! [`Cylinder`]: where a round cylinder is, and how much there is of it.
+//! [`Cylinder`]: position and extent of a circular cylinder.
 
 use glam::DVec3;
 
 use crate::mesh::PartId;
 
-/// A cylinder that a mesh stands for.
+/// Circular cylinder that a mesh approximates.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cylinder {
     /// The part it belongs to.
     pub part: PartId,
     /// A point of its axis, world.
     pub point: DVec3,
-    /// The direction of its axis, of unit length.
+    /// Unit direction of its axis.
     pub axis: DVec3,
-    /// Its radius, world units.
+    /// Radius, world units.
     pub radius: f64,
-    /// How far the corners of its facets are from it at most, world units.
+    /// Maximum distance between the corners of its facets and the cylinder, world units.
     pub spread: f64,
-    /// Where it begins and ends along the axis from the point.
+    /// Start and end along the axis, measured from the point.
     pub ends: [f64; 2],
-    /// How much of a whole turn there is of it, radians.
+    /// Angle that its facets cover, radians.
     pub arc: f64,
-    /// Whether its inside is outside the material: a hole.
+    /// Whether it is a hole: material is outside.
     pub hollow: bool,
 }

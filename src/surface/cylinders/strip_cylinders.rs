@@ -1,8 +1,9 @@
-//! [`cylinders`]: the round cylinders that a mesh stands for, with their axes.
+//! [`cylinders`]: circular cylinders that a mesh approximates, with their axes.
 //!
-//! The triangles of a cylinder lie in flat strips between lines that are parallel to its axis. Seen along these lines each strip is a
-//! chord of the circle, so that the lines across the middles of two strips meet in its centre: strips side by side are of one cylinder
-//! where they find the same centre.
+//! 1. Facets with parallel side lines are flat strips. Seen along the axis, a strip is a chord of the circle.
+//! 2. The perpendicular bisectors of two adjacent strips meet in the centre of the circle.
+//! 3. Pairs of strips that share a strip and agree on the circle form a cylinder.
+//! 4. A circle is fitted to the corners of all strips.
 
 use std::f64::consts::TAU;
 
@@ -15,33 +16,33 @@ use crate::geometry::numbers::portable_math::atan2;
 use crate::mesh::components::bodies::body_of;
 use crate::mesh::{EdgeFaces, FaceId, Groups, Mesh, PartId};
 
-/// Faces that turn less than this lie in one strip; strips that turn more than the second are not of one cylinder (cosines of 0.06 and
-/// 50 degrees).
+/// Minimum cosine between faces of one facet (0.06 degrees), and between adjacent strips of one cylinder (50
+/// degrees).
 const FLAT: f64 = 0.999_999_4;
 const SHARP: f64 = 0.642_787_6;
 
-/// How far lines may be from parallel, and centres and radii from each other, as a share of the radius: what single precision leaves of
-/// them.
+/// Maximum sine between parallel lines, and maximum difference of centres and radii as a share of the radius.
+/// Both cover single-precision coordinates.
 const PARALLEL: f64 = 1e-3;
 const SAME: f64 = 5e-3;
 
-/// A strip with more lines than this is a face of a machined part.
+/// Maximum number of side lines of a strip. A facet with more is a face of a machined part.
 const MOST_LINES: usize = 64;
 
-/// A flat strip between two lines along an axis.
+/// Flat strip between two lines along an axis.
 #[derive(Debug, Clone, Copy)]
 struct Strip {
     axis: DVec3,
     normal: DVec3,
-    /// In its middle, and its width across the axis.
+    /// A point in its middle, and its width across the axis.
     middle: DVec3,
     width: f64,
     ends: [f64; 2],
-    /// Whether it is narrower at both ends, as slices of rings are.
+    /// Whether it narrows at both ends, as segments of a torus do.
     tapers: bool,
 }
 
-/// Two strips side by side, and the circle that both are chords of.
+/// Two adjacent strips, and the circle that has both as chords.
 struct Pair {
     strips: [usize; 2],
     centre: DVec3,
@@ -49,7 +50,7 @@ struct Pair {
     hollow: bool,
 }
 
-/// The cylinders of a mesh, by part, then by radius, the largest first.
+/// The cylinders of a mesh, by part, then by descending radius.
 #[must_use]
 pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
     let normals: Vec<DVec3> = (0..mesh.triangles.len())
@@ -68,7 +69,7 @@ pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
             join(faces[0], faces[1]);
         }
     });
-    // The lines at which the surface bends a little, by the facets on both their sides.
+    // Edges where the surface bends slightly, by the facets on both sides.
     let mut lines: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
     let mut order: Vec<u32> = Vec::new();
     let facet = |face: u32| facets.of(face);
@@ -116,7 +117,8 @@ pub fn cylinders(mesh: &Mesh) -> Vec<Cylinder> {
     found
 }
 
-/// The strips that a facet is, one for each direction in which all its lines that run so lie on two sides; and these lines.
+/// The strips that a facet forms, with their lines: one strip for each direction whose parallel lines all lie
+/// on two sides.
 fn strips_of(mesh: &Mesh, lines: &[usize], normal: DVec3) -> Vec<(Strip, Vec<usize>)> {
     if lines.len() < 2 || lines.len() > MOST_LINES {
         return Vec::new();
@@ -171,7 +173,7 @@ fn strips_of(mesh: &Mesh, lines: &[usize], normal: DVec3) -> Vec<(Strip, Vec<usi
     strips
 }
 
-/// The circles of the strips on both sides of a line.
+/// The circles of each pair of strips at an edge.
 fn pairs_at(mesh: &Mesh, edge: usize, beside: &[usize], strips: &[Strip]) -> Vec<Pair> {
     let mut pairs = Vec::new();
     let on = mesh.positions[mesh.edges.vertices[edge][0] as usize];
@@ -182,7 +184,7 @@ fn pairs_at(mesh: &Mesh, edge: usize, beside: &[usize], strips: &[Strip]) -> Vec
             if axis.cross(other.axis).length() > PARALLEL {
                 continue;
             }
-            // Where the lines across both middles meet, seen along the axis.
+            // Intersection of the perpendicular bisectors, seen along the axis.
             let flat = |v: DVec3| v - axis * v.dot(axis);
             let between = flat(other.middle - one.middle);
             let cross = one.normal.cross(other.normal).dot(axis);
@@ -199,7 +201,7 @@ fn pairs_at(mesh: &Mesh, edge: usize, beside: &[usize], strips: &[Strip]) -> Vec
     pairs
 }
 
-/// Pairs that share a strip and a circle, together, as cylinders.
+/// Cylinders, as groups of pairs that share a strip and a circle.
 fn grouped(
     mesh: &Mesh,
     pairs: &[Pair],
@@ -249,7 +251,7 @@ fn grouped(
             2.0 * atan2(half, (radius * radius - half * half).sqrt())
         };
         let arc: f64 = of.iter().map(|strip| angle(strips[*strip].width)).sum();
-        // Where it begins and ends, in the direction of its first strip.
+        // Start and end, in the direction of the first strip.
         let ends = of.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], strip| {
             let [a, b] = strips[*strip].ends;
             let [a, b] = if strips[*strip].axis.dot(axis) < 0.0 { [-b, -a] } else { [a, b] };
@@ -265,7 +267,7 @@ fn grouped(
     found
 }
 
-/// The ends of the lines on both sides of strips, each once.
+/// The distinct end points of the side lines of some strips.
 fn corners_of(mesh: &Mesh, strips: &[usize], edges_of: &[Vec<usize>]) -> Vec<DVec3> {
     let edges = strips.iter().flat_map(|strip| &edges_of[*strip]);
     let mut corners: Vec<u32> = edges.flat_map(|edge| mesh.edges.vertices[*edge]).collect();
@@ -274,11 +276,13 @@ fn corners_of(mesh: &Mesh, strips: &[usize], edges_of: &[Vec<usize>]) -> Vec<DVe
     corners.into_iter().map(|corner| mesh.positions[corner as usize]).collect()
 }
 
-/// The centre and the radius of the circle that corners are on, seen along an axis, and how far they are from it at most. Where the
-/// fit leaves the circle that is known, as on a short arc, that one stays.
+/// Centre and radius of the circle through some corners, seen along an axis, and the maximum distance of the
+/// corners from it. If the fit deviates from the given circle, as on a short arc, the given one is kept.
 ///
-/// The lines across two narrow strips meet at a small angle, so that their centre is far less certain than that of all corners. Source:
-/// Kåsa, A circle fitting procedure and its error analysis, 1976.
+/// The bisectors of two narrow strips meet at a small angle, so their intersection is much less accurate than
+/// a fit to all corners.
+///
+/// Source: Kåsa, "A circle fitting procedure and its error analysis", 1976.
 fn fitted(corners: &[DVec3], axis: DVec3, centre: DVec3, radius: f64) -> (DVec3, f64, f64) {
     let across = axis.any_orthonormal_vector();
     let along = axis.cross(across);
@@ -307,7 +311,7 @@ fn fitted(corners: &[DVec3], axis: DVec3, centre: DVec3, radius: f64) -> (DVec3,
     (centre + across * to.x + along * to.y, fitted, off)
 }
 
-/// Adds a cylinder to the one that it is another piece of, if there is such a one.
+/// Adds a cylinder, or extends the known cylinder that it continues.
 fn merge(mesh: &Mesh, found: &mut Vec<Cylinder>, new: Cylinder) {
     let body = |part: PartId| body_of(&mesh.bodies, part);
     let is_same = |known: &&mut Cylinder| {

@@ -1,11 +1,10 @@
-//! The normals that a file gives its faces, where it gives them any.
+//! The normals that the file gives the corners of faces.
 
 use glam::{DVec3, Vec3};
 
 use crate::mesh::Mesh;
 
-/// The file's normals at the corners of a face, turned to the face's own side; zero where there
-/// are none.
+/// File normals at the corners of a face, flipped to the side of the face; zero where there are none.
 pub(crate) fn file_normals(mesh: &Mesh, face: usize) -> [DVec3; 3] {
     let Some(ids) = mesh.corner_normals.get(face) else { return [DVec3::ZERO; 3] };
     let own = Vec3::from_array(mesh.face_normals[face]).as_dvec3();
@@ -15,15 +14,14 @@ pub(crate) fn file_normals(mesh: &Mesh, face: usize) -> [DVec3; 3] {
     })
 }
 
-/// The direction of the file's normals, or where they leave the surface altogether, of those of the
-/// faces.
+/// Direction of the file normals, or of the face normals where the two deviate by more than 60 degrees.
 pub(crate) fn chosen(of_faces: DVec3, of_file: DVec3) -> DVec3 {
     let (of_faces, of_file) = (of_faces.normalize_or_zero(), of_file.normalize_or_zero());
     if of_file.dot(of_faces) > 0.5 { of_file } else { of_faces }
 }
 
-/// The cosines between the normals that a file gives two faces at the ends of the edge they share, none where it
-/// gives one of them none.
+/// Cosines between the file normals of two faces, at both ends of their common edge. `None` if one of the
+/// faces has no normals.
 #[must_use]
 pub fn file_cosines(mesh: &Mesh, edge: usize, faces: [u32; 2]) -> Option<[f32; 2]> {
     if mesh.corner_normals.is_empty() {

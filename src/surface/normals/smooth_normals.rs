@@ -1,4 +1,4 @@
-//! [`SmoothNormals`]: the normals of the rounded surfaces that a mesh stands for.
+//! [`SmoothNormals`]: normals of the curved surfaces that a mesh approximates.
 
 use glam::DVec3;
 
@@ -8,41 +8,40 @@ use crate::mesh::{EdgeFaces, Mesh};
 /// In [`SmoothNormals::corners`]: the face is flat.
 pub const NO_NORMAL: u32 = u32::MAX;
 
-/// Normals of the rounded surfaces that the faces of a mesh approximate.
+/// Normals of the curved surfaces that the faces of a mesh approximate.
 ///
-/// Each normal belongs to one *smooth vertex*: a vertex of the mesh together with those faces
-/// around it that no hard edge parts. Where no edge is hard, smooth vertices are the vertices.
+/// Each normal belongs to one *smooth vertex*: a vertex of the mesh together with a fan of faces around it
+/// that no hard edge separates. Without hard edges, smooth vertices are the vertices.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SmoothNormals {
-    /// Unit normals, local space; zero where no face around has area. One per smooth vertex.
+    /// Unit normals, local space; zero where no adjacent face has an area. One per smooth vertex.
     pub normals: Vec<DVec3>,
-    /// The mesh vertex each smooth vertex stands on. One per smooth vertex.
+    /// Mesh vertex of each smooth vertex.
     pub vertices: Vec<u32>,
-    /// The smooth vertices at the corners of each face, [`NO_NORMAL`] at all three where the face
-    /// is flat. One per face, or empty where all faces are flat.
+    /// Smooth vertices at the corners of each face; [`NO_NORMAL`] at all three where the face is flat. One
+    /// entry per face, or empty where all faces are flat.
     pub corners: Vec<[u32; 3]>,
-    /// Edges that part rounded surfaces from each other or from flat faces.
+    /// Edges that separate curved surfaces from each other or from flat faces.
     pub parting: EdgeSet,
-    /// Edges over which the surface is taken to be straight, though its normals turn: what is between their ends does not
-    /// bend with what meets there.
+    /// Edges along which the surface is straight, although its normals turn. A straight edge has no arc.
     pub straight: EdgeSet,
-    /// Edges between normals that lean apart by less than 15 degrees, and that no edge touches that parts surfaces; none where it was not
-    /// asked.
+    /// Edges away from separating edges, whose end normals differ by less than 15 degrees. Empty if not
+    /// computed.
     pub gentle: EdgeSet,
-    /// Whether all faces are rounded and no edge parts them, so that smooth vertices are vertices.
+    /// Whether all faces are curved and no edge separates them, so that smooth vertices are vertices.
     pub seamless: bool,
 }
 
 impl SmoothNormals {
-    /// The smooth vertices at the corners of a face; none where it is flat.
+    /// Smooth vertices at the corners of a face; `None` where it is flat.
     #[inline]
     #[must_use]
     pub fn corners_of(&self, face: u32) -> Option<[u32; 3]> {
         self.corners.get(face as usize).copied().filter(|corners| corners[0] != NO_NORMAL)
     }
 
-    /// Whether each vertex of the mesh lies on an edge that parts surfaces: all others are smooth vertices with their own number. Empty if
-    /// none does.
+    /// Whether each vertex of the mesh lies on a separating edge. All others are smooth vertices with the
+    /// same number. Empty if there are no separating edges.
     #[must_use]
     pub fn parted_vertices(&self, mesh: &Mesh) -> Vec<bool> {
         if self.parting.is_empty() {
@@ -56,8 +55,8 @@ impl SmoothNormals {
         parted
     }
 
-    /// The smooth vertices at the ends of an edge, smaller first, where the surface runs on across it
-    /// or ends there: no face beside it is flat or of another surface.
+    /// Smooth vertices at the ends of an edge, smaller first. `None` at separating and non-manifold edges,
+    /// and next to flat faces.
     #[inline]
     #[must_use]
     pub fn across(&self, mesh: &Mesh, edge: usize) -> Option<[u32; 2]> {
@@ -75,7 +74,7 @@ impl SmoothNormals {
         let corners = self.corners_of(face)?;
         let [u, v, w] = mesh.triangles[face as usize];
         let [lo, hi] = ends;
-        // The side that the edge is, whichever way it runs.
+        // Selects the side of the face that is this edge, in either direction.
         let (a, b) = if (lo, hi) == (u.min(v), u.max(v)) {
             (corners[0], corners[1])
         } else if (lo, hi) == (v.min(w), v.max(w)) {
@@ -86,13 +85,13 @@ impl SmoothNormals {
         Some([a.min(b), a.max(b)])
     }
 
-    /// Whether every face is rounded.
+    /// Whether every face is curved.
     #[must_use]
     pub fn corners_of_all(&self) -> bool {
         !self.corners.is_empty() && self.corners.iter().all(|corners| corners[0] != NO_NORMAL)
     }
 
-    /// Whether no face is rounded.
+    /// Whether no face is curved.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.corners.is_empty()

@@ -1,5 +1,5 @@
-//! `straight`: edges over which the surface is straight, though the normals at their ends turn: those are the normals of
-//! a bevel or a fillet that begins there.
+//! `straight`: edges along which the surface is straight, although the normals at their ends turn. Such
+//! normals belong to a bevel or fillet that begins there.
 
 use glam::DVec3;
 
@@ -7,14 +7,13 @@ use crate::mesh::edges::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::surface::SmoothNormals;
 
-/// Edges more than so many times as long as what is beside them and beyond are straight, between normals that lean apart by more than
-/// those of gentle edges.
+/// Minimum ratio between the length of a straight edge and the lengths next to it and after its end.
 const UNEVEN_LENGTHS: f64 = 4.0;
 
-/// The cosine of the angle between the normals at the ends of an edge beyond which it is gentle: 15 degrees.
+/// Minimum cosine between the end normals of a gentle edge: 15 degrees.
 pub const GENTLE_COSINE: f64 = 0.966;
 
-/// Edges between normals that lean apart by little, and that no edge touches that parts surfaces.
+/// Edges whose end normals differ little, away from separating edges.
 pub(crate) fn gentle(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
     let parted = smooth.parted_vertices(mesh);
     EdgeSet::collect(mesh.edges.len(), |edge| {
@@ -24,9 +23,11 @@ pub(crate) fn gentle(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
     })
 }
 
-/// Long edges beside short ones, where the surface runs on over as short a way beyond the end at which the normal leans more:
-/// what is between the ends does not bend with what is short. Where it runs on as far, it bends over all of that way. The gentle
-/// edges are to be known.
+/// Long edges next to short ones, where the surface continues only a short way after the end whose normal
+/// tilts more.
+///
+/// The surface between the ends is straight there; the normals belong to the short part. Where the surface
+/// continues for a similar length, it bends along all of it. Requires `smooth.gentle`.
 pub(crate) fn straight(mesh: &Mesh, smooth: &SmoothNormals) -> EdgeSet {
     EdgeSet::collect(mesh.edges.len(), |edge| {
         if smooth.gentle.contains(edge) {
@@ -54,8 +55,8 @@ fn shortest_side(mesh: &Mesh, face: u32) -> f64 {
     a.distance_squared(b).min(b.distance_squared(c)).min(c.distance_squared(a)).sqrt()
 }
 
-/// How far a surface runs on straight beyond an end of an edge, a smooth vertex, in a direction: to the far side of the face that
-/// lies there. Nothing where the surface ends.
+/// How far the surface continues from an end of an edge (a smooth vertex) in a direction, to the far side of
+/// the next face. `None` where the surface ends.
 fn beyond(mesh: &Mesh, smooth: &SmoothNormals, edge: usize, (end, direction): (u32, DVec3)) -> Option<f64> {
     let (vertex, normal) = (smooth.vertices[end as usize], smooth.normals[end as usize]);
     let onward = direction - normal * normal.dot(direction);
@@ -66,7 +67,7 @@ fn beyond(mesh: &Mesh, smooth: &SmoothNormals, edge: usize, (end, direction): (u
         let [a, b] =
             [1, 2].map(|k| mesh.positions[corners[(at + k) % 3] as usize] - mesh.positions[vertex as usize]);
         let (right, left) = (a.dot(aside), b.dot(aside));
-        // The face lies to both sides of the way.
+        // The face contains the direction.
         if right > 0.0 || left < 0.0 || left <= right {
             return None;
         }
@@ -76,7 +77,8 @@ fn beyond(mesh: &Mesh, smooth: &SmoothNormals, edge: usize, (end, direction): (u
     fan(mesh, smooth, vertex, edge).filter_map(way).min_by(f64::total_cmp)
 }
 
-/// The faces of a surface around an end of an edge, on round from both its sides; each twice where they close.
+/// The faces of a surface around one end of an edge, in both directions from the edge. Each occurs twice if
+/// they close.
 fn fan(mesh: &Mesh, smooth: &SmoothNormals, vertex: u32, edge: usize) -> impl Iterator<Item = u32> {
     let beside = match mesh.edges.faces(edge) {
         EdgeFaces::One(face) => [Some(face), None],
@@ -113,7 +115,8 @@ mod tests {
     use crate::geometry::numbers::portable_math::{cos, sin};
     use crate::mesh::Soup;
 
-    /// A limb along x: six corners around each of its rings, and a tip at each end. Normals lean out at rings towards the ends.
+    /// Prism along x with six vertices per ring and a tip at each end. Normals tilt outward at rings near the
+    /// ends.
     fn limb(rings: &[f64], tips: [f64; 2]) -> Mesh {
         const AROUND: u32 = 6;
         let mut soup = Soup::default();
@@ -151,7 +154,7 @@ mod tests {
     #[test]
     fn a_bar_is_straight_between_its_caps_and_a_spindle_bends_over_its_tips() {
         assert_eq!(straight_edges(&limb(&[-3.0, 3.0], [-3.0, 3.0])), 12, "long edges and diagonals of a bar");
-        // As slim, but beyond each tip the other side is as long.
+        // As slim, but the surface after each tip is as long.
         assert_eq!(straight_edges(&limb(&[0.0], [-6.0, 6.0])), 0);
     }
 }

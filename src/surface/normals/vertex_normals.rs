@@ -1,4 +1,4 @@
-//! Makes [`SmoothNormals`] of a mesh: a normal for each vertex, and more of them where surfaces are parted.
+//! Computes [`SmoothNormals`]: one normal per vertex, and several where surfaces are separated.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -12,11 +12,11 @@ use crate::mesh::edges::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, Mesh, Share, share_count, shares};
 use crate::parallel::task_size::GRAIN;
 
-/// Vertices whose normals are summed as one piece of work.
+/// Maximum number of vertices per block.
 const SHARE: usize = 1 << 13;
 
 impl SmoothNormals {
-    /// The normals of a mesh all of which is one rounded surface without hard edges.
+    /// Normals of a mesh that is one curved surface without hard edges.
     #[must_use]
     pub fn rounded(mesh: &Mesh) -> Self {
         Self {
@@ -30,8 +30,8 @@ impl SmoothNormals {
         }
     }
 
-    /// The normals of a mesh of which the faces with `is_rounded` belong to rounded surfaces, which
-    /// the edges with `is_hard` part. The file's own normals are taken where it has any.
+    /// Normals of a mesh whose faces with `is_rounded` form curved surfaces, separated by edges with
+    /// `is_hard`. Normals of the file are used where present.
     #[must_use]
     pub fn new(
         mesh: &Mesh,
@@ -46,7 +46,7 @@ impl SmoothNormals {
         smooth
     }
 
-    /// The same without a look at which edges are gentle or straight: light does not ask for them.
+    /// Same, without gentle and straight edges, which shading does not need.
     #[must_use]
     pub fn parted(
         mesh: &Mesh,
@@ -87,11 +87,10 @@ impl SmoothNormals {
     }
 }
 
-/// The normal of each vertex from the faces with `counts` around it, or those that the file has
-/// there.
+/// Normal of each vertex, from its adjacent faces with `counts` or from the file.
 fn vertex_normals(mesh: &Mesh, counts: impl Fn(usize) -> bool + Sync) -> Vec<DVec3> {
     let count = mesh.positions.len();
-    // Sums of so many vertices at once stay in the cache; faces at the rim of a share are weighed for each that they touch.
+    // The sums of a block fit in the cache. Faces at the border of a block are weighted once per block.
     let shares = shares(count, &mesh.triangles, share_count(count, SHARE));
     let mut normals = vec![DVec3::ZERO; count];
     let mut rest = &mut normals[..];

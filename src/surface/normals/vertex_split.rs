@@ -1,4 +1,4 @@
-//! Fans: the faces around a vertex between the edges that part them, each a smooth vertex.
+//! Splits vertices on separating edges: each fan of faces between these edges becomes a smooth vertex.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -8,17 +8,17 @@ use super::normal_sum::{FaceWeights, NormalSum};
 use super::smooth_normals::{NO_NORMAL, SmoothNormals};
 use crate::mesh::{FaceId, Mesh};
 
-/// A corner of a rounded face at a vertex where surfaces are parted.
+/// Corner of a curved face at a vertex on a separating edge.
 #[derive(Clone, Copy)]
 struct Corner {
     vertex: u32,
     face: u32,
-    /// Which of the face's corners.
+    /// Index of the corner in its face.
     which: u8,
 }
 
-/// Gives the fans around every vertex of a parting edge smooth vertices of their own: the first keeps
-/// the vertex's, the others are added.
+/// Gives each fan around a vertex on a separating edge its smooth vertex. The first fan keeps the number of
+/// the vertex; the others get new numbers.
 pub(crate) fn part(mesh: &Mesh, smooth: &mut SmoothNormals) {
     if smooth.parting.is_empty() {
         return;
@@ -36,7 +36,7 @@ pub(crate) fn part(mesh: &Mesh, smooth: &mut SmoothNormals) {
     let mut before: Vec<usize> = Vec::new();
     for around in corners.chunk_by(|a, b| a.vertex == b.vertex) {
         let vertex = around[0].vertex;
-        // Two corners that share a side follow each other in a fan, if the side does not part them.
+        // Two corners that share a side are in the same fan, unless the side separates them.
         sides.clear();
         for (k, corner) in around.iter().enumerate() {
             let triangle = mesh.triangles[corner.face as usize];
@@ -60,14 +60,14 @@ pub(crate) fn part(mesh: &Mesh, smooth: &mut SmoothNormals) {
             }
         }
     }
-    // They are few: lists that grow by themselves grow to twice as much.
+    // The additions are few; amortised growth would double the memory.
     smooth.normals.reserve_exact(added.normals.len());
     smooth.normals.append(&mut added.normals);
     smooth.vertices.reserve_exact(added.vertices.len());
     smooth.vertices.append(&mut added.vertices);
 }
 
-/// The new smooth vertices, numbered behind those that are there.
+/// New smooth vertices, numbered after the existing ones.
 #[derive(Default)]
 struct Added {
     normals: Vec<DVec3>,
@@ -107,7 +107,7 @@ fn first(before: &[usize], mut corner: usize) -> usize {
     corner
 }
 
-/// Gives a fan its normal, and all fans but the first a new smooth vertex.
+/// Computes the normal of a fan. All fans except the first get a new smooth vertex.
 fn add(
     mesh: &Mesh,
     smooth: &mut SmoothNormals,
@@ -161,13 +161,12 @@ mod tests {
                 assert_eq!(smooth.vertices[*corner as usize], vertex);
             }
         }
-        // One hard edge in the middle of a surface parts no fan, but the surface does not run on
-        // across it.
+        // A single hard edge inside a surface splits no fan, but interrupts the surface.
         let one = (0..mesh.edges.len()).find(|e| diagonal(*e)).expect("faces are cut along diagonals");
         let dart = SmoothNormals::new(&mesh, |_| true, |e| e == one);
         assert_eq!(dart.normals.len(), 8);
         assert!(dart.across(&mesh, one).is_none() && !dart.seamless);
-        // With one face flat its corners have none, and its edges part.
+        // If one side is flat, its corners have no normals, and its edges separate.
         let below = |face: u32| mesh.face_normals[face as usize][2] < -0.5;
         let [outside, inside] = [true, false].map(|side| (0..12).find(|f| below(*f) == side).unwrap());
         let flat = SmoothNormals::new(&mesh, |face| !below(face), |_| false);

@@ -1,6 +1,10 @@
-//! Of machined pieces the patches between hard edges that have curvature of their own: these are meant to be round.
+//! Curved patches of machined components: patches between hard edges with enough curvature inside.
 //!
-//! Source for curvature by angles: Meyer, Desbrun, Schröder and Barr, "Discrete differential-geometry
+//! 1. Faces of machined components are joined to patches across all edges that separate nothing.
+//! 2. Patches with too many flat, coarse or elongated faces are excluded.
+//! 3. A patch is curved if the angle defects at its inner vertices add up to a minimum.
+//!
+//! Source for curvature by angle defects: Meyer, Desbrun, Schröder and Barr, "Discrete differential-geometry
 //! operators for triangulated 2-manifolds", 2002, section 4.
 
 use std::ops::AddAssign;
@@ -19,28 +23,28 @@ use crate::parallel::task_size::GRAIN;
 
 use crate::mesh::{EdgeFaces, FaceId, Mesh, Share, Turns, shares};
 
-/// Vertices whose curvature is summed as one piece of work, and how many such are done before it is asked whether it is enough.
+/// Number of vertices per task, and number of tasks between two checks whether the sum is already sufficient.
 const BLOCK: usize = 1 << 15;
 const AT_ONCE: usize = 16;
 
-/// The least total curvature of a patch that bends both ways, radians: a twelfth of a ball's.
+/// Minimum total curvature of a patch that bends both ways, radians: 1/12 of a sphere's.
 const FREE_FORM: f64 = 1.0;
-/// Angles around a vertex of a cylinder miss a whole turn by less than this, radians, by rounding.
+/// Maximum angle defect, radians, that rounding causes at a vertex of a cylinder.
 const ROUNDING: f64 = 2e-4;
-/// With more than this share of flat edges a patch is machined all over: flat quads have a third.
+/// Maximum share of flat edges in a curved patch. Flat quads have a third.
 const MANY_FLAT: f64 = 0.45;
-/// With more than this share of edges that turn by more than this (cosine, 15 degrees) a patch of a machined part
-/// is too coarse for a curve that all would agree on, and is what its faces are.
+/// Maximum share of edges that turn by more than the second value (cosine of 15 degrees). A coarser patch of
+/// a machined part has no unambiguous smooth shape and is drawn as its faces are.
 const FEW_COARSE: f64 = 0.1;
 const COARSE_COSINE: f32 = 0.966;
-/// Patches of which flats hold more than this part are machined all over.
+/// Maximum share of planar area in a curved patch.
 const FEW_FLATS: f64 = 0.1;
-/// A face is long if it is so many times as long as wide: nobody knows what lies between its ends. Patches
-/// of which long faces hold more than this part stay what they are.
+/// Aspect ratio above which a face is elongated, and the maximum share of elongated faces by area. The
+/// surface between the ends of such faces is unknown.
 const LONG: f64 = 6.0;
 const FEW_LONG: f64 = 0.1;
 
-/// What is counted of the edges inside one patch.
+/// Statistics of the edges inside one patch.
 #[derive(Debug, Clone, Copy, Default)]
 struct EdgeCount {
     edges: u32,
@@ -57,7 +61,7 @@ impl AddAssign<&EdgeCount> for EdgeCount {
 }
 
 impl EdgeCount {
-    /// Whether, as far as edges tell, it is a free form if it bends enough.
+    /// Whether the edges allow a curved patch.
     fn may_be_free_form(&self) -> bool {
         self.edges >= LEAST_EDGES
             && f64::from(self.flat) <= MANY_FLAT * f64::from(self.edges)
@@ -65,7 +69,7 @@ impl EdgeCount {
     }
 }
 
-/// What is counted of the faces of one patch.
+/// Statistics of the faces of one patch.
 #[derive(Debug, Clone, Copy, Default)]
 struct FaceCount {
     area: f64,
@@ -82,13 +86,13 @@ impl AddAssign<&FaceCount> for FaceCount {
 }
 
 impl FaceCount {
-    /// Whether, as far as faces tell, it is a free form if it bends enough.
+    /// Whether the faces allow a curved patch.
     fn may_be_free_form(&self) -> bool {
         self.in_flats <= FEW_FLATS * self.area && self.in_long <= FEW_LONG * self.area
     }
 }
 
-/// Marks the faces of machined pieces that lie in patches that bend both ways.
+/// Marks the faces of machined components that lie in patches which bend both ways.
 pub(crate) fn add_free_forms(
     mesh: &Mesh,
     (turns, planes): (&Turns, &Planes),
@@ -102,7 +106,7 @@ pub(crate) fn add_free_forms(
         _ => None,
     };
     let edges = (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN);
-    // What is made of flats alone has none.
+    // Planar regions alone form no curved patch.
     if !edges.clone().any(|edge| !planes.flat.contains(edge) && inner(edge).is_some()) {
         return;
     }
@@ -132,7 +136,7 @@ pub(crate) fn add_free_forms(
     if !asked.contains(&true) {
         return;
     }
-    // Where a patch ends nothing is known of its curvature.
+    // Curvature is undefined at the border of a patch.
     let ends: Vec<AtomicBool> = (0..mesh.positions.len()).map(|_| AtomicBool::new(false)).collect();
     edges.filter(|edge| inner(*edge).is_none()).for_each(|edge| {
         mesh.edges.vertices[edge].iter().for_each(|vertex| ends[*vertex as usize].store(true, Relaxed));
@@ -144,7 +148,7 @@ pub(crate) fn add_free_forms(
     });
 }
 
-/// What is counted of one face.
+/// Statistics of one face.
 fn of_face(mesh: &Mesh, planes: &Planes, face: u32) -> FaceCount {
     let area = area(mesh, face);
     let in_flats = if planes.of(face).is_some() { area } else { 0.0 };
@@ -154,10 +158,9 @@ fn of_face(mesh: &Mesh, planes: &Planes, face: u32) -> FaceCount {
     FaceCount { area, in_flats, in_long }
 }
 
-/// Which of the patches that are asked for have the curvature of a free form, summed over their inner vertices.
+/// Which patches of `asked` reach the minimum total curvature, summed over their inner vertices.
 ///
-/// It is summed vertex by vertex, some thousands of them at a time, until all that are asked for have enough: as it is never
-/// negative, more of it changes nothing.
+/// Sums are nonnegative, so the summation stops as soon as all patches of `asked` have enough.
 fn bent(
     mesh: &Mesh,
     of_patch: impl Fn(u32) -> Option<u32> + Sync,
@@ -185,14 +188,14 @@ fn bent(
     curvature.into_iter().map(|curvature| curvature >= FREE_FORM).collect()
 }
 
-/// The curvature at some vertices, in runs of one patch: by how much the angles around each miss a whole turn.
+/// Absolute angle defects at the vertices of a block, summed in runs of one patch.
 fn curvatures(
     mesh: &Mesh,
     share: &Share,
     of_patch: impl Fn(u32) -> Option<u32>,
     is_inner: impl Fn(usize) -> bool,
 ) -> Vec<(u32, f64)> {
-    // The first patch at each vertex, if it is asked for, and the sum of angles.
+    // First patch at each vertex, if it is in question, and the sum of angles.
     let mut at: Vec<(Option<u32>, f64)> = vec![(None, 0.0); share.vertices.len()];
     for face in share.faces.iter().flat_map(Clone::clone) {
         let Some(patch) = of_patch(face as u32) else { continue };

@@ -1,15 +1,15 @@
-//! [`sums`]: what items add to groups, summed in an order that no thread changes.
+//! [`sums`]: sums over the members of groups, in an order that does not depend on the number of threads.
 
 use std::ops::AddAssign;
 
 use crate::parallel::prelude::*;
 
-/// Items whose sums are made as one piece of work.
+/// Number of items per task.
 const CHUNK: usize = 1 << 13;
 
-/// The sums of so many groups over so many items: `adds` says what an item adds to which groups.
+/// The sum of each group over all items. `adds` returns the contributions of an item, with their groups.
 ///
-/// Neighbours mostly add to one group, so that what is kept meanwhile is a sum for each run of them.
+/// Consecutive items mostly contribute to one group, so partial sums are kept per run.
 pub(crate) fn sums<T, A>(groups: usize, items: usize, adds: impl Fn(usize) -> A + Sync) -> Vec<T>
 where
     T: Clone + Default + Send + for<'a> AddAssign<&'a T>,
@@ -17,7 +17,7 @@ where
 {
     let runs_of = |items: std::ops::Range<usize>| {
         let mut runs: Vec<(u32, T)> = Vec::new();
-        // The run that goes on is not in the list, so that it can be in registers.
+        // The current run is kept outside the list, so that it can stay in registers.
         let mut last: Option<(u32, T)> = None;
         for item in items {
             adds(item).into_iter().for_each(|(group, own)| match &mut last {

@@ -1,37 +1,39 @@
-//! Normals of a file that lean from the surface: they were made for it before it was turned, or for another.
+//! Detection of file normals that do not fit the surface, because it was turned or replaced after they were
+//! made.
 //!
-//! A normal at a corner is a mean of what lies around it, so that it leans from none of the faces there by more than they lean
-//! from each other. Where all three of a face do, by far, they say nothing of its shape: contours would be sought where a
-//! surface is that is not there.
+//! A correct corner normal is a mean over the faces around the corner. It deviates from none of them by more
+//! than they deviate from each other. If all three normals of a face deviate by far more, they are unusable:
+//! they would place contours on a surface that does not exist.
 
 use glam::Vec3;
 
 use crate::geometry::numbers::portable_math::acos;
 use crate::mesh::{FirstEdges, Mesh, Turns};
 
-/// The cosine of the angle (10 degrees) by which normals lean that were rounded, or taken from a finer model.
+/// Cosine of the deviation (10 degrees) that rounding, or a finer original model, can cause.
 const LEANING_COSINE: f32 = 0.985;
-/// That angle, radians.
+/// The same angle, radians.
 const LEANING: f64 = 0.175;
 
-/// The cosine of the least angle between a face and the normals that a file gives its corners, if all of them lean; none where a
-/// corner has no normal.
+/// Cosine of the smallest angle between a face and its corner normals, if all of them deviate. `None` if one
+/// does not, or if a corner has no normal.
 #[inline]
 pub(crate) fn leaning(own: Vec3, normals: [Option<&[f32; 3]>; 3]) -> Option<f32> {
     let mut most = 0.0f32;
     for normal in normals {
-        // Whichever side of the face the file takes for its front.
+        // Normals may belong to either side of the face.
         most = most.max(Vec3::from_array(*normal?).dot(own).abs());
     }
     (most < LEANING_COSINE && own != Vec3::ZERO).then_some(most)
 }
 
-/// Whether normals that lean from a face, the least by the angle of this cosine, lean by more than the surface turns at its sides.
+/// Whether normals that deviate by at least the angle of `cosine` deviate by more than the surface turns at
+/// the sides of the face.
 pub(crate) fn leans(mesh: &Mesh, (turns, edges): (&Turns, &FirstEdges), face: u32, cosine: f32) -> bool {
     let [a, b, c] = mesh.triangles[face as usize];
     let turn = |[a, b]: [u32; 2]| {
         let cosine = edges.between(a, b).map_or(f32::NAN, |edge| turns.of_two(edge));
-        // Nobody knows how the surface would go on where it ends.
+        // The turn is unknown at a border.
         if cosine.is_nan() { 0.0 } else { acos(f64::from(cosine)) }
     };
     let most = [[a, b], [b, c], [c, a]].map(turn).into_iter().fold(0.0, f64::max);
@@ -45,7 +47,7 @@ mod tests {
     use crate::surface::Patches;
     use glam::{DMat3, DVec3};
 
-    /// A ball without its caps, of so many rings, with its normals as they were before it was turned by an angle, degrees.
+    /// Ball without caps. Its normals are those before it was turned by an angle, degrees.
     fn ball(rings: u32, turned: f64) -> Mesh {
         let around = 2 * rings;
         let before = DMat3::from_rotation_x(turned.to_radians());
@@ -76,7 +78,7 @@ mod tests {
         for rings in [8, 12, 32, 64] {
             assert!(believed(rings, 0.0).iter().all(|believed| *believed), "{rings} rings");
         }
-        // Rounded, or of a finer model.
+        // As by rounding, or from a finer model.
         assert!(believed(64, 6.0).iter().all(|believed| *believed));
         for turned in [25.0, 90.0, 155.0] {
             assert!(!believed(64, turned).contains(&true), "{turned} degrees");

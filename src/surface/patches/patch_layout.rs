@@ -1,8 +1,8 @@
-//! [`Patches`]: where the surfaces of a mesh are parted, and which of them are meant to be round.
+//! [`Patches`]: the borders between the surfaces of a mesh, and which surfaces are curved.
 //!
-//! Flats, cylinders and cones are drawn as their faces have them: what bends one way only has contours
-//! along its edges already. Round is what bends both ways: scans and figures but for their creases,
-//! and of machined parts the patches between hard edges that have curvature of their own.
+//! Planes, cylinders and cones are drawn as their faces are: a surface that bends one way has contours along
+//! its edges only. Surfaces that bend both ways are rounded. These are scans and figures, except at their
+//! creases, and on machined parts the patches between hard edges with curvature inside.
 
 use super::component_classes::{pieces, verdicts};
 use super::curved_patches::add_free_forms;
@@ -18,42 +18,44 @@ use crate::surface::creases::low_angle::shallow_creases::{shallow_creases, shall
 use crate::surface::creases::low_angle::surface_trace::Walk;
 use crate::surface::normals::file_normals::file_cosines;
 
-/// On round pieces a crease turns by so many times as much.
+/// Factor on the crease angle for round components.
 const ROUND: f64 = 1.5;
 
-/// The cosine (10 degrees) beyond which the outline of a flat parts it from what is around.
+/// Cosine (10 degrees) below which the outline of a planar region separates it from its surroundings.
 const RIM_COSINE: f32 = 0.985;
-/// The cosine (20 degrees) beyond which a strip is parted from a face so many times wider.
+/// Cosine (20 degrees) below which a strip is separated from a wider face, and the minimum ratio of their
+/// widths.
 const STRIP_COSINE: f32 = 0.94;
 const STRIP: f64 = 6.0;
 
-/// How the surfaces of a mesh are meant.
+/// Classification of the surfaces of a mesh.
 #[derive(Debug, Clone, Default)]
 pub struct Patches {
-    /// Edges that are drawn as creases.
+    /// Edges drawn as creases.
     pub hard: HardEdges,
-    /// Sharp edges of machined parts that are no creases: slivers that lean by themselves. They part surfaces all the same.
+    /// Sharp edges of machined parts that are no creases because only a sliver causes them. They separate
+    /// surfaces.
     pub wrinkles: EdgeSet,
-    /// The middle edges of narrow roundings, drawn as creases: the surface goes on over them.
+    /// Centre edges of narrow fillets. They are drawn as creases, but the surface continues across them.
     pub roundings: EdgeSet,
-    /// Edges that part surfaces though they turn too little for a crease: rims of flats, strips beside
-    /// wide faces.
+    /// Edges that separate surfaces although they turn too little for a crease: rims of planar regions, and
+    /// strips next to wide faces.
     pub rims: EdgeSet,
-    /// Whether each face is meant to be round.
+    /// Whether each face belongs to a curved surface.
     pub rounded: Vec<bool>,
-    /// Whether each face is part of a figure or a scan, all of which is round but for its creases.
+    /// Whether each face belongs to a figure or scan, which is curved everywhere except at creases.
     pub figure: Vec<bool>,
-    /// How the surface at each face came about.
+    /// Source of the surface at each face.
     pub origins: Vec<Origin>,
-    /// Which connected piece each face is of; empty if there is but one.
+    /// Connected component of each face; empty if there is only one.
     pub pieces: Vec<u32>,
-    /// Whether the file's normals tell the shape of each face, if it has any.
+    /// Whether the normals of the file, if any, describe the shape of each face.
     pub believed: Vec<bool>,
 }
 
 impl Patches {
-    /// The patches of a mesh whose creases turn by more than `crease_deg` degrees; with `all`, every
-    /// face is meant to be round, and only the edges between are sought.
+    /// Classifies a mesh whose creases turn by more than `crease_deg` degrees. With `all`, every face counts
+    /// as curved, and only the edges between surfaces are sought.
     #[must_use]
     pub fn new(mesh: &Mesh, crease_deg: f64, all: bool) -> Self {
         let (turns, planes, verdicts) = judged(mesh, all);
@@ -71,7 +73,7 @@ impl Patches {
                     |edge: usize| hard.is_hard(edge) || rims.contains(edge) || wrinkles.contains(edge);
                 add_free_forms(mesh, (turns, &planes), &makes, parts, &mut rounded);
             }
-            // A figure that its file means to be seen as planes bends at all edges.
+            // A figure with faceted normals bends at all edges.
             let is_exact = |face: &u32| !rounded[*face as usize] && verdicts.of(*face).believed;
             let may =
                 |edge: usize| mesh.edges.faces(edge).list().iter().all(is_exact) && !wrinkles.contains(edge);
@@ -92,8 +94,8 @@ impl Patches {
     }
 }
 
-/// The edges of a mesh that turn by more than `crease_deg` degrees, how the surface at each of its faces came about, and
-/// which connected piece each is of: empty if there is but one.
+/// Edges that turn by more than `crease_deg` degrees, the source of each face, and the connected component of
+/// each face (empty if there is only one).
 #[must_use]
 pub fn of_faces(mesh: &Mesh, crease_deg: f64) -> (HardEdges, Vec<Origin>, Vec<u32>) {
     let (turns, _, verdicts) = judged(mesh, false);
@@ -102,7 +104,7 @@ pub fn of_faces(mesh: &Mesh, crease_deg: f64) -> (HardEdges, Vec<Origin>, Vec<u3
     (hard, verdicts.map(|verdict| verdict.origin), verdicts.into_pieces())
 }
 
-/// How the surface turns, its flats, and what each face belongs to.
+/// Dihedral angles, planar regions, and the class of each component.
 fn judged(mesh: &Mesh, all: bool) -> (Turns, Planes, Verdicts) {
     let turned = || {
         let turns = Turns::of(mesh);
@@ -114,8 +116,11 @@ fn judged(mesh: &Mesh, all: bool) -> (Turns, Planes, Verdicts) {
     (turns, planes, verdicts)
 }
 
-/// Every sharp edge, and on machined pieces what a crease goes on along that would end inside the surface: flats and
-/// strips that are cut out of it turn by more here and by less there. But for wrinkles of machined pieces, which come second.
+/// Sharp edges, and the slivers removed from them.
+///
+/// Includes every sharp edge. On machined components, creases that would end inside the surface are extended:
+/// planar regions and strips cut out of a surface turn by varying angles. The second result holds the sharp
+/// edges of machined components that only a sliver causes.
 fn sharp_edges(mesh: &Mesh, turns: &Turns, verdicts: &Verdicts, crease_deg: f64) -> (HardEdges, EdgeSet) {
     let is_machined = |face: &u32| verdicts.of(*face).make == Make::Machined;
     if !verdicts.any(Make::Machined) {
@@ -127,9 +132,11 @@ fn sharp_edges(mesh: &Mesh, turns: &Turns, verdicts: &Verdicts, crease_deg: f64)
     })
 }
 
-/// Creases: every sharp edge of machined pieces; on round ones, whose faces turn at every edge, those over
-/// which the file's normals turn as well, and chains that turn by more and stand out from what is around them. Wrinkles of
-/// machined pieces come second.
+/// Creases, and the slivers removed from them (second result).
+///
+/// On machined components every sharp edge is a crease. Faces of round components turn at every edge. There,
+/// sharp edges are creases if the normals of the file turn as well. Chains that turn by more and stand out
+/// from the noise are also creases.
 fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &Verdicts, crease_deg: f64) -> (HardEdges, EdgeSet) {
     let is_round = |face: u32| verdicts.of(face).make == Make::Round;
     let above = || sharp_edges(mesh, turns, verdicts, crease_deg);
@@ -155,7 +162,7 @@ fn hard_edges(mesh: &Mesh, turns: &Turns, verdicts: &Verdicts, crease_deg: f64) 
     (hard, wrinkles)
 }
 
-/// The middle edges of narrow roundings of what is no figure or scan, where `hard` edges and wrinkles are none.
+/// Centre edges of narrow fillets, except on figures and scans, at `hard` edges and at `wrinkles`.
 fn roundings(
     mesh: &Mesh,
     (turns, planes): (&Turns, &Planes),
@@ -176,7 +183,7 @@ fn roundings(
     EdgeSet::default().with(&narrow_roundings(&walk, &asked), mesh.edges.len())
 }
 
-/// Where flats and wide faces end.
+/// Borders of planar regions and of wide faces.
 fn rims(mesh: &Mesh, turns: &Turns, planes: &Planes, makes: &[Make]) -> EdgeSet {
     EdgeSet::collect(mesh.edges.len(), |edge| {
         let cosine = turns.of_two(edge);
@@ -188,7 +195,7 @@ fn rims(mesh: &Mesh, turns: &Turns, planes: &Planes, makes: &[Make]) -> EdgeSet 
         if first != second {
             return true;
         }
-        // Scans have slivers beside wide faces by chance; what was modelled has them for a reason.
+        // Slivers next to wide faces are random on scans, but intended on modelled surfaces.
         let shaded = |face: u32| mesh.corner_normals.get(face as usize).is_some_and(|n| n[0] != u32::MAX);
         let modelled = faces.iter().all(|f| makes[*f as usize] == Make::Machined || shaded(*f));
         cosine < STRIP_COSINE && modelled && {
@@ -198,7 +205,7 @@ fn rims(mesh: &Mesh, turns: &Turns, planes: &Planes, makes: &[Make]) -> EdgeSet 
     })
 }
 
-/// How far a face reaches from one of its edges.
+/// Width of a face, measured from one of its edges.
 fn width(mesh: &Mesh, edge: usize, face: u32) -> f64 {
     let [a, b] = mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize]);
     2.0 * area(mesh, face) / a.distance(b).max(f64::MIN_POSITIVE)
@@ -211,8 +218,8 @@ mod tests {
     use crate::mesh::{FaceId, Soup};
     use glam::DVec3;
 
-    /// A lens of two caps of a ball that turn into each other by an angle (degrees), with the normals of the
-    /// caps, or with one normal at each vertex of the rim.
+    /// Lens of two spherical caps that meet at an angle (degrees). Normals are those of the caps, or with
+    /// `split` false one shared normal per rim vertex.
     fn lens(angle_deg: f64, split: bool) -> Mesh {
         const AROUND: u32 = 24;
         const RINGS: u32 = 12;
@@ -250,12 +257,12 @@ mod tests {
         Mesh::build(soup)
     }
 
-    /// A star of eight points, drawn out and twisted but for so many of its rings.
+    /// Extruded eight-pointed star, twisted except over its first `straight` rings.
     fn screw(straight: u32) -> Mesh {
         star((0..=60u32).map(|ring| 0.04 * f64::from(ring.saturating_sub(straight))))
     }
 
-    /// A star of eight points, ring over ring, each turned by so much.
+    /// Eight-pointed star stacked in rings, each turned by an angle.
     fn star(turns: impl Iterator<Item = f64>) -> Mesh {
         const AROUND: u32 = 16;
         let mut soup = Soup::default();
@@ -280,12 +287,12 @@ mod tests {
     fn many_sharp_edges_and_some_flat_ones_are_of_a_machined_part() {
         let origins = |straight: u32| Patches::new(&screw(straight), 40.0, false).origins;
         assert!(origins(5).iter().all(|origin| *origin == Origin::Constructed));
-        // So sharp and nowhere flat is what is left of a scan.
+        // Sharp edges without flat ones are those of a decimated scan.
         assert!(origins(0).iter().all(|origin| *origin == Origin::Scanned));
     }
 
-    /// Rough ground of 20 by 20 squares, as high as that at most and level for so many squares from one corner each way, and a
-    /// plate of one square in width and of so much length that stands on one of its sides.
+    /// Rough ground of 20 by 20 squares with heights up to `height`. It is level for `level` squares from one
+    /// corner. A plate, one square wide and `plate` long, is attached to one side.
     fn ground(height: f64, level: u32, plate: f64) -> Mesh {
         const SIDE: u32 = 20;
         let mut soup = Soup::default();
@@ -313,8 +320,8 @@ mod tests {
         Mesh::build(soup)
     }
 
-    /// A star of eight points that is twisted from ring to ring, but for so many of its rings that are level: each for itself,
-    /// so that no flat is more than a quad.
+    /// Eight-pointed star that is twisted from ring to ring, except at `level` separate rings, so that no
+    /// planar region is larger than a quad.
     fn notched(level: u32) -> Mesh {
         star((0..=30).scan(0.0, |turned, ring| {
             *turned += if ring % 2 == 0 && ring < 2 * level { 0.0 } else { 0.06 };
@@ -322,7 +329,7 @@ mod tests {
         }))
     }
 
-    /// Meshes beside each other in one part.
+    /// Meshes side by side in one part.
     fn beside(meshes: &[(&Mesh, f64)]) -> Mesh {
         let mut soup = Soup::default();
         for (k, (mesh, scale)) in meshes.iter().enumerate() {
@@ -342,7 +349,7 @@ mod tests {
 
     #[test]
     fn with_flats_a_part_is_machined_though_one_edge_in_twenty_alone_is_sharp() {
-        // A flat of a twenty-fifth of its surface: what is as steep without is a scan, and what is less steep with it.
+        // A planar region of 1/25 of the surface. Without it, or with lower heights, the ground is a scan.
         let found =
             [(1.0, 4), (1.0, 0), (0.6, 4)].map(|(height, level)| constructed(&ground(height, level, 0.0)));
         assert_eq!(found, [true, false, false]);
@@ -370,7 +377,7 @@ mod tests {
             "the largest stays"
         );
         assert_eq!(origins(&machined, 2.0, &scan), [Origin::Constructed, Origin::Scanned], "dense");
-        // One edge in two hundred is sharp.
+        // One edge in 200 is sharp.
         let gentle = ground(0.6, 0, 0.0);
         assert_eq!(origins(&machined, 2.0, &gentle), [Origin::Constructed, Origin::Scanned], "gentle");
     }
@@ -395,15 +402,16 @@ mod tests {
         let found = |parts: &[(f64, u32, f64)]| -> Vec<bool> {
             parts.iter().map(|(height, level, plate)| constructed(&ground(*height, *level, *plate))).collect()
         };
-        // A flat of a twelfth of its surface, most of its surface in one plane with a neighbour, sharp at most of its edges.
+        // A planar region of 1/12 of the surface; most of the surface coplanar with a neighbour; most edges
+        // sharp.
         assert_eq!(found(&[(0.6, 6, 0.0), (0.6, 0, 600.0), (6.0, 0, 0.0)]), [true; 3]);
-        // A flat of a twenty-fifth, a third in one plane with a neighbour, less steep.
+        // No planar region; 1/25 of the surface; a third coplanar with a neighbour; less steep.
         assert_eq!(found(&[(0.6, 0, 0.0), (0.6, 4, 0.0), (0.6, 0, 200.0), (1.2, 0, 0.0)]), [false; 4]);
     }
 
     #[test]
     fn sharp_parts_are_machined_where_more_of_their_edges_are_flat_than_by_chance() {
-        // Of its edges one in sixty is flat, and no more are nearly flat.
+        // One edge in 60 is flat, and no more are nearly flat.
         assert!(constructed(&screw(2)));
         assert!(!constructed(&screw(0)));
     }

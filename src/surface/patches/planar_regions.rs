@@ -1,7 +1,7 @@
-//! [`Planes`]: the flats of a mesh, regions of several faces that lie in one plane.
+//! [`Planes`]: planar regions of a mesh, made of several coplanar faces.
 //!
-//! Machined parts have them, scans and figures do not: their triangles turn a little at almost every
-//! edge.
+//! Machined parts have planar regions. Scans and figures have none: their triangles turn a little at almost
+//! every edge.
 
 use std::sync::atomic::AtomicU32;
 use std::sync::atomic::Ordering::Relaxed;
@@ -14,27 +14,28 @@ use crate::mesh::edges::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
 use crate::parallel::task_size::GRAIN;
 
-/// The cosine above which an edge counts as flat: a tenth of a degree.
+/// Minimum cosine of a flat edge: 0.1 degrees.
 const FLAT_COSINE: f32 = 0.999_998_5;
-/// Fewer faces than this in one plane are chance: two halves of a quad, three where a corner was cut.
+/// Minimum number of faces of a planar region. Fewer may be coplanar at random: two halves of a quad, or
+/// three faces at a cut corner.
 const LEAST_FACES: u32 = 4;
-/// The least area of a compact flat, as a part of its outline squared: a circle has 0.08, a square
-/// 0.0625, a strip that is ten times as long as wide 0.02.
+/// Minimum area of a compact region, as a share of its squared outline length. A circle has 0.08, a square
+/// 0.0625, a strip ten times longer than wide 0.02.
 const COMPACT: f64 = 0.025;
 
-/// In [`Planes::of_face`]: the face is in no flat.
+/// In [`Planes::of_face`]: the face is in no planar region.
 const NONE: u32 = u32::MAX;
-/// In [`Planes::of_face`]: the face lies in one plane with a neighbour, but they are too few for a flat.
+/// In [`Planes::of_face`]: the face is coplanar with a neighbour, but the group is too small for a region.
 const FEW: u32 = u32::MAX - 1;
 
-/// The flats of a mesh.
+/// The planar regions of a mesh.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Planes {
-    /// Edges at which the surface does not turn.
+    /// Edges where the surface is flat.
     pub flat: EdgeSet,
-    /// The number of the flat each face is in.
+    /// Planar region of each face.
     of_face: Vec<u32>,
-    /// Whether each flat is no strip.
+    /// Whether each region is compact, not a strip.
     compact: Vec<bool>,
 }
 
@@ -57,7 +58,7 @@ impl Planes {
         });
         drop(sizes);
         let in_flat = |face: u32| Some(of_face[face as usize]).filter(|flat| *flat < FEW);
-        // Scans have no flats at all.
+        // Scans have no planar regions.
         let asked = |count: usize| if first.is_empty() { 0 } else { count };
         let area_of = |face: usize| in_flat(face as u32).map(|flat| (flat, area(mesh, face as u32)));
         let length = |edge: usize| {
@@ -78,30 +79,30 @@ impl Planes {
         Self { flat, of_face, compact }
     }
 
-    /// The number of the flat that a face is in.
+    /// The planar region that contains a face.
     #[inline]
     pub fn of(&self, face: u32) -> Option<u32> {
         Some(self.of_face[face as usize]).filter(|flat| *flat < FEW)
     }
 
-    /// Whether a face lies in one plane with a neighbour.
+    /// Whether a face is coplanar with a neighbour.
     #[inline]
     pub fn is_level(&self, face: u32) -> bool {
         self.of_face[face as usize] != NONE
     }
 
-    /// The flat that holds a face, unless it is a strip.
+    /// The planar region that contains a face, unless it is a strip.
     #[inline]
     pub fn compact(&self, face: u32) -> Option<u32> {
         self.of(face).filter(|flat| self.compact[*flat as usize])
     }
 }
 
-/// How many faces each group has, at its least face.
+/// Number of faces in each group, stored at its smallest face.
 fn sizes(groups: &Groups, faces: usize) -> Vec<AtomicU32> {
     let faces = (0..faces as u32).into_par_iter().with_min_len(GRAIN);
     let sizes: Vec<AtomicU32> = faces.clone().map(|_| AtomicU32::new(0)).collect();
-    // Neighbours mostly are of one group, so that a whole run of them is added at once.
+    // Consecutive faces mostly belong to one group, so whole runs are added at once.
     let add = |(group, size): (u32, u32)| {
         if size > 0 {
             sizes[group as usize].fetch_add(size, Relaxed);
@@ -123,7 +124,7 @@ fn sizes(groups: &Groups, faces: usize) -> Vec<AtomicU32> {
     sizes
 }
 
-/// The area of a face, world units squared.
+/// Area of a face, world units squared.
 #[inline]
 pub(crate) fn area(mesh: &Mesh, face: u32) -> f64 {
     let [a, b, c] = mesh.corners(FaceId(face));

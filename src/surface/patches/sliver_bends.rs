@@ -1,44 +1,44 @@
-//! [`Slender`]: faces that are long and thin, and whether the surface bends along them.
+//! [`Slender`]: sliver faces, and whether the surface bends along them.
 //!
-//! Whoever samples a round surface puts more points where it bends more: a face may be long where the surface is straight, and is
-//! short across a bend. Programs that tessellate patches of machined parts, and hulls of points, do not care: their faces
-//! reach from one end of a patch to the other, whatever it does between.
+//! Samplings of a round surface are denser across bends: faces may be long where the surface is straight, but
+//! are short where it bends. Tessellators of machined patches and convex hulls do not follow this. Their
+//! faces reach from one end of a patch to the other, across all bends.
 
 use super::planar_regions::area;
 use crate::geometry::numbers::portable_math::cos;
 use crate::mesh::{FaceId, FirstEdges, Mesh, Turns};
 
-/// The cosine (40 degrees) beyond which an edge is a corner and no bend.
+/// Cosine (40 degrees) below which an edge is a corner, not a bend.
 const CORNER_COSINE: f32 = 0.766;
-/// The angle of that corner.
+/// The angle of such a corner, radians.
 const CORNER: f64 = 0.698;
-/// A face that turns by an angle over a short side stands out from its plane as if it were an arc of so much: an eighth of its length
-/// times the angle. It bends if that is half its width.
+/// A face bends if the turn at its short side, as an arc over its length, rises above half its width. The
+/// rise is an eighth of the length times the angle.
 const BEND: f64 = 4.0;
-/// By more than this share is more than rounding.
+/// Factor that covers rounding.
 const FAR: f64 = 1.0 + 1e-9;
 
-/// How long and how wide a face is that bends if it turns by less than a corner.
+/// Size of a face that is long enough to bend at less than a corner angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Slender {
-    /// The longest side, world units.
+    /// Longest side, world units.
     pub length: f64,
-    /// Across it, world units.
+    /// Height over the longest side, world units.
     pub width: f64,
 }
 
 impl Slender {
-    /// Whether a face of an area with such a longest side is slender.
+    /// Whether a face with this area and longest side is a sliver.
     #[inline]
     pub fn is(area: f64, longest: f64) -> bool {
         area > 0.0 && 2.0 * area * BEND < CORNER * longest * longest
     }
 
-    /// A face, if it is slender.
+    /// A face, if it is a sliver.
     pub fn of(mesh: &Mesh, face: u32) -> Option<Self> {
         let [a, b, c] = mesh.corners(FaceId(face));
         let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
-        // Most are not by far, which needs no roots.
+        // Squared comparison: excludes most faces without square roots.
         if (b - a).cross(c - a).length_squared() * BEND * BEND > FAR * (CORNER * longest).powi(2) {
             return None;
         }
@@ -54,7 +54,7 @@ pub(crate) fn longest_side(mesh: &Mesh, face: u32) -> f64 {
     a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt()
 }
 
-/// Over how many of its two short sides the surface bends along a slender face.
+/// Number of short sides (0 to 2) where the surface bends along a sliver.
 pub(crate) fn bends_over_its_ends(
     mesh: &Mesh,
     (turns, edges): (&Turns, &FirstEdges),
@@ -80,7 +80,8 @@ mod tests {
     use crate::surface::{HardEdges, Patches};
     use glam::DVec3;
 
-    /// A body turned about z, of rings of 40 corners, each turned by half a corner against the last, and two tips.
+    /// Body of revolution about z: rings of 40 vertices, each turned by half a step against the last, and two
+    /// tips.
     fn turned(rings: &[[f64; 2]], tips: f64) -> Mesh {
         const AROUND: u32 = 40;
         let mut soup = Soup { positions: vec![DVec3::Z * -tips, DVec3::Z * tips], ..Soup::default() };
@@ -103,7 +104,7 @@ mod tests {
         Mesh::build(soup)
     }
 
-    /// A barrel with steep lids that is cut across so often.
+    /// Barrel with steep lids, with the given numbers of rings.
     fn barrel(rings: i32, lids: i32) -> Mesh {
         let radius = |z: f64| 1.0 - 0.05 * z * z;
         let mut profile: Vec<[f64; 2]> = (0..=rings)
@@ -125,7 +126,7 @@ mod tests {
         let (hull, scan) = (barrel(1, 1), barrel(24, 8));
         assert!(origins(&hull).iter().all(is(Origin::Constructed)));
         assert!(origins(&scan).iter().all(is(Origin::Scanned)));
-        // Neither by its corners: there are none.
+        // The corners decide neither: there are none.
         assert_eq!([hull, scan].map(|mesh| HardEdges::above(&mesh, 40.0).count()), [0, 0]);
     }
 }

@@ -1,37 +1,38 @@
-//! [`Verdicts`]: what each face of a mesh belongs to, told for its piece; and what a piece may be.
+//! [`Verdicts`]: class of each connected component, looked up by face.
 
 use crate::parallel::prelude::*;
 
 use crate::mesh::components::disjoint_sets::Numbered;
 
-/// The smallest piece of work for a thread, in faces.
+/// Minimum number of faces per task.
 const GRAIN: usize = 1 << 16;
 
-/// What a piece of a model is meant to be.
+/// Class of a connected component.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) enum Make {
-    /// What its faces are.
+    /// Drawn as its faces are.
     #[default]
     Block,
-    /// Flats, and between them surfaces that may be round.
+    /// Planar regions, with surfaces between them that may be curved.
     Machined,
-    /// A rounded surface but for its creases.
+    /// Curved everywhere except at creases.
     Round,
 }
 
-/// How a surface came about, as far as its mesh tells: by that its lines may be noise.
+/// Source of a surface, as far as its mesh shows. It decides whether lines may be noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, PartialOrd, Ord)]
 pub enum Origin {
-    /// All its lines are meant.
+    /// Constructed: all lines are intended.
     #[default]
     Constructed,
-    /// A figure that its file's normals shade round: what is small and stands alone is a matter of its few faces.
+    /// Figure that the normals of the file shade round: small isolated features are artefacts of its few
+    /// faces.
     Modelled,
-    /// A round surface without normals: small folds and short creases are as likely noise as not.
+    /// Curved surface without normals: small folds and short creases may be noise.
     Scanned,
 }
 
-/// What a piece is, and how its file's normals have it.
+/// Class of a component, with the reliability of its normals.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Verdict {
     pub make: Make,
@@ -39,38 +40,38 @@ pub(crate) struct Verdict {
     pub believed: bool,
 }
 
-/// What the pieces of a mesh are, and which piece each face is of.
+/// Classes of the components of a mesh, and the component of each face.
 #[derive(Debug, Default)]
 pub(crate) struct Verdicts {
-    /// One of each piece. Every piece has a face.
+    /// One entry per component. Every component has a face.
     of_pieces: Vec<Verdict>,
-    /// The number of the piece of each face.
+    /// Component of each face.
     pieces: Vec<u32>,
 }
 
 impl Verdicts {
-    /// Those of the pieces in the order of their numbers.
+    /// Takes one class per component, in the order of component numbers.
     pub fn new(of_pieces: Vec<Verdict>, pieces: Numbered) -> Self {
         Self { of_pieces, pieces: pieces.of_face }
     }
 
-    /// That of the piece of a face.
+    /// The class of the component that a face belongs to.
     #[inline]
     pub fn of(&self, face: u32) -> &Verdict {
         &self.of_pieces[self.pieces[face as usize] as usize]
     }
 
-    /// Whether one piece at least is made so.
+    /// Whether at least one component is of a class.
     pub fn any(&self, make: Make) -> bool {
         self.of_pieces.iter().any(|verdict| verdict.make == make)
     }
 
-    /// Whether all pieces are made so.
+    /// Whether all components are of a class.
     pub fn all(&self, make: Make) -> bool {
         self.of_pieces.iter().all(|verdict| verdict.make == make)
     }
 
-    /// Something of the verdict of each face.
+    /// Maps the class of each face.
     pub fn map<T: Clone + Send + Sync>(&self, of: impl Fn(&Verdict) -> T + Sync) -> Vec<T> {
         if let [only] = &self.of_pieces[..] {
             return vec![of(only); self.pieces.len()];
@@ -79,7 +80,7 @@ impl Verdicts {
         self.pieces.par_iter().with_min_len(GRAIN).map(of_face).collect()
     }
 
-    /// The number of the piece of each face, in the order of the pieces' first faces; empty if there is but one.
+    /// Component of each face, numbered in the order of their first faces; empty if there is at most one.
     pub fn into_pieces(self) -> Vec<u32> {
         if self.of_pieces.len() < 2 { Vec::new() } else { self.pieces }
     }

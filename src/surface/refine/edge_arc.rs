@@ -1,33 +1,32 @@
-//! [`EdgeArc`]: the curve of a rounded surface over an edge of its mesh.
+//! [`EdgeArc`]: cubic arc of a curved surface over an edge of its mesh.
 //!
-//! A cubic from positions and normals of the two ends alone, so that the faces on both sides agree.
-//! Its handles are as long as those of a circle that turns as much, so that spheres and cylinders
-//! come out round.
+//! The arc depends only on the positions and normals of the two ends, so both adjacent faces agree. Its
+//! handles have the length of those of a circular arc with the same turn, so spheres and cylinders come out
+//! round.
 //!
-//! Source: Vlachos, Peters, Boyd and Mitchell, "Curved PN triangles", I3D 2001, section 3, whose
-//! handles are a third of the edge whatever it turns.
+//! Source: Vlachos, Peters, Boyd and Mitchell, "Curved PN triangles", I3D 2001, section 3. There, handles are
+//! always a third of the edge.
 
 use glam::DVec3;
 
 use crate::mesh::Mesh;
 use crate::surface::SmoothNormals;
 
-/// The largest sine of the angle at which a curve leaves its edge, so that none stands out from it by
-/// more than 15 % of its length: the arcs over a hexagon need 13.4 %, and steeper ones come from
-/// normals that no surface through the ends has.
+/// Maximum sine of the angle between the arc and its edge. It limits the rise to 15 % of the edge length.
+/// Arcs over a hexagon need 13.4 %; steeper normals do not fit any surface through the ends.
 const STEEPEST: f64 = 0.55;
 
-/// A cubic over an edge.
+/// Cubic Bézier curve over an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EdgeArc {
     ends: [DVec3; 2],
     normals: [DVec3; 2],
-    /// From the ends to their control points.
+    /// Vectors from the ends to their control points.
     handles: [DVec3; 2],
 }
 
 impl EdgeArc {
-    /// The curve between two points with unit normals.
+    /// The arc between two points with unit normals.
     #[must_use]
     pub fn new(ends: [DVec3; 2], normals: [DVec3; 2]) -> Self {
         let chord = ends[1] - ends[0];
@@ -46,9 +45,10 @@ impl EdgeArc {
         Self { ends, normals, handles }
     }
 
-    /// The curve from one smooth vertex to another: the edge itself where surfaces end in it or are straight
-    /// over it. What lies on an edge asks for it with the smaller id first, so that both faces beside the
-    /// edge get the same points to the bit.
+    /// The arc between two smooth vertices. It is the edge itself if the edge is straight or separates
+    /// surfaces.
+    ///
+    /// Pass the smaller id first, so that both faces at the edge get bit-identical points.
     #[must_use]
     pub fn over(mesh: &Mesh, smooth: &SmoothNormals, between: [u32; 2]) -> Self {
         let vertices = between.map(|v| smooth.vertices[v as usize]);
@@ -65,7 +65,7 @@ impl EdgeArc {
         Self::new(ends, normals)
     }
 
-    /// The point at `t`, 0 to 1.
+    /// The point at parameter `t`, 0 to 1.
     #[must_use]
     pub fn at(&self, t: f64) -> DVec3 {
         let s = 1.0 - t;
@@ -76,13 +76,13 @@ impl EdgeArc {
             + self.ends[1] * (t * t * t)
     }
 
-    /// How far the middle lies from the middle of the edge: the height of the arc.
+    /// Vector from the middle of the edge to the middle of the arc.
     #[must_use]
     pub fn height(&self) -> DVec3 {
         (self.handles[0] + self.handles[1]) * 0.375
     }
 
-    /// The unit normal in the middle: between those of the ends, square to the curve.
+    /// Unit normal in the middle: mean of the end normals, perpendicular to the curve.
     #[must_use]
     pub fn middle_normal(&self) -> DVec3 {
         let along = (self.ends[1] - self.ends[0]) * 2.0 - self.handles[0] + self.handles[1];

@@ -1,4 +1,4 @@
-//! `marks`: which edges of rounded surfaces are cut for a view, and which are too thin to be.
+//! `marks`: edges of curved surfaces to split for a view, and edges of walls that are too thin.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -8,42 +8,44 @@ use crate::mesh::Mesh;
 use crate::surface::SmoothNormals;
 use crate::surface::normals::smooth_normals::NO_NORMAL;
 
-/// Parts up to so many rounded faces are cut in no time.
+/// Maximum number of curved faces of a part that is always refined, because it is fast.
 const SMALL: usize = 20_000;
-/// A larger part of which no more than one edge in so many is wanted is dense enough as it is: what is
-/// left are slivers, and building all of it anew would cost more than they show.
+/// A larger part is dense enough if at most one edge in this number is marked. The rest are slivers, and
+/// rebuilding the part would cost more than they show.
 const FEW: usize = 500;
 
-/// Only what stands out so many times as far as wanted is asked for its thickness: less is not seen.
+/// Minimum deviation, in multiples of the wanted one, for which the wall thickness is checked. Less is not
+/// visible.
 const SWOLLEN: f64 = 6.0;
 
-/// Edges that are asked, or passed over, together.
+/// Number of edges in a run. Runs are examined or skipped as a whole.
 pub const RUN: usize = 16;
 
-/// Runs that one task looks at.
+/// Number of runs per task.
 const CHUNK: usize = 1 << 8;
 
-/// What becomes of the edges of a mesh.
+/// Decisions on the edges of a mesh.
 pub(crate) struct Marks {
-    /// The smooth vertices at the ends of the edges to cut.
+    /// Smooth vertices at the ends of the edges to split.
     pub cut: Vec<[u32; 2]>,
-    /// These edges themselves.
+    /// The edges to split.
     pub edges: Vec<u32>,
     /// Edges that stay straight, ascending.
     pub thin: Vec<usize>,
 }
 
-/// An edge that may be cut.
+/// Edge that may be split.
 #[derive(Clone, Copy)]
 struct Marked {
     edge: usize,
     /// Its smooth vertices.
     ends: [u32; 2],
-    /// How much it is wanted.
+    /// Result of `want`, above 1.
     wanted: f64,
 }
 
-/// Marks the edges for which `want` says more than 1, as [`cuts`](super::subdivision::cuts) has it.
+/// Marks the edges for which `want` returns more than 1, with the conditions of
+/// [`cuts`](super::subdivision::cuts).
 pub(crate) fn marks(
     mesh: &Mesh,
     smooth: &SmoothNormals,
@@ -90,7 +92,7 @@ pub(crate) fn marks(
     Marks { cut, edges, thin }
 }
 
-/// The marked edges, but for those of parts that are dense enough.
+/// Removes the edges of parts that are dense enough.
 fn without_dense_parts(mesh: &Mesh, smooth: &SmoothNormals, mut marked: Vec<Marked>) -> Vec<Marked> {
     if marked.is_empty() || mesh.triangles.len() <= SMALL {
         return marked;

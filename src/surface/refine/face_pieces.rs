@@ -1,42 +1,43 @@
-//! [`Piece`]s of faces that are being cut, and their [`Side`]s.
+//! [`Piece`]s of faces during subdivision, and their [`Side`]s.
 
 use super::mesh_splice::Facet;
 
-/// The side of a piece was decided about, and stays.
+/// Index of a side that is decided and stays whole.
 pub(crate) const CLOSED: u32 = u32::MAX;
-/// It stays, and so does all that is cut beside it: the surface does not bend along it.
+/// Index of a straight side: it stays whole, and so do new sides next to it, because the surface does not
+/// bend along it.
 pub(crate) const STRAIGHT: u32 = u32::MAX - 1;
 
-/// Whether the side of a piece is not decided about yet.
+/// Whether the side of a piece is still undecided.
 #[inline]
 pub(crate) fn is_open(side: &u32) -> bool {
     *side < STRAIGHT
 }
 
-/// A piece of a face, which may be cut further.
+/// Piece of a face that may be cut further.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
     pub facet: Facet,
-    /// Which [`Side`]s the sides 0-1, 1-2, 2-0 are; [`CLOSED`] or [`STRAIGHT`] where they are not cut any more.
+    /// Indices of the [`Side`]s 0-1, 1-2, 2-0; [`CLOSED`] or [`STRAIGHT`] for sides that stay whole.
     pub sides: [u32; 3],
 }
 
-/// What becomes of the side of a piece.
+/// State of a side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Fate {
     Open,
     Whole,
-    /// It is cut by a smooth vertex; its halves are two sides, the first the one at the smaller end.
+    /// Split at a smooth vertex. Its halves are two sides; the first is at the smaller end.
     Cut {
         middle: u32,
         halves: u32,
     },
 }
 
-/// The side of a piece, or of the two that share it.
+/// Side of one piece, or shared by two pieces.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Side {
-    /// The smooth vertices at its ends, the smaller first.
+    /// Smooth vertices at its ends, smaller first.
     pub ends: [u32; 2],
     pub fate: Fate,
 }
@@ -47,15 +48,15 @@ impl Side {
     }
 }
 
-/// What some pieces are cut into.
+/// Result of cutting some pieces.
 #[derive(Default)]
 pub(crate) struct Parted {
-    /// What may be cut further.
+    /// Pieces that may be cut further.
     pub open: Vec<Piece>,
     pub whole: Vec<Facet>,
-    /// The sides that are new inside the pieces.
+    /// New sides inside the pieces.
     pub inner: Vec<Side>,
-    /// The smooth vertices at the ends of those of them that are straight.
+    /// Smooth vertices at the ends of new straight sides.
     pub straight: Vec<[u32; 2]>,
 }
 

@@ -1,6 +1,6 @@
-//! `splice`: a mesh of which some faces were cut into pieces, put together of what was kept and the pieces.
+//! `splice`: combines the kept faces of a mesh and the pieces of its cut faces into one mesh.
 //!
-//! Mostly a few faces in a hundred are cut, for one view: all else is copied as it is, run by run.
+//! Usually only a few per cent of the faces are cut for a view. The rest is copied run by run.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -11,54 +11,54 @@ use crate::mesh::normals::face_normals::face_normals;
 use crate::mesh::{EdgeMark, EdgeSet, Edges, FaceId, MaterialId, Mesh, Overlay, PaintId, PartId};
 use crate::surface::SmoothNormals;
 
-/// Texture coordinates and colours of new corners are rounded to this part.
+/// Texture coordinates and colours of new corners are rounded to multiples of 1 over this.
 const UV_STEPS: f64 = 65536.0;
 
-/// Of more faces than this in a mesh that is given away, one thing is done after the other, so that less is there at a time.
+/// Above this number of faces, an owned mesh is processed sequentially, which limits peak memory.
 const MANY_FACES: usize = 500_000;
 
-/// A piece of a face.
+/// Piece of a face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Facet {
-    /// Smooth vertices.
+    /// Its smooth vertices.
     pub corners: [u32; 3],
-    /// Those of the sides 0-1, 1-2, 2-0.
+    /// Marks of the sides 0-1, 1-2, 2-0.
     pub marks: [EdgeMark; 3],
-    /// The face of the given mesh it is part of.
+    /// The face of the given mesh that contains it.
     pub face: u32,
 }
 
-/// A mesh of which faces were cut.
+/// Mesh after some of its faces were cut.
 #[derive(Debug, Clone)]
 pub struct Refined {
     /// The finer mesh; its first vertices are those of the given one.
     pub mesh: Mesh,
     /// Its normals.
     pub smooth: SmoothNormals,
-    /// The face of the given mesh that each of its faces is, or is part of; those of the faces that were kept ascend.
+    /// The face of the given mesh that each face is or is part of. Those of kept faces ascend.
     pub hosts: Vec<u32>,
-    /// How many faces were kept, which are the first ones.
+    /// Number of kept faces, which come first.
     pub kept: usize,
-    /// The edge of the finer mesh that each edge of the given one is, `u32::MAX` for those that were cut.
+    /// For each edge of the given mesh its edge in the finer one, `u32::MAX` for edges that were cut.
     pub edges: Vec<u32>,
 }
 
-/// What is cut of a mesh, and into what.
+/// Subdivision of a mesh: new vertices, pieces and kept faces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cuts {
-    /// The new vertices: positions and normals.
+    /// Positions and normals of the new vertices.
     pub(crate) positions: Vec<DVec3>,
     pub(crate) normals: Vec<DVec3>,
-    /// In smooth vertices, of which the new ones are numbered behind those of the mesh.
+    /// Pieces, in smooth vertices. New ones are numbered after those of the mesh.
     pub(crate) pieces: Vec<Facet>,
     pub(crate) kept: Kept,
     /// Edges that stay straight.
     pub(crate) thin: Vec<usize>,
-    /// The smooth vertices at the ends of new edges that are straight.
+    /// Smooth vertices at the ends of new straight edges.
     pub(crate) straight: Vec<[u32; 2]>,
 }
 
-/// The faces that stay as they are.
+/// Faces that stay unchanged.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Kept {
     runs: Vec<Range<usize>>,
@@ -67,7 +67,7 @@ pub(crate) struct Kept {
 }
 
 impl Kept {
-    /// All of so many faces but these, which ascend.
+    /// All of `of` faces except those in `cut`, ascending.
     pub fn without(of: usize, cut: impl Iterator<Item = u32>) -> Self {
         let (mut runs, mut next, mut count) = (Vec::new(), 0, of);
         for face in cut.map(|face| face as usize) {
@@ -83,7 +83,8 @@ impl Kept {
         Self { runs, count, of }
     }
 
-    /// What a list has of the faces that are kept, and `more` for the pieces; nothing if the list has nothing.
+    /// The entries of a list for the kept faces, followed by `more` for the pieces; empty if the list is
+    /// empty.
     fn carry<T: Copy>(&self, list: Cow<'_, [T]>, more: impl ExactSizeIterator<Item = T>) -> Vec<T> {
         if list.is_empty() {
             return Vec::new();
@@ -109,7 +110,7 @@ impl Kept {
         carried
     }
 
-    /// The faces themselves, and `more`.
+    /// The ids of the kept faces, followed by `more`.
     fn hosts(&self, more: impl ExactSizeIterator<Item = u32>) -> Vec<u32> {
         let mut hosts = Vec::with_capacity(self.count + more.len());
         self.runs.iter().for_each(|run| hosts.extend(run.start as u32..run.end as u32));
@@ -117,12 +118,12 @@ impl Kept {
         hosts
     }
 
-    /// How many faces before one are kept.
+    /// Number of kept faces before a face.
     fn before(&self, face: usize) -> usize {
         self.runs.iter().map(|run| run.end.min(face).saturating_sub(run.start)).sum()
     }
 
-    /// The kept faces among some with their carriers, ascending, as far as these are kept as well.
+    /// The pairs of faces and carriers, ascending, where both are kept.
     fn carriers(&self, carriers: &[[u32; 2]]) -> Vec<[u32; 2]> {
         if carriers.is_empty() {
             return Vec::new();
@@ -132,7 +133,7 @@ impl Kept {
         pairs.filter(|[face, carrier]| *face != u32::MAX && *carrier != u32::MAX).collect()
     }
 
-    /// The number that each face has among those that are kept, `u32::MAX` for the others.
+    /// New number of each face, `u32::MAX` for cut faces.
     fn renamed(&self) -> Vec<u32> {
         let mut renamed = Vec::with_capacity(self.of);
         let mut next = 0;
@@ -146,7 +147,7 @@ impl Kept {
     }
 }
 
-/// A field of something that may be one's own: then it is taken.
+/// Borrows a field, or takes it from an owned value.
 macro_rules! part {
     ($of:ident, $field:ident) => {
         match &mut $of {
@@ -156,7 +157,7 @@ macro_rules! part {
     };
 }
 
-/// The finer mesh. One that is given away is changed rather than copied.
+/// Builds the finer mesh. An owned mesh is modified instead of copied.
 pub fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: Cuts) -> Refined {
     let old = mesh.positions.len();
     let vertex = |v: u32| match smooth.vertices.get(v as usize) {
@@ -185,7 +186,7 @@ pub fn splice(mut mesh: Cow<'_, Mesh>, smooth: Cow<'_, SmoothNormals>, cuts: Cut
     Refined { mesh, smooth, hosts, kept: kept.count, edges: of_edges.ids }
 }
 
-/// What the finer mesh has by edges.
+/// The parts of the finer mesh that are indexed by edge.
 struct OfEdges {
     edges: Edges,
     straight: EdgeSet,
@@ -212,7 +213,7 @@ impl OfEdges {
     }
 }
 
-/// All of the finer mesh and its normals that is not by edges.
+/// The parts of the finer mesh and its normals that are not indexed by edge.
 fn of_faces(
     mut mesh: Cow<'_, Mesh>,
     mut smooth: Cow<'_, SmoothNormals>,
@@ -242,7 +243,7 @@ fn of_faces(
         corner_uvs: kept.carry(part!(mesh, corner_uvs), corner_uvs.into_iter()),
         corner_colours: kept.carry(part!(mesh, corner_colours), colours.into_iter()),
         normals: part!(mesh, normals).into_owned(),
-        // What was cut is rounded, and has the smooth normals.
+        // Pieces are curved and use the smooth normals.
         corner_normals: kept.carry(part!(mesh, corner_normals), pieces.iter().map(|_| [u32::MAX; 3])),
         origin: mesh.origin,
         extents: mesh.extents.clone(),
@@ -275,7 +276,7 @@ fn of_faces(
     (finer, smooth)
 }
 
-/// A list and what comes after it.
+/// A list extended by `more`.
 fn extended<T: Copy>(list: Cow<'_, [T]>, more: &[T]) -> Vec<T> {
     match list {
         Cow::Borrowed(list) => [list, more].concat(),
@@ -287,8 +288,8 @@ fn extended<T: Copy>(list: Cow<'_, [T]>, more: &[T]) -> Vec<T> {
     }
 }
 
-/// Texture coordinates at the corners of the pieces, to stand behind those of the mesh, and which of all belong to which
-/// corner: on a piece of a face what the face has there.
+/// Texture coordinates at the corners of the pieces, interpolated in their faces. Returns the new
+/// coordinates, and for each corner an index into the old ones followed by the new ones.
 fn texture(
     mesh: &Mesh,
     pieces: &[Facet],
@@ -311,7 +312,7 @@ fn texture(
     (uvs, corner_uvs)
 }
 
-/// The colours of the corners of the pieces: on a piece of a face what the face has there.
+/// Colours at the corners of the pieces, interpolated in their faces.
 fn colours(
     mesh: &Mesh,
     pieces: &[Facet],
@@ -327,13 +328,13 @@ fn colours(
     pieces.iter().zip(triangles).map(of_piece).collect()
 }
 
-/// At points of a face what it has there, of what it has at its own corners.
+/// Values at points of a face, interpolated from the values at its corners.
 fn mixed<const N: usize>(mesh: &Mesh, face: u32, points: [DVec3; 3], own: [[f32; N]; 3]) -> [[f32; N]; 3] {
     points.map(|at| {
         let weights = mesh.weights(FaceId(face), at);
         std::array::from_fn(|k| {
             let exact: f64 = own.iter().zip(weights).map(|(own, w)| f64::from(own[k]) * w).sum();
-            // Neighbours that see the same point from their own planes are to agree.
+            // Rounded, so that neighbours agree on a point that they interpolate in different planes.
             ((exact * UV_STEPS).round() / UV_STEPS) as f32
         })
     })

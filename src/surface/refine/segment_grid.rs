@@ -1,4 +1,5 @@
-//! `near_faces`: the faces that some short rays may meet, so that no tree of a whole mesh is made for a few of them.
+//! `near_faces`: faces near some short segments, by a bit grid, so that a few rays need no tree over the
+//! whole mesh.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -7,16 +8,16 @@ use crate::geometry::numbers::tolerance;
 use crate::mesh::Mesh;
 use crate::parallel::task_size::GRAIN;
 
-/// Cells along each side of the grid: as many as a word has bits.
+/// Number of cells on each axis of the grid, equal to the bits of a word.
 const CELLS: usize = 64;
 
-/// A ray or a face that lies in more rows of cells than this is near to all.
+/// Maximum number of grid rows that a segment or face is compared with. Above it, a face counts as near.
 const MANY_ROWS: usize = 256;
 
-/// The faces of a mesh that any of the segments may meet, ascending, and perhaps others.
+/// The faces that any of the segments may meet, ascending. May contain others.
 pub(crate) fn near_faces(mesh: &Mesh, segments: &[[DVec3; 2]]) -> Vec<u32> {
     let (middle, radius) = mesh.extents.ball();
-    // Wider than rounding can be.
+    // Exceeds all rounding errors.
     let slack = tolerance::RAY_BOX_OF_MESH * (radius + middle.length());
     let faces = 0..mesh.triangles.len() as u32;
     let Some(grid) = Grid::around(segments, slack) else { return faces.collect() };
@@ -28,25 +29,25 @@ pub(crate) fn near_faces(mesh: &Mesh, segments: &[[DVec3; 2]]) -> Vec<u32> {
     faces.into_par_iter().with_min_len(GRAIN).filter(is_near).collect()
 }
 
-/// Where a point is in a grid.
+/// Position of a point in a grid.
 #[derive(Debug, Clone, Copy)]
 struct Place {
     cell: [u8; 3],
-    /// A bit for each side of the grid that it lies beyond.
+    /// One bit for each side of the grid that the point lies outside.
     beyond: u8,
 }
 
-/// Which cells of a grid the boxes of some segments lie in.
+/// Grid with the cells touched by the boxes of some segments.
 struct Grid {
     low: DVec3,
     high: DVec3,
     cells_per_unit: DVec3,
-    /// A word for each row along x.
+    /// One word per row along x.
     rows: Vec<u64>,
 }
 
 impl Grid {
-    /// None if a segment lies in too much of it.
+    /// Builds the grid; `None` if a segment touches too many rows.
     fn around(segments: &[[DVec3; 2]], slack: f64) -> Option<Self> {
         let boxes = segments.iter().map(|[a, b]| (a.min(*b) - slack, a.max(*b) + slack));
         let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -66,7 +67,7 @@ impl Grid {
     }
 
     fn cell(&self, p: DVec3) -> [usize; 3] {
-        // What is outside is in the outermost cells.
+        // Points outside are clamped to the outermost cells.
         ((p - self.low) * self.cells_per_unit).to_array().map(|x| (x as usize).min(CELLS - 1))
     }
 
@@ -99,7 +100,7 @@ fn rows(first: [usize; 3], last: [usize; 3]) -> usize {
     (last[1] - first[1] + 1) * (last[2] - first[2] + 1)
 }
 
-/// One bit for each cell from the first to the last of a row.
+/// One bit for each cell from `first` to `last` of a row.
 fn bits(first: usize, last: usize) -> u64 {
     (u64::MAX >> (CELLS - 1 - (last - first))) << first
 }
@@ -111,7 +112,7 @@ mod tests {
 
     #[test]
     fn no_face_that_a_segment_touches_is_left_out() {
-        // A plane of squares of side 1, and segments that pass through it, lie in it or end short of it.
+        // A plane of unit squares, with segments that cross it, lie in it, or end before it.
         let n = 100;
         let mut soup = Soup::default();
         for k in 0..n * n {

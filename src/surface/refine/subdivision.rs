@@ -1,8 +1,8 @@
-//! Finer triangles on rounded surfaces: edges are cut in the middle of their arcs where the caller
-//! wants it, until it wants no more.
+//! Subdivision of the faces of curved surfaces: edges are split at the middle of their arcs until the caller
+//! wants no more.
 //!
-//! Whether and where an edge is cut depends on the edge alone, so that the faces on both its sides
-//! agree and no crack opens. Faces are cut by the patterns of their cut sides.
+//! Whether and where an edge is split depends on the edge alone. Both its faces agree, so no cracks open.
+//! Faces are cut by the pattern of their split sides.
 
 use std::borrow::Cow;
 
@@ -17,14 +17,13 @@ use crate::surface::normals::smooth_normals::NO_NORMAL;
 use crate::surface::patches::planar_regions::area;
 use crate::surface::{EdgeArc, SmoothNormals};
 
-/// An edge is cut at most this many times over: into 256 pieces.
+/// Maximum number of times an edge is halved: 256 pieces.
 const MOST_CUTS: usize = 8;
 
-/// Pieces that one task cuts.
+/// Number of pieces per task.
 const CHUNK: usize = 1 << 10;
 
-/// The mesh and its normals with all edges of rounded surfaces cut that are wanted, or `None` where
-/// hardly any is: see [`cuts`].
+/// The mesh and its normals after subdivision, or `None` where hardly any edge is split; see [`cuts`].
 #[must_use]
 pub fn refined(
     mesh: &Mesh,
@@ -36,11 +35,16 @@ pub fn refined(
     Some(splice(Cow::Borrowed(mesh), Cow::Borrowed(smooth), cuts))
 }
 
-/// What is cut of a mesh where all edges of rounded surfaces are cut that are wanted, or `None` where
-/// hardly any is. Only runs of [`RUN`](super::edge_marks::RUN) edges for which `is_asked` holds are looked at. `want` is given positions and unit normals of the ends of an edge, always in the
-/// same order, if `is_long`, which is quickly told, holds for its ends, and, where it is gentle, `may` holds for its ends and its
-/// length squared; an edge is cut if it says more than 1. Edges that part surfaces are never cut, nor thin ones, nor those of large parts that are dense enough. What was
-/// cut loses the file's normals.
+/// Subdivision of a mesh, or `None` where hardly any edge is split.
+///
+/// `want` takes positions and unit normals of the ends of an edge, always in the same order. The edge is
+/// split if the result exceeds 1. Edges are examined only if
+/// - `is_asked` holds for their run of [`RUN`](super::edge_marks::RUN) edges,
+/// - `is_long`, a fast test, holds for their ends,
+/// - `may` holds for the ends and squared length of a gentle edge.
+///
+/// Never split are separating edges, edges of thin walls, and edges of large parts that are dense enough.
+/// Split faces lose the normals of the file.
 #[must_use]
 pub fn cuts(
     mesh: &Mesh,
@@ -85,15 +89,16 @@ pub fn cuts(
 struct Work<'a> {
     mesh: &'a Mesh,
     smooth: &'a SmoothNormals,
-    /// The new vertices, which are numbered behind those of the mesh: positions and normals.
+    /// Positions and normals of the new vertices, numbered after those of the mesh.
     positions: Vec<DVec3>,
     normals: Vec<DVec3>,
-    /// All that are, or were, open. Neighbours know a side by its number, so that no vertex is made twice.
+    /// All sides that are or were open. Neighbours share a side by its index, so that no vertex is created
+    /// twice.
     sides: Vec<Side>,
 }
 
 impl<'a> Work<'a> {
-    /// With the sides between some smooth vertices cut, as those of the first numbers.
+    /// Starts with the sides between some smooth vertices, which are split and get the first indices.
     fn of(mesh: &'a Mesh, smooth: &'a SmoothNormals, cut: &[[u32; 2]]) -> Self {
         let sides = cut.iter().map(|[a, b]| Side::open(*a, *b)).collect();
         let mut work = Self { mesh, smooth, positions: Vec::new(), normals: Vec::new(), sides };
@@ -115,7 +120,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Cuts those of some sides for which `wanted` holds; the others stay whole.
+    /// Splits the `sides` that satisfy `wanted`; the others stay whole.
     fn cut(&mut self, sides: &[u32], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
         let middle = |side: &u32| {
             let [a, b] = self.sides[*side as usize].ends;
@@ -143,9 +148,9 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Decides about the open sides of pieces that are not decided yet.
+    /// Decides on the open sides of pieces that are undecided.
     fn decide(&mut self, pieces: &[Piece], wanted: impl Fn([DVec3; 2], [DVec3; 2]) -> bool + Sync) {
-        // A side is mostly that of two pieces.
+        // Most sides belong to two pieces.
         let mut asked = Vec::with_capacity(pieces.len() * 3 / 2);
         for side in pieces.iter().flat_map(|piece| piece.sides).filter(is_open) {
             let fate = &mut self.sides[side as usize].fate;
@@ -157,11 +162,11 @@ impl<'a> Work<'a> {
         self.cut(&asked, wanted);
     }
 
-    /// Which faces of the mesh stay as they are, and the pieces to begin with: those at the edges that are cut, which are
-    /// the first sides; `thin` edges stay straight.
+    /// The faces that stay, and the first pieces: faces at the split edges `cut`, whose sides have the first
+    /// indices. `thin` edges stay straight.
     fn affected(&self, cut: &[u32], thin: &[usize]) -> (Kept, Vec<Piece>) {
         let Self { mesh, smooth, .. } = self;
-        // Few vertices lie at straight edges, which spares most sides a search.
+        // Few vertices are on straight edges, so most sides need no search.
         let has_straight = !(smooth.straight.is_empty() && thin.is_empty());
         let mut at_straight = vec![false; if has_straight { mesh.positions.len() } else { 0 }];
         for edge in smooth.straight.iter().chain(thin.iter().copied()) {
@@ -175,13 +180,13 @@ impl<'a> Work<'a> {
             let edge = mesh.edges.vertices.binary_search(&[ends[0].min(ends[1]), ends[0].max(ends[1])]);
             edge.is_ok_and(|edge| smooth.straight.contains(edge) || thin.binary_search(&edge).is_ok())
         };
-        // Whether the curve over a side of a face would rise by more than the face is wide.
+        // Whether the arc over a side would rise by more than the width of the face.
         let is_sliver = |face: u32, ends: [u32; 2]| {
             let at = ends.map(|v| self.position(v));
             let rise = EdgeArc::new(at, ends.map(|v| self.normal(v))).height().length();
             rise * at[0].distance(at[1]) > 2.0 * area(mesh, face)
         };
-        // A face with a side, of all that are cut.
+        // Pairs of a face and one of its split sides.
         let mut at: Vec<(u32, u32)> = Vec::with_capacity(2 * cut.len());
         for (side, edge) in cut.iter().enumerate() {
             at.extend(mesh.edges.faces(*edge as usize).list().iter().map(|face| (*face, side as u32)));
@@ -209,7 +214,7 @@ impl<'a> Work<'a> {
         (kept, open)
     }
 
-    /// The middles of the sides of a piece that are cut, and where their halves are.
+    /// Middle vertices of the split sides of a piece, and the indices of their halves.
     #[inline]
     fn cuts(&self, piece: &Piece) -> [Option<(u32, u32)>; 3] {
         let mut cuts = [None; 3];
@@ -221,9 +226,9 @@ impl<'a> Work<'a> {
         cuts
     }
 
-    /// Cuts pieces whose sides are decided about.
+    /// Cuts pieces whose sides are decided.
     fn parted(&self, pieces: &[Piece]) -> Vec<Parted> {
-        // As many sides are new inside a piece as are cut around it.
+        // A piece gets one new inner side per split side.
         let inner = |pieces: &[Piece]| {
             pieces.iter().map(|piece| self.cuts(piece).iter().flatten().count()).sum::<usize>()
         };
@@ -247,11 +252,12 @@ impl<'a> Work<'a> {
         chunks.into_par_iter().with_max_len(1).map(part).collect()
     }
 
-    /// Cuts a piece by the pattern of its cut sides; `first` is the number of the first new side of all that are parted with it.
+    /// Cuts a piece by the pattern of its split sides. `first` is the index of the first new side of this
+    /// batch.
     fn split(&self, piece: &Piece, first: usize, out: &mut Parted) {
         let cuts = self.cuts(piece);
         let count = cuts.iter().flatten().count();
-        // Turned so that side 0 is the only cut one, or side 2 the only whole one.
+        // Rotated so that side 0 is the only split side, or side 2 the only whole one.
         let turn = match count {
             1 => cuts.iter().position(Option::is_some).unwrap_or(0),
             2 => (cuts.iter().position(Option::is_none).unwrap_or(0) + 1) % 3,
@@ -261,14 +267,14 @@ impl<'a> Work<'a> {
         let cut = |side: usize| cuts[(side + turn) % 3].unwrap_or((NO_NORMAL, CLOSED));
         let m = |side: usize| cut(side).0;
         let [a, b, c] = facet.corners;
-        // A whole side was decided about and stays; halves and new sides may be cut again.
+        // Whole sides were decided and stay. Halves and new sides may be split again.
         let own = |side: usize| (if sides[side] == STRAIGHT { STRAIGHT } else { CLOSED }, facet.marks[side]);
         let half = |side: usize, end: u32| {
             let is_second = end != self.sides[sides[side] as usize].ends[0];
             (cut(side).1 + u32::from(is_second), facet.marks[side])
         };
-        // Between two straight sides, and along one of a sliver, the surface does not bend either: from the middle of a short
-        // side it would rise over all the length of the long ones.
+        // The surface is also straight between two straight sides, and along a straight side of a sliver.
+        // Otherwise the middle of a short side would rise over the full length of the long sides.
         let is_level = (0..3).any(|side| sides[side] == STRAIGHT);
         let new = |k: usize| (if is_level { STRAIGHT } else { (first + k) as u32 }, EdgeMark::Unmarked);
         let known = out.inner.len();
@@ -332,7 +338,7 @@ mod tests {
             let p = DVec3::new(x, y, 0.0).normalize();
             positions.extend([p, DVec3::new(p.y, 0.0, p.x), DVec3::new(0.0, p.x, p.y)]);
         }
-        // Three corners an edge's length from each other are a face.
+        // Three vertices at edge distance from each other form a face.
         let near = |a: usize, b: usize| positions[a].distance(positions[b]) < 1.1;
         let mut triangles = Vec::new();
         for a in 0..12 {
@@ -374,7 +380,7 @@ mod tests {
         }
     }
 
-    /// A long bar of six sides, closed at its ends, where its normals lean out as those of bevels do.
+    /// Long closed prism with six sides. Normals at its ends tilt outward, as those of bevels do.
     fn bar(length: f64) -> Mesh {
         let mut positions = vec![DVec3::ZERO, DVec3::new(0.0, 0.0, length)];
         let mut normals = vec![DVec3::NEG_Z, DVec3::Z];
@@ -394,7 +400,8 @@ mod tests {
 
     #[test]
     fn a_bar_does_not_swell_from_the_middles_of_its_short_sides() {
-        // A long one of slivers, and one whose faces are wider than the curves over its long edges would rise.
+        // A long prism made of slivers, and one whose faces are wider than the rise of the arcs over its long
+        // edges.
         for length in [40.0, 6.0] {
             let mesh = bar(length);
             let smooth = SmoothNormals::new(&mesh, |_| true, |_| false);
@@ -406,7 +413,7 @@ mod tests {
             let widest =
                 finer.positions.iter().map(|p| (*p + finer.origin).truncate().length()).fold(0.0, f64::max);
             assert!((1.0..1.1).contains(&widest), "{length}: {widest}");
-            // What is said of the curves over its edges, wherever contours may cross them, holds as well.
+            // The bound on arcs also holds for the new edges, because contours may cross them.
             for edge in 0..finer.edges.len() {
                 let Some(ends) = smooth.across(&finer, edge) else { continue };
                 assert!(EdgeArc::over(&finer, &smooth, ends).height().length() < 0.2, "{length}: {edge}");

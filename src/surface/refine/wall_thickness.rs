@@ -1,9 +1,8 @@
-//! `thin`: edges whose arcs would stand out from them by more than half of what is between them and the
-//! wall behind.
+//! `thin`: edges of thin walls, whose arcs would rise by more than half of the wall thickness.
 //!
-//! Blades, fins and plates have long edges, and normals that turn at their ends; rounded over these, both
-//! their sides would swell to an egg. A shell is as thin, but both its walls bend the same way, and keep
-//! their distance.
+//! Blades, fins and plates have long edges whose normals turn at their ends. Arcs over these edges would make
+//! both sides swell. A shell is as thin, but both its walls bend in the same direction and keep their
+//! distance.
 
 use crate::parallel::prelude::*;
 use glam::{DVec3, Vec3};
@@ -13,16 +12,16 @@ use crate::mesh::bvh::rays::ray_tree::RayTree;
 use crate::mesh::{FaceId, Mesh};
 use crate::surface::{EdgeArc, SmoothNormals};
 
-/// An arc stands out by no more than this part of the thickness, and changes that by no more.
+/// Maximum rise of an arc, and maximum change of the thickness, as a share of the wall thickness.
 const HALF: f64 = 0.5;
-/// A ray starts so many heights of the arc inside the edge, so as not to meet the faces beside it.
+/// Offset of the ray start below the edge, in arc heights, so that the ray misses the adjacent faces.
 const INSIDE: f64 = 1e-3;
 
-/// What is asked of an edge: whether a ray from beside its middle meets the wall behind.
+/// Ray from below the middle of an edge to the opposite wall.
 struct Question {
     edge: usize,
     start: DVec3,
-    /// The normal in the middle of the arc.
+    /// Normal in the middle of the arc.
     normal: DVec3,
     reach: f64,
     rise: f64,
@@ -39,7 +38,7 @@ impl Question {
     }
 }
 
-/// Which of the edges, with the smooth vertices at their ends, are thin; in order.
+/// The edges of thin walls, in order. `edges` are given with the smooth vertices at their ends.
 pub(crate) fn thin(mesh: &Mesh, smooth: &SmoothNormals, edges: &[(usize, [u32; 2])]) -> Vec<usize> {
     if edges.is_empty() {
         return Vec::new();
@@ -51,7 +50,7 @@ pub(crate) fn thin(mesh: &Mesh, smooth: &SmoothNormals, edges: &[(usize, [u32; 2
     let tree = RayTree::new(&only(mesh, &near));
     let is_thin = |q: &Question| {
         let own = mesh.body(mesh.edges.faces(q.edge).list()[0]);
-        // The ray leaves the part where it meets the wall behind, which does not begin at the edge.
+        // The opposite wall is where the ray leaves the body; faces that touch the edge are excluded.
         let is_wall = |face: u32| {
             let face = near[face as usize];
             let outward = Vec3::from_array(mesh.face_normals[face as usize]).as_dvec3();
@@ -73,7 +72,7 @@ pub(crate) fn thin(mesh: &Mesh, smooth: &SmoothNormals, edges: &[(usize, [u32; 2
         .collect()
 }
 
-/// Some faces of a mesh, enough of it for rays to meet them.
+/// A mesh of some faces with the data that ray tests need.
 fn only(mesh: &Mesh, faces: &[u32]) -> Mesh {
     Mesh {
         extents: mesh.extents.clone(),
@@ -84,7 +83,7 @@ fn only(mesh: &Mesh, faces: &[u32]) -> Mesh {
     }
 }
 
-/// How far a face stands out where it is rounded, on the mean over its sides; negative where it is hollow.
+/// Mean rise of the arcs over the sides of a face; negative where it is concave.
 fn swelling(mesh: &Mesh, smooth: &SmoothNormals, face: u32) -> f64 {
     let Some(corners) = smooth.corners_of(face) else { return 0.0 };
     let [a, b, c] = mesh.corners(FaceId(face));
@@ -102,8 +101,8 @@ mod tests {
     use super::*;
     use crate::mesh::Soup;
 
-    /// Two square sheets back to back, so far apart; each with normals by which it bends outward, or inward if
-    /// `bend` is below zero.
+    /// Two square sheets back to back at a distance. The normals make each bend outward, or inward if `bend`
+    /// is negative.
     fn strip(bend: [f64; 2], apart: f64) -> (Mesh, SmoothNormals) {
         let mut soup = Soup::default();
         for (sheet, bend) in bend.into_iter().enumerate() {
@@ -134,7 +133,7 @@ mod tests {
 
     #[test]
     fn a_blade_does_not_swell_and_a_shell_bends() {
-        // Both sheets stand out by 0.25 over their sides.
+        // Both sheets rise by 0.25 over their sides.
         assert_eq!(thin_edges([0.13, 0.13], 0.4), 6, "a blade");
         assert_eq!(thin_edges([0.13, 0.13], 0.6), 0, "a cushion");
         assert_eq!(thin_edges([0.13, -0.13], 0.4), 0, "a shell");
@@ -154,7 +153,7 @@ mod tests {
                 .fold((f64::MAX, f64::MIN), |(low, high), p| (low.min(p.z), high.max(p.z)));
             high - low
         };
-        // Each sheet stands out by 0.25.
+        // Each sheet rises by 0.25.
         assert!((thickness([0.13, 0.13], 0.4) - 0.4).abs() < 1e-12, "a blade");
         assert!((thickness([0.13, 0.13], 0.6) - 1.1).abs() < 0.05, "a cushion");
         assert!((thickness([0.13, -0.13], 0.4) - 0.65).abs() < 0.05, "a shell");

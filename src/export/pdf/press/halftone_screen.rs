@@ -1,8 +1,9 @@
-//! Half-tones in PDF: fills as dots on one lattice of the page for each ink, as vectors.
+//! Halftone screens: fills as vector dots on one lattice per ink.
 //!
-//! The dots of an ink lie at the corners of squares, turned by the ink's own angle, and have the area that the tone asks for; the lattice
-//! is that of the page, so that neighbours of one tone have one screen. Lattices of cyan, magenta and black are 30 degrees apart, at which
-//! their moiré is finest, yellow's lies between.
+//! The dots of an ink are centred on the corners of a square lattice, which is rotated by the ink's angle.
+//! Their area gives the tone. The lattice is fixed to the page, so that neighbouring fills of one tone share
+//! it. The lattices of cyan, magenta and black are 30° apart, where their moiré is finest; yellow is in
+//! between.
 
 use std::collections::BTreeMap;
 
@@ -10,39 +11,40 @@ use kurbo::{Affine, BezPath, PathEl, Point};
 
 use crate::geometry::numbers::portable_math::{acos, cos, sin};
 
-/// Angles of the plates beside that of black, degrees: cyan, magenta, yellow, black.
+/// Angles of the plates relative to black in degrees: cyan, magenta, yellow, black.
 const TURNS: [f64; 4] = [-30.0, 30.0, -45.0, 0.0];
 
-/// Inks above this are solid, and below one less this are none.
+/// Least amount of ink that counts as solid. Up to one minus this amount, no ink is printed.
 const SOLID: f64 = 0.99;
 
-/// Steps of the size of dots.
+/// Number of dot sizes.
 const STEPS: f64 = 255.0;
 
-/// Flattening of outlines, in distances of dots.
+/// Flatness of outlines in lattice units.
 const TOLERANCE: f64 = 0.02;
 
-/// More dots than this are not laid for one fill: they would be finer than any press prints.
+/// Most dots per fill. More would be finer than any press prints.
 const MOST_DOTS: f64 = 4e6;
 
-/// A half-tone screen.
+/// A halftone screen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Screen {
-    /// Rows of dots to an inch.
+    /// Rows of dots per inch.
     pub lpi: f64,
-    /// The angle of the black plate, degrees counter-clockwise.
+    /// Angle of the black plate in degrees, anticlockwise.
     pub angle_deg: f64,
 }
 
-/// What an ink does with a tone.
+/// How an amount of ink is printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Tone {
     None,
     Solid,
-    /// Dots so many of [`STEPS`] large.
+    /// As dots of one of [`STEPS`] sizes.
     Dots,
 }
 
+/// Classifies an amount of ink, 0 to 1.
 pub(crate) fn tone(ink: f64) -> Tone {
     if ink >= SOLID {
         Tone::Solid
@@ -54,7 +56,7 @@ pub(crate) fn tone(ink: f64) -> Tone {
 }
 
 impl Screen {
-    /// From the lattice of a plate, whose dots are one apart, to units of a page of which a mm has so many.
+    /// Transform from the lattice of a plate, with unit spacing, to page units; `mm` is page units per mm.
     pub(crate) fn lattice(&self, plate: usize, mm: f64) -> Affine {
         let turn = TURNS.get(plate).copied().unwrap_or(0.0);
         let angle = (-(self.angle_deg + turn)).to_radians();
@@ -64,7 +66,8 @@ impl Screen {
     }
 }
 
-/// The diameter of dots that cover a share of a lattice whose dots are one apart: they touch at π/4, and overlap beyond.
+/// Diameter of dots that cover a share of a lattice with unit spacing. Dots touch at a share of π/4 and
+/// overlap above it.
 pub(crate) fn diameter(share: f64) -> f64 {
     let covered = |r: f64| {
         let disc = std::f64::consts::PI * r * r;
@@ -78,8 +81,8 @@ pub(crate) fn diameter(share: f64) -> f64 {
     low + high
 }
 
-/// The dots that an outline shows, by their size in steps of 1/255: an outline in units of the lattice, and the share that is covered at
-/// a point of it. None if there would be too many.
+/// Dots that are visible inside an outline, by size in steps of 1/255. `outline` is in lattice units, and
+/// `share` gives the coverage at a point. `None` if there are too many.
 pub(crate) fn dots(outline: &BezPath, share: impl Fn(Point) -> f64) -> Option<BTreeMap<u8, Vec<(i32, i32)>>> {
     let reach = std::f64::consts::FRAC_1_SQRT_2;
     let mut dots: BTreeMap<u8, Vec<(i32, i32)>> = BTreeMap::new();
@@ -100,12 +103,13 @@ pub(crate) fn dots(outline: &BezPath, share: impl Fn(Point) -> f64) -> Option<BT
     Some(dots)
 }
 
-/// The share that dots of a size cover.
+/// Share covered by dots of a size.
 pub(crate) fn share_of(size: u8) -> f64 {
     f64::from(size) / STEPS
 }
 
-/// Of each row of the lattice, the stretches on which dots that reach so far show in an outline, in rising order.
+/// For each lattice row, the stretches where dots of radius `reach` are visible inside an outline, sorted by
+/// start.
 fn rows(outline: &BezPath, reach: f64) -> Option<BTreeMap<i64, Vec<(f64, f64)>>> {
     let mut spans: BTreeMap<i64, Vec<(f64, f64)>> = BTreeMap::new();
     let mut crossings: BTreeMap<i64, Vec<(f64, i32)>> = BTreeMap::new();
@@ -182,7 +186,7 @@ mod tests {
             let inside = (0..steps * steps).filter(|k| {
                 let (x, y) = ((k % steps) as f64 + 0.5, (k / steps) as f64 + 0.5);
                 let (x, y) = (x / steps as f64 - 0.5, y / steps as f64 - 0.5);
-                // A point of a square and the dot in its middle or in that of a neighbour.
+                // A point of a unit square is covered by the dot at its centre or by those of its neighbours.
                 let near = |dx: f64, dy: f64| (x - dx).powi(2) + (y - dy).powi(2) <= radius * radius;
                 near(0.0, 0.0) || [-1.0, 1.0].iter().any(|step| near(*step, 0.0) || near(0.0, *step))
             });

@@ -1,4 +1,4 @@
-//! [`Plates`]: which inks print which colour of a drawing.
+//! Printing plates: the inks that print each colour of a drawing.
 //!
 //! Source: ISO 32000-1, sections 8.6.6.4 (separations) and 8.6.7 (overprint).
 
@@ -12,32 +12,34 @@ use super::pdf_options::{Inks, PdfOptions, Spot, Standard};
 use crate::colour::srgb::Colour;
 use crate::error::{Error, ErrorKind};
 
-/// What prints a colour; inks are 0 to 1.
+/// Ink of a colour; all amounts are 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Ink {
-    /// A screen, that is none.
+    /// RGB for screens.
     Rgb([f64; 3]),
     Cmyk([f64; 4]),
-    /// The ink of its own of that number.
+    /// The spot ink with this number.
     Spot(usize),
 }
 
-/// Knows what prints colours.
+/// Conversion of colours to inks.
 pub(crate) struct Plates {
     inks: Inks,
     pub spots: Vec<Spot>,
     limit: Option<f64>,
     solid_black: f64,
-    /// Whether viewers may smooth pictures, which archives forbid.
+    /// Whether viewers may interpolate pictures, which PDF/A forbids.
     pub smooths: bool,
     transform: Option<Arc<Transform8BitExecutor>>,
-    /// The profile of the press or the screen: its bytes, how many channels it has, and what it is called.
+    /// ICC profile of the press or screen: bytes, number of channels, name.
     pub profile: Option<(Arc<[u8]>, usize, String)>,
 }
 
 impl Plates {
+    /// Prepares the conversion for the given options.
+    ///
     /// # Errors
-    /// Returns an error if options contradict each other or a profile is none, or one of another kind.
+    /// If options contradict each other, or a profile is invalid or of the wrong kind.
     pub fn new(options: &PdfOptions) -> Result<Self, Error> {
         let source = match &options.inks {
             Inks::Cmyk(profile) => Some(profile),
@@ -106,12 +108,12 @@ impl Plates {
         Ok(plates)
     }
 
-    /// Whether inks are those of a press.
+    /// Whether the inks are those of a press.
     pub fn is_press(&self) -> bool {
         self.inks != Inks::Screen
     }
 
-    /// What prints a colour.
+    /// Ink of a colour.
     pub fn ink(&self, colour: Colour) -> Ink {
         match self.spots.iter().position(|spot| same(spot.colour, colour)) {
             Some(number) => Ink::Spot(number),
@@ -119,14 +121,14 @@ impl Plates {
         }
     }
 
-    /// What prints a colour without inks of its own.
+    /// Ink of a colour without spot inks.
     pub fn process(&self, colour: Colour) -> Ink {
         let black = |light: f64| if light <= self.solid_black { 1.0 } else { 1.0 - light };
         match (&self.inks, &self.transform) {
             (Inks::Screen, _) => Ink::Rgb(colour.channels()),
             (Inks::Cmyk(_), Some(transform)) if !(colour.r == colour.g && colour.g == colour.b) => {
                 let mut out = [0_u8; 4];
-                // Both sides hold one pixel, which is all that could go wrong.
+                // Both slices hold one pixel, so the conversion cannot fail.
                 let done = transform.transform(&[colour.r, colour.g, colour.b], &mut out).is_ok();
                 let inks = out.map(|ink| f64::from(ink) / 255.0);
                 Ink::Cmyk(if done { self.limited(inks) } else { [0.0, 0.0, 0.0, black(colour.luma())] })
@@ -135,11 +137,11 @@ impl Plates {
         }
     }
 
-    /// What a press without the ink of a colour's own prints of it.
+    /// Process inks that approximate a colour on a press without its spot ink.
     pub fn seen_as(&self, colour: Colour) -> [f64; 4] {
         match self.process(colour) {
             Ink::Cmyk(inks) if self.transform.is_some() => inks,
-            // Without a profile, roughly.
+            // A rough conversion without a profile.
             _ => {
                 let [r, g, b] = colour.channels();
                 let light = r.max(g).max(b);
@@ -149,19 +151,20 @@ impl Plates {
         }
     }
 
-    /// Whether what has that colour is printed over what is below it: solid black is.
+    /// Whether marks of a colour overprint what is below: solid black does.
     pub fn overprints(&self, colour: Colour) -> bool {
         self.ink(colour) == Ink::Cmyk([0.0, 0.0, 0.0, 1.0])
     }
 
-    /// Inks within the limit: what is grey of them goes to black, then all but black is thinned.
+    /// Reduces inks to the ink limit: first the grey component is moved to black, then the colours are scaled
+    /// down.
     fn limited(&self, [c, m, y, k]: [f64; 4]) -> [f64; 4] {
         let Some(limit) = self.limit else { return [c, m, y, k] };
         let over = c + m + y + k - limit;
         if over <= 0.0 {
             return [c, m, y, k];
         }
-        // Each part of grey is three inks and becomes one.
+        // Each part of grey replaces three inks by one.
         let grey = (over / 2.0).min(c.min(m).min(y)).min(1.0 - k);
         let [c, m, y, k] = [c - grey, m - grey, y - grey, k + grey];
         let rest = c + m + y;
@@ -170,15 +173,15 @@ impl Plates {
     }
 }
 
-/// The start of the year 2000, as profiles write it.
+/// The start of the year 2000 in the format of ICC profiles.
 const PROFILE_DATE: [u8; 12] = [7, 208, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0];
 
-/// Whether two colours are the same but for their opacity.
+/// Whether two colours are equal except for their opacity.
 fn same(a: Colour, b: Colour) -> bool {
     (a.r, a.g, a.b) == (b.r, b.g, b.b)
 }
 
-/// The name of a profile.
+/// Name of a profile.
 fn named(text: &moxcms::ProfileText) -> Option<String> {
     let name = match text {
         moxcms::ProfileText::PlainString(name) => name.clone(),
@@ -189,10 +192,10 @@ fn named(text: &moxcms::ProfileText) -> Option<String> {
     (!name.trim().is_empty()).then(|| name.trim().to_owned())
 }
 
-/// The profile of screens whose colours are sRGB.
+/// ICC profile of sRGB.
 pub(crate) fn srgb_profile() -> Option<Vec<u8>> {
     let mut bytes = ColorProfile::new_srgb().encode().ok()?;
-    // It would tell when it was made, by the clock.
+    // Replace the creation time, which would come from the clock.
     bytes.get_mut(24..36)?.copy_from_slice(&PROFILE_DATE);
     Some(bytes)
 }

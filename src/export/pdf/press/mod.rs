@@ -1,7 +1,7 @@
 //! Settings of the press: inks, halftone screens and standards.
 //!
-//! Files, in reading order: [`pdf_options`] all options of PDF; [`ink_plates`] colours as RGB, CMYK or spot
-//! inks; [`halftone_screen`] dot lattices and dot sizes; [`standards`] metadata required by PDF/X-4 and
+//! Files, in reading order: `pdf_options` all options of PDF; `ink_plates` colours as RGB, CMYK or spot
+//! inks; `halftone_screen` dot lattices and dot sizes; `standards` metadata required by PDF/X-4 and
 //! PDF/A-2b.
 
 #[cfg(feature = "pdf")]

@@ -1,32 +1,33 @@
-//! [`PdfOptions`]: how pages are written as PDF: inks, standard, marks for the printer.
+//! Options of PDF pages: inks, standard, printer's marks.
 
 use std::sync::Arc;
 
 use super::halftone_screen::Screen;
 use crate::colour::srgb::Colour;
 
-/// The inks that a page is printed with.
+/// Inks of a printed page.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Inks {
-    /// None: colours of screens, RGB.
+    /// RGB for screens, without inks.
     #[default]
     Screen,
-    /// Black alone, as dark as the colours look.
+    /// Black only, as dark as each colour looks.
     K,
-    /// Cyan, magenta, yellow and black, as the profile of a press says (ICC). Colours without hue are printed with black alone.
+    /// Cyan, magenta, yellow and black by the ICC profile of a press. Neutral colours are printed with black
+    /// only.
     Cmyk(Arc<[u8]>),
 }
 
-/// A colour that is printed with an ink of its own.
+/// A colour printed with a spot ink.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Spot {
-    /// The colour in the drawing; its opacity is its own.
+    /// The colour in the drawing, compared without opacity.
     pub colour: Colour,
-    /// The name of the ink, such as `PANTONE 185 C`.
+    /// Name of the ink, such as `PANTONE 185 C`.
     pub name: String,
 }
 
-/// A standard that a file keeps to.
+/// A standard for PDF files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Standard {
     /// PDF/X-4 (ISO 15930-7), for presses.
@@ -35,31 +36,32 @@ pub enum Standard {
     A2b,
 }
 
-/// How pages are written.
+/// Options of PDF pages.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub struct PdfOptions {
-    /// The inks.
+    /// Inks.
     pub inks: Inks,
-    /// Colours with inks of their own.
+    /// Colours printed with spot inks.
     pub spots: Vec<Spot>,
-    /// All inks of a place together, percent of one; only of [`Inks::Cmyk`].
+    /// Largest sum of all inks at one place, in percent. For [`Inks::Cmyk`] only.
     pub ink_limit: Option<f64>,
-    /// The profile of the press, or of the screen for [`Inks::Screen`], that the file says it is made for (ICC). [`Inks::Cmyk`] has its
-    /// own.
+    /// ICC profile of the press, or of the screen for [`Inks::Screen`], written as the output intent.
+    /// [`Inks::Cmyk`] has its own profile.
     pub profile: Option<Arc<[u8]>>,
-    /// Colours without hue that are no lighter, as 0 to 1 of white, are printed as solid black, and so are all such ones of
-    /// [`Inks::K`].
+    /// Largest lightness, as a share of white, that is printed as solid black. It applies to neutral colours,
+    /// and to all colours with [`Inks::K`].
     pub solid_black: f64,
-    /// A half-tone screen: fills are dots of solid ink; only of the inks of a press.
+    /// Halftone screen: fills become dots of solid ink. For press inks only.
     pub screen: Option<Screen>,
     /// Whether crop marks and registration marks are printed outside the trimmed page.
     pub marks: bool,
-    /// The standard.
+    /// Standard to conform to.
     pub standard: Option<Standard>,
-    /// Whether letters are outlines, without fonts.
+    /// Whether letters are outlines instead of embedded fonts.
     pub outlined: bool,
-    /// The moment that standards want to be told, `2000-01-01T00:00:00Z` by default: with the clock's no two files were alike.
+    /// Creation date required by standards. Default: `2000-01-01T00:00:00Z`. The current time would make
+    /// every file different.
     pub date: [u16; 6],
 }
 
@@ -81,56 +83,56 @@ impl Default for PdfOptions {
 }
 
 impl PdfOptions {
-    /// Printed with those inks.
+    /// Sets the inks.
     #[must_use]
     pub fn with_inks(mut self, inks: Inks) -> Self {
         self.inks = inks;
         self
     }
 
-    /// A colour printed with an ink of its own.
+    /// Adds a colour printed with a spot ink.
     #[must_use]
     pub fn with_spot(mut self, colour: Colour, name: impl Into<String>) -> Self {
         self.spots.push(Spot { colour, name: name.into() });
         self
     }
 
-    /// No more ink on a place than so many percent.
+    /// Limits the sum of all inks at one place, in percent.
     #[must_use]
     pub fn with_ink_limit(mut self, percent: f64) -> Self {
         self.ink_limit = Some(percent);
         self
     }
 
-    /// Made for the press, or the screen, of that profile.
+    /// Sets the ICC profile of the press or the screen.
     #[must_use]
     pub fn with_profile(mut self, profile: impl Into<Arc<[u8]>>) -> Self {
         self.profile = Some(profile.into());
         self
     }
 
-    /// With fills as dots of solid ink, so many rows an inch, at that angle of the black plate in degrees.
+    /// Prints fills as dots of solid ink: `lpi` rows per inch, with the black plate at `angle_deg` degrees.
     #[must_use]
     pub fn with_screen(mut self, lpi: f64, angle_deg: f64) -> Self {
         self.screen = Some(Screen { lpi, angle_deg });
         self
     }
 
-    /// With crop marks and registration marks.
+    /// Adds crop marks and registration marks.
     #[must_use]
     pub fn with_marks(mut self) -> Self {
         self.marks = true;
         self
     }
 
-    /// Keeping to a standard.
+    /// Sets the standard.
     #[must_use]
     pub fn with_standard(mut self, standard: Standard) -> Self {
         self.standard = Some(standard);
         self
     }
 
-    /// With letters as outlines.
+    /// Writes letters as outlines.
     #[must_use]
     pub fn outlined(mut self) -> Self {
         self.outlined = true;

@@ -1,4 +1,4 @@
-//! What standards want to be told of a file: who made it, when, for which press (XMP, output intents, ids).
+//! Metadata required by standards: creator, dates, output intent, XMP and file ids.
 //!
 //! Source: ISO 15930-7 (PDF/X-4), ISO 19005-2 (PDF/A-2), ISO 16684-1 (XMP).
 
@@ -9,17 +9,17 @@ use pdf_writer::{Date, Ref, TextStr};
 use super::pdf_options::{PdfOptions, Standard};
 use crate::export::encoding::xml::escape;
 
-/// What made the file.
+/// Name of the creating program.
 pub(crate) const CREATOR: &str = concat!("ligne ", env!("CARGO_PKG_VERSION"));
 
-/// The moment that the file says it was made at.
+/// Creation date of the file.
 fn date([year, month, day, hour, minute, second]: [u16; 6]) -> Date {
     let small = |value: u16| value.min(255) as u8;
     let date = Date::new(year).month(small(month)).day(small(day)).hour(small(hour)).minute(small(minute));
     date.second(small(second)).utc_offset_hour(0).utc_offset_minute(0)
 }
 
-/// Fills in the information of the document.
+/// Writes the document information.
 pub(crate) fn write_info(info: &mut DocumentInfo, title: &str, options: &PdfOptions) {
     if !title.is_empty() {
         info.title(TextStr(title));
@@ -33,7 +33,7 @@ pub(crate) fn write_info(info: &mut DocumentInfo, title: &str, options: &PdfOpti
     }
 }
 
-/// Says which press, or which screen, the file is made for.
+/// Writes the output intent: the press or the screen for which the file is made.
 pub(crate) fn write_intent(catalog: &mut Catalog, standard: Standard, name: &str, profile: Ref) {
     let mut intents = catalog.output_intents();
     let mut intent = intents.push();
@@ -45,7 +45,7 @@ pub(crate) fn write_intent(catalog: &mut Catalog, standard: Standard, name: &str
     intent.dest_output_profile(profile);
 }
 
-/// Two numbers that tell files with different content apart (FNV-1a with two beginnings).
+/// File id as a hash of the contents: FNV-1a with two offset bases.
 pub(crate) fn id<'a>(contents: impl Iterator<Item = &'a [u8]>) -> [u8; 16] {
     let mut hashes = [0xcbf2_9ce4_8422_2325_u64, 0x6c62_272e_07bb_0142];
     for content in contents {
@@ -63,7 +63,7 @@ pub(crate) fn id<'a>(contents: impl Iterator<Item = &'a [u8]>) -> [u8; 16] {
     id
 }
 
-/// The same as the information of the document, as XMP, and the standard.
+/// Document information and the standard as XMP.
 pub(crate) fn xmp(title: &str, options: &PdfOptions, standard: Standard, id: [u8; 16]) -> Vec<u8> {
     let escaped = |text: &str| {
         let mut out = Vec::new();

@@ -1,27 +1,27 @@
-//! [`Lattice`]: lines between the pixels of an image, from corner to corner.
+//! [`Lattice`]: lines along the cracks between pixels, from corner to corner.
 
 use crate::parallel::prelude::*;
 
 use super::crest_test::is_crest;
 use super::jump_tiles::JumpMap;
 
-/// The four ways from a corner: right, down, left, up.
+/// Directions from a corner: right, down, left, up.
 pub(crate) const WAYS: [[i32; 2]; 4] = [[1, 0], [0, 1], [-1, 0], [0, -1]];
 
-/// Corners that are passed over at once where no line runs.
+/// Corners that are skipped at once where no line runs.
 const RUN: usize = 64;
 
-/// The corners of pixels, and the cracks between neighbouring pixels that lines run along.
+/// Corners of pixels, and the cracks between pixels that carry lines.
 pub(crate) struct Lattice {
-    /// Corners in a row: one more than pixels.
+    /// Corners per row: one more than pixels.
     pub stride: usize,
     /// Number of rows of corners.
     pub height: usize,
-    /// Whether a line runs from each corner to the right (1), and down (2).
+    /// Flags per corner: a line runs right (1), down (2).
     flags: Vec<u8>,
 }
 
-/// One side of one pixel: the way out of a corner.
+/// One side of a pixel, as a corner and a direction.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Crack {
     pub corner: usize,
@@ -29,7 +29,7 @@ pub(crate) struct Crack {
 }
 
 impl Lattice {
-    /// The cracks over which more jumps than over their neighbours on both sides, and not just as an echo of what jumps near by.
+    /// Cracks whose jump is a local maximum and no echo.
     pub fn crests(jumps: &JumpMap) -> Self {
         let (columns, rows) = (jumps.columns, jumps.rows);
         let stride = columns + 1;
@@ -45,12 +45,12 @@ impl Lattice {
         lattice
     }
 
-    /// Number of corners, with lines or without.
+    /// Number of corners.
     pub fn len(&self) -> usize {
         self.flags.len()
     }
 
-    /// The corners that lines run through, in ascending order.
+    /// Corners on lines, ascending.
     pub fn corners(&self) -> Vec<usize> {
         let stride = self.stride;
         let none = vec![0; stride];
@@ -61,7 +61,7 @@ impl Lattice {
             let mut found = Vec::new();
             for first in (0..stride).step_by(RUN) {
                 let run = first..(first + RUN).min(stride);
-                // The corner before has the flag of the way to the first one.
+                // The corner before the run holds the flag of the crack to its first corner.
                 let any = any(&own[first.saturating_sub(1)..run.end]) | any(&above[run.clone()]);
                 if any != 0 {
                     let is_on = |column: &usize| {
@@ -82,7 +82,7 @@ impl Lattice {
         [corner % self.stride, corner / self.stride]
     }
 
-    /// The corner at the other end of a crack; none outside the picture.
+    /// Corner at the other end of a crack; none outside the image.
     #[inline]
     pub fn end(&self, crack: Crack) -> Option<usize> {
         let [column, row] = self.place(crack.corner);
@@ -92,7 +92,7 @@ impl Lattice {
         inside.then(|| row as usize * self.stride + column as usize)
     }
 
-    /// Where the flag of a crack is kept.
+    /// Index and bit of a crack's flag.
     #[inline]
     fn flag(&self, crack: Crack) -> Option<(usize, u8)> {
         let end = self.end(crack)?;
@@ -115,18 +115,18 @@ impl Lattice {
         }
     }
 
-    /// The cracks with a line that leave a corner.
+    /// Cracks with a line at a corner.
     pub fn leaving(&self, corner: usize) -> impl Iterator<Item = Crack> + '_ {
         (0..4).map(move |way| Crack { corner, way }).filter(|crack| self.has(*crack))
     }
 
-    /// How many cracks with a line leave a corner.
+    /// Number of cracks with a line at a corner.
     pub fn degree(&self, corner: usize) -> usize {
         self.leaving(corner).count()
     }
 
-    /// The two pixels that a crack parts, in columns and rows: on its left and on its right, seen along its way with rows
-    /// running down the page.
+    /// Columns and rows of the pixels on the left and right of a crack, seen along its direction, with rows
+    /// running down.
     pub fn pixels(&self, crack: Crack) -> [[i32; 2]; 2] {
         let [column, row] = self.place(crack.corner).map(|i| i as i32);
         match crack.way {
@@ -137,7 +137,7 @@ impl Lattice {
         }
     }
 
-    /// The jump over a crack.
+    /// Jump across a crack.
     pub fn jump(&self, jumps: &JumpMap, crack: Crack) -> f32 {
         let Some((corner, flag)) = self.flag(crack) else { return 0.0 };
         let [column, row] = self.place(corner);

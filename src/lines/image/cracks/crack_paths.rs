@@ -1,25 +1,25 @@
-//! [`Path`]: lines between pixels from junction to junction, and straight on through junctions.
+//! [`Path`]: crack lines from junction to junction, joined straight through junctions.
 
 use rustc_hash::FxHashMap;
 
 use super::crack_lattice::{Crack, Lattice};
 
-/// Corners over which the direction of a line is measured at a junction.
+/// Window for the direction of a line at a junction, in cracks.
 const DIRECTION: usize = 10;
 
-/// Cosine of the sharpest turn a line takes at a junction: 50 degrees.
+/// Cosine of the sharpest turn (50 degrees) of a line at a junction.
 const STRAIGHT: f64 = 0.643;
 
-/// A line over the corners of pixels.
+/// Line along cracks.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(crate) struct Path {
     pub cracks: Vec<Crack>,
-    /// Whether it ends where it begins, at no junction.
+    /// Whether it is closed.
     pub closed: bool,
 }
 
 impl Path {
-    /// The corner after so many cracks.
+    /// Corner after the given number of cracks.
     pub fn corner(&self, lattice: &Lattice, after: usize) -> usize {
         match self.cracks.get(after) {
             Some(crack) => crack.corner,
@@ -35,7 +35,7 @@ impl Path {
         Self { cracks: self.cracks.iter().rev().map(back).collect(), closed: self.closed }
     }
 
-    /// From its beginning into it, as a unit vector.
+    /// Unit direction at its start.
     fn direction(&self, lattice: &Lattice) -> [f64; 2] {
         let [from, to] = [0, self.cracks.len().min(DIRECTION)]
             .map(|after| lattice.place(self.corner(lattice, after)).map(|i| i as f64));
@@ -45,13 +45,13 @@ impl Path {
     }
 }
 
-/// All lines of a lattice, each crack in one of them. Where three or four meet, the straightest pairs go on through.
+/// All lines of a lattice, with each crack in exactly one. At junctions the straightest pairs are joined.
 pub(crate) fn paths(lattice: &Lattice) -> Vec<Path> {
     let branches = branches(lattice);
     join(lattice, branches)
 }
 
-/// Lines from junction or loose end to the next, then those without any.
+/// Lines between junctions and free ends, followed by rings without either.
 fn branches(lattice: &Lattice) -> Vec<Path> {
     let mut done = vec![0_u8; lattice.len()];
     let mut branches = Vec::new();
@@ -87,15 +87,15 @@ fn branches(lattice: &Lattice) -> Vec<Path> {
     branches
 }
 
-/// One of the two ends of a branch: its beginning, or its end.
+/// End of a branch: its index, and whether it is the far end.
 type End = (usize, bool);
 
-/// Joins branches that go straight on at junctions.
+/// Joins branches that continue each other at junctions.
 fn join(lattice: &Lattice, branches: Vec<Path>) -> Vec<Path> {
     let next = pairs(lattice, &branches);
     let mut used = vec![false; branches.len()];
     let mut paths = Vec::with_capacity(branches.len());
-    // Those that begin at an end that goes on nowhere first; what is left are rings through junctions.
+    // Lines that start at an unpaired end first; the rest are rings through junctions.
     for rings in [false, true] {
         for start in 0..branches.len() {
             for end in [false, true] {
@@ -118,7 +118,7 @@ fn join(lattice: &Lattice, branches: Vec<Path>) -> Vec<Path> {
     paths
 }
 
-/// Which end of a branch goes on in which.
+/// Pairs of branch ends that continue each other.
 fn pairs(lattice: &Lattice, branches: &[Path]) -> FxHashMap<End, End> {
     let mut ends: Vec<(usize, End, [f64; 2])> = Vec::with_capacity(2 * branches.len());
     for (id, branch) in branches.iter().enumerate().filter(|(_, branch)| !branch.closed) {

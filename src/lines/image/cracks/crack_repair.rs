@@ -1,15 +1,15 @@
-//! Closes small gaps in lines between pixels, and takes off spurs.
+//! Repair of crack lines: closes small gaps and removes spurs.
 
 use super::crack_lattice::{Crack, Lattice};
 use super::jump_tiles::JumpMap;
 
-/// Gaps of up to this many cracks are closed, where there is a jump all the way.
+/// Largest gap that is closed, in cracks. There must be a jump all along it.
 const GAP: usize = 4;
 
-/// Branches of up to this many cracks with a loose end are noise.
+/// Longest branch with a free end that is removed, in cracks.
 const SPUR: usize = 4;
 
-/// Leads loose ends on along the largest jumps, where that takes them to another line within a few cracks.
+/// Extends free ends along the largest jumps, if that reaches another line within a few cracks.
 pub(crate) fn close_gaps(lattice: &mut Lattice, jumps: &JumpMap) {
     let loose: Vec<usize> = ends(lattice);
     for start in loose {
@@ -17,7 +17,7 @@ pub(crate) fn close_gaps(lattice: &mut Lattice, jumps: &JumpMap) {
             continue;
         };
         let mut way: Vec<Crack> = Vec::with_capacity(GAP);
-        // The line's own last corners: leading back to them closes nothing.
+        // The last corners of the line itself, which do not close a gap.
         let mut own = vec![start];
         own.extend(walk(lattice, first, 2 * GAP).iter().filter_map(|crack| lattice.end(*crack)));
         let mut at = start;
@@ -43,7 +43,7 @@ pub(crate) fn close_gaps(lattice: &mut Lattice, jumps: &JumpMap) {
     }
 }
 
-/// Takes off short branches, and short lines that hang on nothing.
+/// Removes short branches, and short isolated lines.
 pub(crate) fn take_off_spurs(lattice: &mut Lattice) {
     for start in ends(lattice) {
         let Some(first) = lattice.leaving(start).next().filter(|_| lattice.degree(start) == 1) else {
@@ -56,12 +56,12 @@ pub(crate) fn take_off_spurs(lattice: &mut Lattice) {
     }
 }
 
-/// The corners that just one line runs from.
+/// Corners with exactly one line.
 fn ends(lattice: &Lattice) -> Vec<usize> {
     lattice.corners().into_iter().filter(|corner| lattice.degree(*corner) == 1).collect()
 }
 
-/// The cracks of a line from a loose end to where it branches or ends, no more than `most`.
+/// Cracks of a line from a free end to its next branch or end, at most `most`.
 fn walk(lattice: &Lattice, first: Crack, most: usize) -> Vec<Crack> {
     let mut branch = vec![first];
     while branch.len() < most {

@@ -1,33 +1,33 @@
-//! What lies on both sides of a line between pixels: whose line it is, and whether background is behind it.
+//! Both sides of a crack line: the part and material it belongs to, and whether it is a silhouette.
 
 use super::crack_lattice::{Crack, Lattice};
 use super::pixel_jumps::Jumps;
 use crate::mesh::{MaterialId, Mesh, PartId};
 use crate::view::raster::{Maps, NO_FRONT};
 
-/// Whose a line is, crack by crack.
+/// Surface that a crack belongs to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Owner {
     pub part: PartId,
     pub material: MaterialId,
-    /// Whether depth does not jump: both surfaces that meet are seen.
+    /// Whether depth is continuous, so that both surfaces are seen.
     pub both_seen: bool,
 }
 
-/// A crack as the picture has it.
+/// Properties of a crack.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Side {
     pub owner: Owner,
     /// Depth of the nearer side, world units.
     pub depth: f64,
-    /// Whether nothing is on its other side.
+    /// Whether its other side is background.
     pub silhouette: bool,
 }
 
-/// Runs of one owner that are shorter than this many cracks belong to what comes before.
+/// Minimum length of a run of one owner, in cracks. Shorter runs join the run before.
 const SHORTEST_RUN: usize = 8;
 
-/// The sides of each crack of a path.
+/// Properties of each crack of a path.
 pub(crate) fn sides(
     mesh: &Mesh,
     maps: &Maps,
@@ -45,7 +45,7 @@ fn side(mesh: &Mesh, maps: &Maps, jumps: &Jumps, lattice: &Lattice, crack: Crack
     let [a, b] = pixels.map(|[column, row]| row * maps.columns + column);
     let near = if maps.depths[a] <= maps.depths[b] && maps.faces[a] != NO_FRONT { a } else { b };
     let near = if maps.faces[near] == NO_FRONT { a } else { near };
-    // Lines run across rows or across columns: the later of both pixels has the other before it.
+    // Of the two pixels, the one in the later row or column has the other before it.
     let [column, row] = [0, 1].map(|axis| pixels[0][axis].max(pixels[1][axis]));
     let line = if crack.way.is_multiple_of(2) {
         jumps.line_down(column, row)
@@ -63,7 +63,7 @@ fn side(mesh: &Mesh, maps: &Maps, jumps: &Jumps, lattice: &Lattice, crack: Crack
     }
 }
 
-/// Gives short runs to the owner before them, those at the beginning to the one after.
+/// Merges short runs into the run before; at the start of the path, into the run after.
 fn settle(sides: &mut [Side]) {
     let mut kept: Option<Owner> = None;
     let mut at = 0;
@@ -71,7 +71,7 @@ fn settle(sides: &mut [Side]) {
         let owner = sides[at].owner;
         let run = sides[at..].iter().take_while(|side| side.owner == owner).count();
         if run >= SHORTEST_RUN {
-            // What came before the first long run is its own.
+            // Short runs before the first long one join it.
             if kept.is_none() {
                 sides[..at].iter_mut().for_each(|side| side.owner = owner);
             }

@@ -1,18 +1,18 @@
-//! Which jumps are the crest of an edge, and which its foothills.
+//! Non-maximum suppression: whether a jump is the crest of an edge, or only part of its slope or its echo.
 
-/// A jump that alone is no more than this part of an edge is taken for noise.
+/// Smallest jump that is not noise, in edge thresholds.
 const LEAST: f32 = 0.3;
 
-/// How far from where something jumps a surface that turns away may bend faster than elsewhere, pixels.
+/// Radius of the echo of a jump, px: a surface bends fastest just before it turns away.
 const ECHO: usize = 10;
 
-/// What jumps by less than this part of what jumps so near is its echo: the surface bends most just before it turns away.
+/// Largest jump, relative to a jump nearby, that counts as its echo.
 const ECHO_SHARE: f32 = 0.35;
 
-/// What jumps by more than so many edges is none: a bend of 16 degrees.
+/// Smallest jump that is no echo, in edge thresholds; it corresponds to a bend of 16 degrees.
 pub(crate) const NO_ECHO: f32 = 8.0;
 
-/// Whether number `at` of the `count` jumps of a row or column is the largest.
+/// Whether jump `at` of a row or column of `count` jumps is a local maximum and no echo.
 pub(crate) fn is_crest(jump: impl Fn(usize) -> f32, at: usize, count: usize) -> bool {
     let own = jump(at);
     if own <= LEAST {

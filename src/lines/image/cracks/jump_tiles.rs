@@ -1,9 +1,9 @@
-//! [`JumpMap`]: the jumps of an image, kept in tiles: lines run through all rows of it, but through few of its tiles, and memory
-//! that is not touched costs nothing.
+//! [`JumpMap`]: the jumps of an image, stored in tiles. Lines pass all rows but few tiles, and untouched
+//! memory is free.
 
 use crate::parallel::prelude::*;
 
-/// Rows and columns of a tile: a page of memory.
+/// Rows and columns of a tile, which fills a memory page.
 const HIGH: usize = 16;
 const WIDE: usize = 32;
 
@@ -11,14 +11,14 @@ const WIDE: usize = 32;
 pub(crate) struct JumpMap {
     pub columns: usize,
     pub rows: usize,
-    /// The columns with jumps, row after row.
+    /// Columns with jumps, for each row.
     pub with_jumps: Vec<Vec<u32>>,
-    /// To each pixel from the one on its left, and from the one above. Tile after tile, in each row after row.
+    /// Jumps to each pixel from the left and from above. Tile by tile, and row by row inside a tile.
     jumps: Vec<[f32; 2]>,
 }
 
 impl JumpMap {
-    /// `of_row` puts the jumps of a row, each with its column.
+    /// Builds the map; `of_row` reports the jumps of a row, each with its column.
     pub fn new(
         columns: usize,
         rows: usize,
@@ -46,20 +46,20 @@ impl JumpMap {
         self.jumps[row / HIGH * band + in_band(column, row)]
     }
 
-    /// From the pixel on the left to a pixel.
+    /// Jump from the left neighbour to a pixel.
     #[inline]
     pub fn across(&self, column: usize, row: usize) -> f32 {
         self.at(column, row)[0]
     }
 
-    /// From the pixel above to a pixel.
+    /// Jump from the upper neighbour to a pixel.
     #[inline]
     pub fn down(&self, column: usize, row: usize) -> f32 {
         self.at(column, row)[1]
     }
 }
 
-/// Where the jumps to a pixel are kept among those of the same row of tiles.
+/// Index of a pixel's jumps within its row of tiles.
 #[inline]
 fn in_band(column: usize, row: usize) -> usize {
     column / WIDE * (WIDE * HIGH) + row % HIGH * WIDE + column % WIDE

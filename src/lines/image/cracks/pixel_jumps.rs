@@ -1,6 +1,7 @@
-//! [`Jumps`]: how much depth and normals change from a pixel to the next.
+//! [`Jumps`]: differences of depth and normals between neighbouring pixels.
 //!
-//! Edges of an image lie between pixels, not on them. Of neighbouring pairs of pixels the one with the largest jump says where.
+//! Edges of an image lie between pixels. Among neighbouring pairs, the one with the largest jump locates the
+//! edge.
 
 use std::ops::Range;
 
@@ -10,25 +11,25 @@ use crate::lines::image::{EdgeTest, ImageOptions};
 use crate::mesh::Mesh;
 use crate::view::raster::{Maps, NO_FRONT};
 
-/// The difference of opposite pixels that the test after Ishaya takes for an edge by itself: half a step of its hardware, and
-/// normals 29 degrees apart half-way into the picture. Only what jumps more than what hangs on it.
+/// Jumps of depth and normals that the opposite test takes for an edge. For depth this is half a step of its
+/// hardware; for normals it is 29 degrees, halfway into the picture. Only the ratio of the two matters.
 const OPPOSITE: [f32; 2] = [0.0442, 0.33];
 
-/// The jump over a straight edge that makes p of the gradient test 0.75, in units of its k: pixels beside the edge
-/// have half the jump for a gradient, and those behind them none.
+/// Jump over a straight edge for which the gradient test has p = 0.75, in units of its k. Pixels next to the
+/// edge have half the jump as gradient, and those behind them none.
 const GRADIENT: f32 = 1.732;
 
-/// The least jump from one surface to another.
+/// Smallest jump between two surfaces.
 const SURE: f32 = 1.01 * NO_ECHO;
 
-/// Columns that are passed over at once where nothing is an edge.
+/// Columns that are skipped at once where no pixel is an edge.
 const RUN: usize = 32;
 
-/// How much depth and normals jump between pixels, in units of what alone is an edge by its test.
+/// Jumps between pixels, in units of the jump that alone makes an edge.
 pub(crate) struct Jumps<'a> {
     mesh: &'a Mesh,
     maps: &'a Maps,
-    /// Whether there are several parts or materials, and borders of them jump by themselves.
+    /// Whether borders between parts or materials count as jumps.
     parts: bool,
     depth: f32,
     normal: f32,
@@ -49,7 +50,7 @@ impl<'a> Jumps<'a> {
         Self { mesh, maps, parts, depth: 1.0 / depth, normal: 1.0 / normal }
     }
 
-    /// The jump of depth between two neighbours, with the pixels before and behind them in line: what neither side's slope
+    /// Jump of depth between two neighbours `a` and `b`, minus the part that the slope on either side
     /// explains.
     #[inline]
     pub fn of_depth(&self, [before, a, b, behind]: [usize; 4]) -> f32 {
@@ -66,8 +67,8 @@ impl<'a> Jumps<'a> {
         ((a[0] - b[0]).abs() + (a[1] - b[1]).abs() + (a[2] - b[2]).abs()) / 3.0 * self.normal
     }
 
-    /// Both jumps as one, if the pixels are edges. What parts two surfaces is no echo of anything: where depth jumps,
-    /// and between parts and materials, if these count.
+    /// Combined jump, if the pixels are edges. Between two surfaces it is large enough not to count as an
+    /// echo: where depth jumps, and between parts or materials if these count.
     #[inline]
     fn of(&self, line: [usize; 4], are_edges: bool) -> f32 {
         let parts = self.parts && self.part_things(line[1], line[2]);
@@ -79,7 +80,7 @@ impl<'a> Jumps<'a> {
         (depth * depth + normal * normal).sqrt().max(least(parts || depth >= 1.0))
     }
 
-    /// Whether two pixels show faces of different parts or materials.
+    /// Whether two pixels show different parts or materials.
     #[inline]
     fn part_things(&self, a: usize, b: usize) -> bool {
         let faces = &self.maps.faces;
@@ -92,7 +93,7 @@ impl<'a> Jumps<'a> {
         a != b
     }
 
-    /// The pixel on the left of one and itself, with those before and behind them.
+    /// The left neighbour and the pixel itself, with the pixels before and after them in the row.
     #[inline]
     pub fn line_across(&self, column: usize, row: usize) -> [usize; 4] {
         let last = self.maps.columns - 1;
@@ -100,14 +101,14 @@ impl<'a> Jumps<'a> {
             .map(|column| row * self.maps.columns + column)
     }
 
-    /// The pixel above one and itself, with those before and behind them.
+    /// The upper neighbour and the pixel itself, with the pixels before and after them in the column.
     #[inline]
     pub fn line_down(&self, column: usize, row: usize) -> [usize; 4] {
         let last = self.maps.rows - 1;
         [row.saturating_sub(2), row - 1, row, (row + 1).min(last)].map(|row| row * self.maps.columns + column)
     }
 
-    /// The jumps between pixels that are edges.
+    /// Map of the jumps between edge pixels.
     pub fn map(&self, edges: &[bool]) -> JumpMap {
         let columns = self.maps.columns;
         JumpMap::new(columns, self.maps.rows, |row, put| {
@@ -120,14 +121,15 @@ impl<'a> Jumps<'a> {
         })
     }
 
-    /// Whether there may be a jump within a run of a row: nothing parts what is on one face, unless the test has it.
+    /// Whether there may be a jump in a run of a row. Without an edge pixel, only parts and materials cause
+    /// jumps.
     fn may_jump(&self, edges: &[bool], row: usize, run: Range<usize>) -> bool {
         let own = row * self.maps.columns;
-        // All of them, which is faster than to stop at the first.
+        // A full scan is faster than an early exit.
         self.parts || edges[own + run.start..own + run.end].iter().fold(false, |any, edge| any | edge)
     }
 
-    /// The jumps of a run of a row.
+    /// Reports the jumps of a run of a row.
     fn along(&self, edges: &[bool], row: usize, run: Range<usize>, put: &mut dyn FnMut(usize, [f32; 2])) {
         let (columns, faces) = (self.maps.columns, &self.maps.faces);
         for column in run {

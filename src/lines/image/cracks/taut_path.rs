@@ -1,33 +1,34 @@
-//! The shortest line through a row of gates: a string pulled taut.
+//! Taut path: the shortest line through a sequence of gates (funnel algorithm).
 //!
-//! What is known of an edge between pixels is that it passes between their two centres. Of all lines that do so the shortest has no
-//! bend that the picture does not ask for: a straight edge gives a straight line, however it lies to the pixels. Source: Lee and
-//! Preparata, Euclidean shortest paths in the presence of rectilinear barriers, Networks 1984 (the funnel).
+//! A line in the image is known to pass between two pixel centres at each crack. Of all such lines the
+//! shortest has no bend without a reason in the image: a straight edge gives a straight line at any angle.
+//! Source: Lee and Preparata, Euclidean shortest paths in the presence of rectilinear barriers, Networks
+//! 1984.
 
 use glam::DVec2;
 
-/// A gate: its ends on the left and on the right of who goes through.
+/// Gate: its left and right end, seen along the path.
 pub(crate) type Gate = [DVec2; 2];
 
-/// A bend of a taut string, and how many gates lie before it.
+/// Bend of a taut path, and the number of gates before it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bend {
     pub at: DVec2,
     pub gate: usize,
 }
 
-/// The shortest line from `start` through the gates to `end`, with its bends; both ends are bends.
+/// Shortest line from `start` through the gates to `end`, as its bends. Both ends are included.
 pub(crate) fn taut(start: DVec2, gates: &[Gate], end: DVec2) -> Vec<Bend> {
     let mut bends = vec![Bend { at: start, gate: 0 }];
     let gate = |i: usize| if i < gates.len() { gates[i] } else { [end, end] };
-    // The tip of the funnel, its two sides, and the gates these were last moved at.
+    // Tip of the funnel, its two sides, and the gates that last moved these.
     let mut tip = start;
     let [mut left, mut right] = gate(0);
     let (mut left_at, mut right_at) = (0, 0);
     let mut i = 1;
     while i <= gates.len() {
         let [to_left, to_right] = gate(i);
-        // The right side comes nearer to the left one, or reaches over it.
+        // The right side narrows the funnel, or crosses the left side.
         if turn(tip, right, to_right) <= 0.0 {
             if tip == right || turn(tip, left, to_right) > 0.0 {
                 (right, right_at) = (to_right, i);
@@ -57,12 +58,12 @@ pub(crate) fn taut(start: DVec2, gates: &[Gate], end: DVec2) -> Vec<Bend> {
     bends
 }
 
-/// Twice the area of a triangle with a sign: above zero where c is on the right of the way from a to b, with y down the page.
+/// Twice the signed area of a triangle: positive if c is on the right of the line from a to b, with y down.
 fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Where a taut string goes through each gate.
+/// Points where a taut path crosses each gate.
 pub(crate) fn crossings(bends: &[Bend], gates: &[Gate]) -> Vec<DVec2> {
     let mut piece = 0;
     let mut crossings = Vec::with_capacity(gates.len());
@@ -83,7 +84,7 @@ pub(crate) fn crossings(bends: &[Bend], gates: &[Gate]) -> Vec<DVec2> {
 mod tests {
     use super::*;
 
-    /// Gates across the way to the right, at x = 0, 1, 2 …: between these heights.
+    /// Gates at x = 0, 1, 2 … between the given heights.
     fn gates(heights: &[[f64; 2]]) -> Vec<Gate> {
         heights
             .iter()
@@ -114,7 +115,7 @@ mod tests {
 
     #[test]
     fn no_shorter_line_goes_through_all_gates() {
-        // Against relaxation: each crossing is moved to where it is nearest to its neighbours, again and again.
+        // Reference by relaxation: each crossing moves repeatedly to the midpoint of its neighbours.
         let mut state = 7_u64;
         let mut chance = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

@@ -1,7 +1,7 @@
-//! Pixels around which gradients change: the inker of Scheelk.
+//! Gradient test (Scheelk): pixels where gradients of depth and normals change.
 //!
-//! Source: Scheelk, Non-Photorealistic Rendering, section 3.4.3 (the gradient, an improved Sobel filter) and 3.4.4 (what becomes of
-//! it), with the coefficients given there.
+//! Source: Scheelk, Non-Photorealistic Rendering, sections 3.4.3 (the gradient, an improved Sobel filter) and
+//! 3.4.4 (its use), with the coefficients given there.
 
 use std::ops::Range;
 
@@ -10,15 +10,16 @@ use crate::parallel::prelude::*;
 use crate::lines::image::ImageOptions;
 use crate::view::raster::{Maps, NO_FRONT};
 
-/// Rows whose edges are found by one task: their gradients stay in a near cache.
+/// Rows per task; their gradients fit into the cache.
 const BAND: usize = 32;
 
-/// Which pixels are edges, row after row.
+/// Flags of edge pixels, row by row.
 ///
-/// The gradient of a value X is the mean of its differences to A … H around it, those beside it counted twice:
-/// g = (|A − X| + 2|B − X| + … + |H − X|) / 8. Of normals it is the mean of those of x, y and z. With the largest and the
-/// smallest within 3 × 3 pixels p = min(((`g_max` − `g_min`) / k)², 1), and a pixel is an edge where p of depth and p of normals
-/// together reach the least. Beyond the picture all is as on its rim.
+/// The gradient of a value X is the weighted mean of its differences to its neighbours A … H. Those with a
+/// common side count twice: g = (|A − X| + 2|B − X| + … + |H − X|) / 8. For normals it is the mean over x, y
+/// and z. With the largest and smallest gradient within 3 × 3 pixels, p = min(((`g_max` − `g_min`) / k)², 1).
+/// A pixel is an edge if p of depth plus p of normals reaches the threshold. Outside the image the nearest
+/// pixels are used.
 #[must_use]
 pub fn edges(maps: &Maps, options: &ImageOptions) -> Vec<bool> {
     let (columns, rows) = (maps.columns, maps.rows);
@@ -47,7 +48,7 @@ pub fn edges(maps: &Maps, options: &ImageOptions) -> Vec<bool> {
     edges
 }
 
-/// The first column of each row with a face, and the one after the last.
+/// For each row the first column with a face, and the one after the last.
 struct Spans {
     rows: Vec<[usize; 2]>,
     columns: usize,
@@ -63,7 +64,7 @@ fn spans(maps: &Maps) -> Spans {
 }
 
 impl Spans {
-    /// The columns that are no farther than so many pixels from a face, from a row's place; none if it has none.
+    /// Columns within `far` pixels of a face in the rows within `far` of a row; none if there is no face.
     fn around(&self, row: usize, far: usize) -> Option<[usize; 2]> {
         let near = &self.rows[row.saturating_sub(far)..(row + far + 1).min(self.rows.len())];
         let shown = near.iter().filter(|[from, to]| from < to);
@@ -72,12 +73,12 @@ impl Spans {
     }
 }
 
-/// The numbers of the rows above a row, of itself, and below.
+/// The row above, the row itself and the row below, clamped to the image.
 fn three(row: usize, rows: usize) -> [usize; 3] {
     [row.saturating_sub(1), row, (row + 1).min(rows - 1)]
 }
 
-/// The gradients of some rows of an image.
+/// Gradients of a range of rows.
 #[derive(Default)]
 struct Gradients {
     values: Vec<f32>,
@@ -88,7 +89,7 @@ struct Gradients {
 }
 
 impl Gradients {
-    /// Those of an image of one or several values a pixel, over which their mean is taken.
+    /// Computes the gradients of an image with one or several values per pixel, as the mean over these.
     fn fill(&mut self, image: &[f32], columns: usize, spans: &Spans, rows: Range<usize>) {
         (self.columns, self.first) = (columns, rows.start);
         self.values.clear();
@@ -106,7 +107,7 @@ impl Gradients {
         let wide = *columns * channels;
         let count = (to - from) * channels;
         let image = three(row, rows).map(|row| &image[row * wide..(row + 1) * wide]);
-        // One pixel more to both sides, so that no pixel between has to ask for the rim.
+        // One pixel more on both sides, so that inner pixels need no bounds check.
         let around = if from > 0 && to < *columns {
             image.map(|row| &row[(from - 1) * channels..(to + 1) * channels])
         } else {
@@ -120,7 +121,7 @@ impl Gradients {
             }
             [&*padded[0], &*padded[1], &*padded[2]]
         };
-        // Slices of one length, so that many pixels are taken at a time.
+        // Slices of equal length, so that the loop is vectorized.
         let side = |row: usize, right: usize| &around[row][right * channels..right * channels + count];
         let (a, b, c) = (side(0, 0), side(0, 1), side(0, 2));
         let (d, x, e) = (side(1, 0), side(1, 1), side(1, 2));
@@ -145,11 +146,11 @@ impl Gradients {
     }
 }
 
-/// p of some pixels of a row, of the gradients there, above and below: how much they differ within 3 × 3 pixels.
+/// p of a range of pixels in a row, from the gradients of three rows.
 fn changes([above, own, below]: [&[f32]; 3], [from, to]: [usize; 2], k: f32) -> Vec<f32> {
     let (first, end) = (from.saturating_sub(1), (to + 1).min(own.len()));
     let (above, own, below) = (&above[first..end], &own[first..end], &below[first..end]);
-    // Comparisons, since `min` and `max` ask for NaN.
+    // Comparisons instead of `min` and `max`, which check for NaN.
     let min = |a: f32, b: f32| if a < b { a } else { b };
     let max = |a: f32, b: f32| if a > b { a } else { b };
     let (mut low, mut high) = (vec![0.0_f32; end - first], vec![0.0_f32; end - first]);

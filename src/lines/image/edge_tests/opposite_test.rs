@@ -1,7 +1,7 @@
-//! Pixels on whose opposite sides normals or depth differ: the inker of Ishaya.
+//! Opposite test (Ishaya): pixels with different normals or depth on opposite sides.
 //!
-//! Source: Ishaya, Real-Time Cartoon Rendering with Direct-X 8.0 Hardware, GameDev.net 2003, listing 4: nine instructions of a pixel
-//! shader, with the constants given there.
+//! Source: Ishaya, Real-Time Cartoon Rendering with Direct-X 8.0 Hardware, GameDev.net 2003, listing 4: nine
+//! instructions of a pixel shader, with the constants given there.
 
 use crate::parallel::prelude::*;
 
@@ -9,15 +9,16 @@ use super::pixel_neighbours::around;
 use crate::lines::image::ImageOptions;
 use crate::view::raster::{Maps, NO_FRONT};
 
-/// The hardware of the listing computes in steps of 1/256: what is less than half of one is nothing.
+/// Half a step of the listing's hardware, which computes in steps of 1/256. Less than that has no effect.
 const HALF_STEP: f32 = 1.0 / 512.0;
 
-/// Which pixels are edges, row after row.
+/// Flags of edge pixels, row by row.
 ///
-/// For the two pairs of opposite neighbours the cosine of their normals, less a threshold t, is four times taken and clamped to 0 … 1;
-/// the two are multiplied, and again four times taken and clamped: n. t is the threshold for normals less what depth takes off,
-/// asked at the first pixel of the four. A pixel is an edge where (1 − n) + d₁² + d₂² + 2c, with the differences of depth d
-/// and their threshold c, is above a half.
+/// 1. For each of the two pairs of opposite neighbours: n = clamp(4 (cos − t), 0, 1), with the cosine of
+///    their normals. The threshold t is that for normals, minus a share of the depth at the left neighbour.
+/// 2. N = clamp(4 n₁ n₂, 0, 1).
+/// 3. A pixel is an edge if (1 − N) + d₁² + d₂² + 2c exceeds 1/2, with the depth differences d and the depth
+///    threshold c.
 #[must_use]
 pub fn edges(maps: &Maps, options: &ImageOptions) -> Vec<bool> {
     let (columns, rows) = (maps.columns, maps.rows);
@@ -43,7 +44,7 @@ pub fn edges(maps: &Maps, options: &ImageOptions) -> Vec<bool> {
     edges
 }
 
-/// The cosine between the normals of two pixels; background agrees with background, and with nothing else.
+/// Cosine between the normals of two pixels. Background agrees with background only.
 #[inline]
 fn cosine(maps: &Maps, a: usize, b: usize) -> f32 {
     if maps.faces[a] == NO_FRONT && maps.faces[b] == NO_FRONT {

@@ -1,11 +1,11 @@
-//! The nine pixels around a place of a map.
+//! Pixel neighbourhood: the 3 × 3 pixels around a position of a map.
 
 use crate::view::raster::{Maps, NO_FRONT};
 
-/// Row by row; the pixel itself is the fifth. Beyond the rim of the picture its nearest pixel stands in.
+/// Indices row by row; the pixel itself is the fifth. Outside the image the nearest pixel is used.
 pub(crate) type Around = [usize; 9];
 
-/// The pixels around one.
+/// The 3 × 3 pixels around one.
 #[inline]
 pub(crate) fn around(columns: usize, rows: usize, column: usize, row: usize) -> Around {
     let lines = [row.saturating_sub(1), row, (row + 1).min(rows - 1)].map(|row| row * columns);
@@ -20,7 +20,7 @@ pub(crate) fn around(columns: usize, rows: usize, column: usize, row: usize) -> 
 }
 
 impl Maps {
-    /// Whether none of the pixels around a place shows a face.
+    /// Whether none of the pixels shows a face.
     #[inline]
     pub(crate) fn is_bare(&self, at: &Around) -> bool {
         at.iter().all(|pixel| self.faces[*pixel] == NO_FRONT)

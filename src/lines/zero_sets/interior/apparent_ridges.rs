@@ -1,9 +1,10 @@
-//! Apparent ridges: where the surface bends most as the eye sees it.
+//! Apparent ridges: where the curvature of the surface, as seen from the camera, is largest.
 //!
-//! Source: Judd, Durand and Adelson, "Apparent ridges for line drawing", SIGGRAPH 2007: the
-//! view-dependent curvature is the largest singular value of Q = S P⁻¹, the change of the normal
-//! over a way in the image; an apparent ridge is where it is greatest along its direction t₁.
-//! The derivative along t₁ is a difference over the two faces that the way runs through.
+//! The view-dependent curvature is the largest singular value of Q = S P⁻¹, the change of the normal per
+//! distance in the image. An apparent ridge is where it is largest along its direction t₁. The derivative
+//! along t₁ is a difference over the two faces in that direction.
+//!
+//! Source: Judd, Durand and Adelson, "Apparent ridges for line drawing", SIGGRAPH 2007.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
@@ -15,12 +16,12 @@ use crate::lines::zero_sets::zero_set::{EdgePoint, trace_crossings};
 use crate::lines::{FeatureLines, LineKind};
 use crate::parallel::task_size::GRAIN;
 
-/// The view-dependent curvature at a smooth vertex.
+/// View-dependent curvature at a smooth vertex.
 #[derive(Debug, Clone, Copy, Default)]
 struct Apparent {
-    /// The square of the largest singular value of Q.
+    /// Square of the largest singular value of Q.
     q1: f64,
-    /// Unit vector on the surface along which it bends.
+    /// Unit direction of that curvature on the surface.
     t1: DVec3,
 }
 
@@ -68,7 +69,7 @@ fn bend(seen: &Seen, vertex: usize) -> Apparent {
     Apparent { q1: 0.5 * (a + c) + spread, t1: p.dir1 * t.x + p.dir2 * t.y }
 }
 
-/// The way on which the view-dependent curvature grows, as long as it grows fast.
+/// Gradient of the view-dependent curvature along its own direction.
 fn uphill(seen: &Seen, apparent: &[Apparent], vertex: usize) -> DVec3 {
     let position = |v: u32| seen.mesh.positions[seen.smooth.vertices[v as usize] as usize];
     let own = &apparent[vertex];
@@ -77,7 +78,7 @@ fn uphill(seen: &Seen, apparent: &[Apparent], vertex: usize) -> DVec3 {
     for (face, corner) in seen.curvature.fans.around(vertex) {
         let corners = seen.smooth.corners[face];
         let (next, last) = (corners[(corner + 1) % 3], corners[(corner + 2) % 3]);
-        // Where the way through the vertex leaves the face.
+        // Point where the line through the vertex leaves the face.
         let (beside_next, beside_last) =
             ((position(next) - at).dot(across), (position(last) - at).dot(across));
         if (beside_next >= 0.0) == (beside_last >= 0.0) {

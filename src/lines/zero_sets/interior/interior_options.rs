@@ -1,34 +1,33 @@
-//! Which lines inside are drawn: the `[lines.inside]` table of a style sheet.
+//! Which interior lines are drawn: the `[lines.inside]` table of a style sheet.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
-/// How lines inside are found. Thresholds have no unit: those of ridges are divided by the size of
-/// the model's features, those of suggestive contours and apparent ridges by its square.
+/// How interior lines are found. Thresholds are relative: those of ridges and valleys to the inverse feature
+/// size, those of suggestive contours and apparent ridges to its square.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct InsideOptions {
-    /// Length over which normals are smoothed beforehand, in fortieths of the model's size.
-    /// Default: 0.3.
+    /// Smoothing length of the normals, in fortieths of the model's size. Default: 0.3.
     #[serde(deserialize_with = "positive")]
     pub smooth: f64,
-    /// How fast radial curvature must change across a suggestive contour. Default: 0.01.
+    /// Smallest change of radial curvature across a suggestive contour. Default: 0.01.
     #[serde(deserialize_with = "positive")]
     pub suggestive: f64,
-    /// Seek suggestive highlights too; their kind is `suggestive`. Default: false.
+    /// Find suggestive highlights too; their kind is `suggestive`. Default: false.
     pub highlights: bool,
-    /// How fast radial curvature must change across a suggestive highlight. Default: 0.02.
+    /// Smallest change of radial curvature across a suggestive highlight. Default: 0.02.
     #[serde(deserialize_with = "positive")]
     pub highlight: f64,
-    /// The curvature a ridge must have. Default: 0.1.
+    /// Smallest curvature of a ridge. Default: 0.1.
     #[serde(deserialize_with = "positive")]
     pub ridge: f64,
-    /// The curvature a valley must have. Default: 0.1.
+    /// Smallest curvature of a valley. Default: 0.1.
     #[serde(deserialize_with = "positive")]
     pub valley: f64,
-    /// Seek apparent ridges, as the view bends the surface, in place of ridges. Default: false.
+    /// Find apparent (view-dependent) ridges in place of ridges. Default: false.
     pub apparent: bool,
-    /// The square of the curvature that an apparent ridge must have. Default: 0.1.
+    /// Smallest square of the curvature of an apparent ridge. Default: 0.1.
     #[serde(deserialize_with = "positive")]
     pub apparent_ridge: f64,
 }
@@ -48,7 +47,7 @@ impl Default for InsideOptions {
     }
 }
 
-/// A number that is not negative.
+/// Reads a number that is not negative.
 fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let value = f64::deserialize(deserializer)?;
     if value >= 0.0 && value.is_finite() {

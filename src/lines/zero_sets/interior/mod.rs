@@ -3,7 +3,7 @@
 //!
 //! 1. Each finder turns the surface's curvature into a curve over the mesh and a measure along it.
 //! 2. The measure is 1 at the threshold below which nothing is drawn. Curves are cut where it passes 1.
-//! 3. The measure above 1 gives the line its strength, from which its width follows.
+//! 3. The measure above 1 gives the line its strength, and so its width.
 //!
 //! Thresholds are relative to the size of the model's features, so that no style depends on the model's unit.
 //! Source: the measures follow Rusinkiewicz's rtsc; each finder names its paper.
@@ -30,24 +30,24 @@ use crate::surface::curvature::feature_size::MOST_OF_PART;
 use crate::surface::{Curvature, Origin, SmoothNormals};
 use crate::view::View;
 
-/// The measure from which on a line is as strong as can be.
+/// Smallest measure of a line with full strength.
 const FULL: f64 = 8.0;
 
 const UNSET: u32 = u32::MAX;
 
-/// Whether any line inside is asked for.
+/// Whether any interior line is drawn.
 #[must_use]
 pub fn wanted(options: &LineOptions) -> bool {
     options.kinds.iter().any(|kind| kind.is_inside())
 }
 
-/// The curvature that the lines inside of a mesh are found by.
+/// Curvature used for the interior lines of a mesh.
 #[must_use]
 pub fn curvature(mesh: &Mesh, smooth: &SmoothNormals, options: &InsideOptions) -> Curvature {
     Curvature::new(mesh, smooth, options.smooth * MOST_OF_PART)
 }
 
-/// Adds the lines inside of the kinds asked for.
+/// Adds the interior lines of the wanted kinds.
 pub fn find(
     mesh: &Mesh,
     view: &View,
@@ -70,15 +70,15 @@ pub fn find(
     }
 }
 
-/// A surface with its curvature, and how the eye sees it.
+/// Surface with its curvature and view directions.
 pub(crate) struct Seen<'a> {
     mesh: &'a Mesh,
     view: &'a View,
     smooth: &'a SmoothNormals,
     curvature: &'a Curvature,
-    /// Whether surfaces may be seen from behind.
+    /// Whether the inside of surfaces may be visible.
     open: bool,
-    /// The direction to the eye along `dir1`, `dir2` and the normal. One per smooth vertex.
+    /// Direction to the camera in the basis `dir1`, `dir2`, normal; one per smooth vertex.
     eye: Vec<DVec3>,
 }
 
@@ -96,33 +96,32 @@ impl<'a> Seen<'a> {
                 DVec3::new(to_eye.dot(p.dir1), to_eye.dot(p.dir2), to_eye.dot(curvature.normals[v]))
             })
             .collect();
-        // Where the near plane cuts a surface open, its inside is seen.
+        // Where the near plane cuts a surface open, its inside is visible.
         let is_cut = !view.clipped.is_empty() || view.points.iter().any(|p| p.z.is_nan());
         Self { mesh, view, smooth, curvature, open: mesh.cleaning.borders > 0 || is_cut, eye }
     }
 
-    /// The size of the features around a point, world units.
+    /// Feature size around a point, world units.
     fn size(&self, point: &EdgePoint) -> f64 {
         self.curvature.feature_size(point.between[0])
     }
 
-    /// A number for each smooth vertex.
+    /// A value for each smooth vertex.
     fn field(&self, value: impl Fn(usize) -> f64 + Sync + Send) -> Vec<f64> {
         (0..self.eye.len()).into_par_iter().with_min_len(GRAIN).map(value).collect()
     }
 
-    /// Whether a face can be seen at all.
+    /// Whether a face can be visible.
     fn shows(&self, face: u32) -> bool {
         self.open || self.view.facing[face as usize]
     }
 
-    /// 1 where the outside of a face is seen, −1 where its inside is: there the surface bends the
-    /// other way.
+    /// 1 if the outside of a face is seen, −1 for the inside, where the curvature has the opposite sign.
     fn side(&self, face: u32) -> f64 {
         if self.view.facing[face as usize] { 1.0 } else { -1.0 }
     }
 
-    /// Adds the pieces of a curve whose measure is over 1, cut where it passes 1.
+    /// Adds the parts of a curve where the measure exceeds 1.
     fn add(
         &self,
         set: &ZeroSet,
@@ -175,12 +174,12 @@ impl<'a> Seen<'a> {
     }
 }
 
-/// A threshold by which can be divided.
+/// Threshold that is safe to divide by.
 fn positive(threshold: f64) -> f64 {
     threshold.max(tolerance::LEAST_THRESHOLD)
 }
 
-/// How strong a line of this measure is: 0 at 1, 1 from [`FULL`] on.
+/// Strength of a line with the given measure: 0 at 1, and 1 from [`FULL`] on.
 fn strength(measure: f64) -> f64 {
     ((1.0 - 1.0 / measure) / (1.0 - 1.0 / FULL)).clamp(0.0, 1.0)
 }

@@ -1,9 +1,10 @@
-//! Ridges and valleys: where the larger principal curvature is greatest along its own direction.
+//! Ridges and valleys: where the larger principal curvature is extremal along its own direction.
 //!
-//! Source: Ohtake, Belyaev and Seidel, "Ridge-valley lines on meshes via implicit surface fitting",
-//! SIGGRAPH 2004, section 3: extremality coefficients change their sign between the ends of an
-//! edge, and the curvature grows towards the crossing; with the derivatives of Rusinkiewicz 2004 in
-//! place of the fitted surface's.
+//! The extremality coefficients change sign between the ends of an edge, and the curvature grows towards the
+//! crossing.
+//!
+//! Source: Ohtake, Belyaev and Seidel, "Ridge-valley lines on meshes via implicit surface fitting", SIGGRAPH
+//! 2004, section 3. Deviation: derivatives follow Rusinkiewicz 2004 instead of a fitted surface.
 
 use glam::DVec3;
 
@@ -11,7 +12,7 @@ use super::{InsideOptions, Seen, positive};
 use crate::lines::zero_sets::zero_set::{Crossing, EdgePoint, trace_crossings};
 use crate::lines::{FeatureLines, LineKind};
 
-/// Adds the ridges, the valleys or both.
+/// Adds ridges, valleys or both.
 pub(crate) fn find(
     seen: &Seen,
     ridges: bool,
@@ -45,23 +46,22 @@ pub(crate) fn find(
     }
 }
 
-/// The crossing of an edge whose ends both bend outwards (`sign` 1) or inwards (−1).
+/// Crossing on an edge whose ends are both convex (`sign` 1) or both concave (−1).
 fn crossing(seen: &Seen, sign: f64, a: usize, b: usize) -> Option<Crossing> {
     let principal = &seen.curvature.principal;
     if principal[a].k1 * sign <= 0.0 || principal[b].k1 * sign <= 0.0 {
         return None;
     }
     let derivative = &seen.curvature.derivative;
-    // The way on which the curvature grows.
+    // Gradient of the curvature along its own direction.
     let uphill = |v: usize| principal[v].dir1 * (sign * derivative[v][0]);
     let way = [a, b].map(|v| seen.mesh.positions[seen.smooth.vertices[v] as usize]);
     maximum([uphill(a), uphill(b)], way[1] - way[0])
 }
 
-/// Where between the ends of an edge a curvature is greatest, of which is known which way and how
-/// fast it grows at the ends.
+/// Maximum of a curvature between the ends of an edge, from its gradients at the ends.
 pub(crate) fn maximum(uphill: [DVec3; 2], edge: DVec3) -> Option<Crossing> {
-    // Both ways lead away from each other, or towards each other.
+    // The gradients do not point towards each other.
     if uphill[0].dot(uphill[1]) > 0.0 || (uphill[0] - uphill[1]).dot(edge) <= 0.0 {
         return None;
     }

@@ -1,22 +1,25 @@
-//! Suggestive contours: where a contour would appear if the eye moved a little.
+//! Suggestive contours: where a contour would appear from a nearby viewpoint.
 //!
-//! The radial curvature is the normal curvature towards the eye. Where it vanishes while growing
-//! towards the eye, n·v has a minimum: the surface almost turns away. Where it falls, n·v has a
-//! maximum: a suggestive highlight.
+//! The radial curvature is the normal curvature towards the camera. Where it vanishes and grows towards the
+//! camera, n·v has a minimum: the surface almost turns away. Where it vanishes and falls, n·v has a maximum:
+//! a suggestive highlight.
 //!
-//! Source: DeCarlo, Finkelstein, Rusinkiewicz and Santella, "Suggestive contours for conveying
-//! shape", SIGGRAPH 2003; DeCarlo, Finkelstein and Rusinkiewicz, "Interactive rendering of
-//! suggestive contours with temporal coherence", NPAR 2004, for the test D_w κ_r · tan θ, which
-//! falls to zero where the eye looks straight at the surface; DeCarlo and Rusinkiewicz,
-//! "Highlight lines for conveying shape", NPAR 2007.
+//! Sources:
+//!
+//! - DeCarlo, Finkelstein, Rusinkiewicz and Santella, "Suggestive contours for conveying shape", SIGGRAPH
+//!   2003.
+//! - DeCarlo, Finkelstein and Rusinkiewicz, "Interactive rendering of suggestive contours with temporal
+//!   coherence", NPAR 2004, for the test D_w κ_r · tan θ, which vanishes where the camera looks straight at
+//!   the surface.
+//! - DeCarlo and Rusinkiewicz, "Highlight lines for conveying shape", NPAR 2007.
 
 use super::{InsideOptions, Seen, positive};
 use crate::lines::zero_sets::zero_set::{EdgePoint, trace};
 use crate::lines::{FeatureLines, LineKind};
 
-/// Adds suggestive contours, and highlights where they are wanted.
+/// Adds suggestive contours, and highlights if wanted.
 pub(crate) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLines) {
-    // κ_r sin² θ, which vanishes where κ_r does.
+    // κ_r sin² θ, with the zeros of κ_r.
     let radial = seen.field(|v| {
         let (p, eye) = (&seen.curvature.principal[v], seen.eye[v]);
         p.k1 * eye.x * eye.x + p.k2 * eye.y * eye.y
@@ -28,7 +31,7 @@ pub(crate) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLine
         let [a, b] = point.between.map(|v| seen.eye[v as usize].z);
         a + (b - a) * point.t
     };
-    // The test over its threshold; from behind, the surface bends the other way.
+    // The test divided by its threshold. Seen from behind, the curvature has the opposite sign.
     let measure = |threshold: f64, sense: f64| {
         let change = &change;
         move |point: &EdgePoint, side: f64| {
@@ -47,7 +50,7 @@ pub(crate) fn find(seen: &Seen, options: &InsideOptions, lines: &mut FeatureLine
     }
 }
 
-/// D_w κ_r · sin θ at a smooth vertex: the derivative of the radial curvature towards the eye.
+/// D_w κ_r · sin θ at a smooth vertex: the derivative of the radial curvature towards the camera.
 fn change(seen: &Seen, vertex: usize) -> f64 {
     let (p, eye) = (&seen.curvature.principal[vertex], seen.eye[vertex]);
     let [a, b, c, d] = seen.curvature.derivative[vertex];
@@ -57,7 +60,7 @@ fn change(seen: &Seen, vertex: usize) -> f64 {
         return 0.0;
     }
     let along = u * u * (u * a + 3.0 * v * b) + v * v * (3.0 * u * c + v * d);
-    // The second term is what the turning of w itself adds (DeCarlo 2004, appendix).
+    // The second term comes from the rotation of w itself (DeCarlo 2004, appendix).
     let torsion = (p.k2 - p.k1) * u * v / sin2;
     along / sin2 - 2.0 * eye.z * torsion * torsion
 }

@@ -1,4 +1,4 @@
-//! What pointers of animations (KHR_animation_pointer) lead to.
+//! Resolves the targets of animation pointers (KHR_animation_pointer).
 //!
 //! Source: Khronos Group, KHR_animation_pointer, and the glTF 2.0 asset object model.
 
@@ -8,10 +8,10 @@ use crate::error::Error;
 use crate::load::gltf::json::Root;
 use crate::load::gltf::material_reader;
 
-/// The value that a pointer leads to; none if no drawing shows it.
+/// Target of a pointer; `None` if it has no visible effect.
 ///
 /// # Errors
-/// If it leads to a thing that the file does not have, or that has no such value.
+/// If it refers to something that the file lacks, or that has no such value.
 pub fn pointed(root: &Root, pointer: &str) -> Result<Option<Target>, Error> {
     let mut steps = pointer.strip_prefix('/').unwrap_or_default().splitn(2, '/');
     let (list, rest) = (steps.next().unwrap_or_default(), steps.next().unwrap_or_default());
@@ -51,7 +51,7 @@ fn camera(root: &Root, number: usize, path: &str) -> Result<Option<Target>, Erro
         "orthographic/xmag" => (Lens::HalfWidth, false),
         "orthographic/ymag" => (Lens::HalfHeight, false),
         "orthographic/znear" => (Lens::Near, false),
-        // Nothing is too far away to be drawn.
+        // There is no far plane.
         _ => return Ok(None),
     };
     let own = root.cameras.get(number).ok_or_else(|| absent("camera", number, root.cameras.len()))?;

@@ -8,7 +8,8 @@ use crate::load::gltf::json::{Animation, AnimationSampler, Channel as JsonChanne
 use crate::load::gltf::storage::buffers::Buffers;
 use crate::scene::Warnings;
 
-/// The clips of a file, by number. What is broken in them, or moves what no drawing shows, is left out with a warning.
+/// Clips of a file, by number. Invalid channels, and channels that change nothing visible, are left out with
+/// a warning.
 pub fn clips(buffers: &Buffers, nodes: &[Node], warnings: &mut Warnings) -> Vec<Clip> {
     let mut clips = Vec::new();
     for (number, animation) in buffers.root.animations.iter().enumerate() {
@@ -31,12 +32,12 @@ pub fn clips(buffers: &Buffers, nodes: &[Node], warnings: &mut Warnings) -> Vec<
     clips
 }
 
-/// The name of an animation.
+/// Name of an animation.
 fn name(number: usize, animation: &Animation) -> String {
     animation.name.clone().unwrap_or_else(|| format!("animation {number}"))
 }
 
-/// One channel; none if it moves nothing that is drawn.
+/// Reads one channel; `None` if it changes nothing visible.
 fn read(
     buffers: &Buffers,
     nodes: &[Node],
@@ -57,10 +58,10 @@ fn read(
     Ok(Some(Channel { target, track }))
 }
 
-/// How many numbers a key has.
+/// Number of values per key.
 #[derive(Clone, Copy)]
 enum Width {
-    /// So many, each an element of its accessor: a list of weights.
+    /// A list of this many scalars: morph weights.
     Scalars(usize),
     Three,
     Four,
@@ -95,7 +96,7 @@ fn width(nodes: &[Node], target: Target) -> Result<Width, Error> {
     })
 }
 
-/// What a channel moves; none if it moves nothing that is drawn.
+/// Target of a channel; `None` if it changes nothing visible.
 fn target(buffers: &Buffers, target: &ChannelTarget) -> Result<Option<Target>, Error> {
     if let Some(pointer) = &target.extensions.pointer {
         return pointed(buffers.root, &pointer.pointer);
@@ -106,13 +107,10 @@ fn target(buffers: &Buffers, target: &ChannelTarget) -> Result<Option<Target>, E
         "scale" => Property::Scale,
         "weights" => Property::Weights,
         other => {
-            return Err(Error::new(format!(
-                "its path `{}` is unknown",
-                crate::load::gltf::uri::shown(other)
-            )));
+            return Err(Error::new(format!("its path `{}` is unknown", crate::load::gltf::uri::shown(other))));
         }
     };
-    // A channel without a node is for extensions to fill.
+    // A channel without a node belongs to an extension.
     Ok(target.node.map(|node| Target::Node(node, property)))
 }
 

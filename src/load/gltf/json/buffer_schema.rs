@@ -1,4 +1,4 @@
-//! The JSON of numbers: accessors, and the buffers that they are read from.
+//! Schema of accessors, buffer views and buffers.
 
 use serde::Deserialize;
 

@@ -1,11 +1,12 @@
-//! Indices in the JSON. Some exporters write -1 for none: an index that points nowhere, and no fault of the JSON.
+//! Lenient deserialisation of indices: some exporters write -1 for "none", which is read as an index out of
+//! range.
 
 use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::{Deserialize, Deserializer};
 
-/// An index as it was read. Negative ones wrap around, so that they point nowhere.
+/// An index as read. Negative values wrap around, so that they are out of range.
 #[derive(Deserialize)]
 #[serde(from = "i64")]
 struct Index(usize);
@@ -18,7 +19,7 @@ impl From<i64> for Index {
     }
 }
 
-/// An index in a message, as the file has it.
+/// An index for messages, formatted as in the file.
 pub struct Shown(pub usize);
 
 impl fmt::Display for Shown {

@@ -1,4 +1,4 @@
-//! The JSON of materials, and of the pictures on them.
+//! Schema of materials, textures and images.
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;

@@ -14,7 +14,7 @@ use serde::Deserialize;
 pub use buffer_schema::{Accessor, Buffer, BufferView, Meshopt, Sparse};
 pub use material_schema::{Image, Material, Sampler, Texture, TextureTransform, TextureUse};
 
-/// The top level.
+/// Top level of the JSON.
 #[derive(Debug, Default, Deserialize)]
 #[serde(rename_all = "camelCase", default)]
 pub struct Root {
@@ -223,7 +223,7 @@ pub struct Edges {
 }
 
 impl Edges {
-    /// Whether no edge is marked.
+    /// Whether no edges are marked.
     pub fn is_empty(&self) -> bool {
         self.visibility.is_none() && self.line_strings.is_empty()
     }

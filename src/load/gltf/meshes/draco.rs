@@ -1,4 +1,4 @@
-//! Vertices and triangles of a primitive compressed by Draco (KHR_draco_mesh_compression).
+//! Decodes primitives compressed by Draco (KHR_draco_mesh_compression).
 
 use draco_core::{DataType, DecodeLimits, DecoderBuffer, Mesh, MeshDecoder};
 use glam::DVec3;
@@ -9,7 +9,7 @@ use crate::load::gltf::json::{Draco, Primitive};
 use crate::load::gltf::storage::buffers::Buffers;
 use crate::mesh::lattice;
 
-/// Most triangles and vertices one compressed stream may unfold to, whatever it announces.
+/// Maximum number of triangles, and of vertices, in a compressed stream, independent of its header.
 const MOST: u64 = 1 << 26;
 
 /// Decodes the stream of a primitive.
@@ -30,7 +30,7 @@ pub fn decode(
             .map_or(MOST, |count| (count as u64).min(MOST))
     };
     let position = primitive.attributes.get("POSITION").copied();
-    // What the accessors announce bounds what is unpacked; some exporters announce less.
+    // The counts of the accessors limit the output; some exporters give too small counts.
     let limits = DecodeLimits::default()
         .with_max_points(announced(position).saturating_mul(4).min(MOST))
         .with_max_faces(announced(primitive.indices).min(MOST))

@@ -1,8 +1,8 @@
-//! What a file says about the sides of its triangles.
+//! Visibility marks of triangle sides.
 //!
-//! Source: EXT_mesh_primitive_edge_visibility, draft of Bentley Systems. Two bits a side: hidden,
-//! silhouette (a contour here), hard, and hard as a neighbour already says. A silhouette is marked
-//! on one of its two triangles only, so the stronger mark of both is the one to believe.
+//! Source: EXT_mesh_primitive_edge_visibility, draft of Bentley Systems. Each side has two bits: hidden,
+//! silhouette (a contour here), hard, or hard as already marked by a neighbour. A silhouette is marked on
+//! only one of its two triangles, so the stronger mark of both applies.
 
 use glam::DVec3;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -13,7 +13,7 @@ use crate::load::gltf::storage::buffers::Buffers;
 use crate::mesh::EdgeMark;
 use crate::scene::Warnings;
 
-/// The marks of the sides 0-1, 1-2, 2-0 of each triangle of a primitive with these positions.
+/// Marks of the sides 0-1, 1-2, 2-0 of each triangle of a primitive.
 pub fn marks(
     buffers: &Buffers,
     edges: &Edges,
@@ -55,10 +55,11 @@ pub fn marks(
     Ok(marks)
 }
 
-/// The first vertex at the place of each: where corners are split, a line string goes along any of their vertices.
+/// First vertex at the position of each vertex. A line string may use any of several vertices at one
+/// position.
 fn first_at_place(positions: &[DVec3]) -> Vec<u32> {
     let mut first = FxHashMap::default();
-    // Adding 0 makes one of both zeros.
+    // Adding 0 maps -0 to 0.
     let bits = |position: &DVec3| position.to_array().map(|axis| (axis + 0.0).to_bits());
     positions.iter().zip(0..).map(|(position, id)| *first.entry(bits(position)).or_insert(id)).collect()
 }

@@ -1,4 +1,4 @@
-//! Makes one [`Geometry`] of all primitives of a mesh, in the pose it is stored in.
+//! Makes one [`Geometry`] from all primitives of a mesh, in the stored pose.
 
 use std::collections::BTreeMap;
 
@@ -16,14 +16,14 @@ use crate::load::gltf::{material_reader, uri};
 use crate::mesh::EdgeMark;
 use crate::scene::{Geometry, Warnings};
 
-/// No normal, no texture coordinate.
+/// No normals or texture coordinates.
 const NONE: [u32; 3] = [u32::MAX; 3];
 
-/// Reads mesh `number`; `joints` carry its vertices to world space if its node has a skin. With it comes what moves its vertices, if
-/// that is asked for.
+/// Reads mesh `number`, and its deformable vertices if requested. `joints` transform its vertices to world
+/// space if its node has a skin.
 ///
-/// Triangles without a material get the index one past the last material of the file if others of
-/// the mesh have one.
+/// Triangles without a material get the index after the last material of the file, if other triangles of the
+/// mesh have one.
 pub fn geometry(
     buffers: &Buffers,
     number: usize,
@@ -55,7 +55,7 @@ pub fn geometry(
     Ok(builder.finish())
 }
 
-/// What tells the vertices of one primitive from those of another.
+/// Identity of a primitive's vertices: attributes, morph targets and set of texture coordinates.
 type Key<'a> = (&'a BTreeMap<String, usize>, &'a [BTreeMap<String, usize>], Option<usize>);
 
 /// Corners of triangles.
@@ -65,18 +65,18 @@ struct Builder<'a> {
     buffers: &'a Buffers<'a>,
     weights: &'a [f64],
     joints: Option<&'a [DAffine3]>,
-    /// Whether bodies are kept.
+    /// Whether deformable vertices are returned.
     rigged: bool,
     bodies: Vec<Body>,
     geometry: Geometry,
-    /// Vertices that were read already: exporters like to share them among primitives.
+    /// Vertices that were read already; exporters often share them among primitives.
     blocks: Vec<(Key<'a>, Block)>,
-    /// Material of each primitive and how many triangles it has.
+    /// Material and number of triangles of each primitive.
     painted: Vec<(Option<usize>, usize)>,
     wire_material: Option<usize>,
 }
 
-/// Where the vertices of a primitive stand in the geometry, and what they have.
+/// Range of a primitive's vertices in the geometry, and its attributes.
 #[derive(Debug, Clone, Copy)]
 struct Block {
     start: u32,
@@ -86,7 +86,7 @@ struct Block {
 }
 
 impl<'a> Builder<'a> {
-    /// Adds a primitive; `here` names it.
+    /// Adds a primitive; `here` names it in messages.
     fn add(
         &mut self,
         primitive: &'a Primitive,
@@ -135,7 +135,7 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// Whether a material has a texture that lies on texture coordinates.
+    /// Whether a material has a texture, so that texture coordinates are needed.
     fn wants_uvs(&self, material: Option<usize>) -> bool {
         let root = self.buffers.root;
         let material = material.and_then(|material| root.materials.get(material));
@@ -143,8 +143,8 @@ impl<'a> Builder<'a> {
         texture.is_some_and(|texture| texture.index < root.textures.len())
     }
 
-    /// The vertices of a primitive, read if no primitive before had the same ones; and the
-    /// triangles that come with compressed ones.
+    /// Vertices of a primitive, reused if an earlier primitive had the same; and the triangles of a
+    /// compressed primitive.
     fn vertices(&mut self, primitive: &'a Primitive) -> Result<(Block, Option<Triangles>), Error> {
         let variant = vertex_reader::uv_variant(self.buffers, primitive);
         let key: Key = (&primitive.attributes, &primitive.targets, variant);
@@ -176,10 +176,10 @@ impl<'a> Builder<'a> {
             uvs: !streams.uvs.is_empty(),
         };
         let geometry = &mut self.geometry;
-        // Every file of this format stores single precision or less, except where a pose moved it.
+        // glTF stores single precision or less.
         geometry.single_precision = true;
         let position = primitive.attributes.get("POSITION");
-        // Joints place vertices anew, at another scale.
+        // Joints move the vertices at another scale.
         let position = position.filter(|_| joints.is_none());
         let step = position.map_or(0.0, |position| self.buffers.step(*position));
         geometry.lattice_step = geometry.lattice_step.max(step);
@@ -193,7 +193,7 @@ impl<'a> Builder<'a> {
         Ok((block, streams.triangles))
     }
 
-    /// Triangles and wires, whose indices count from the block's first vertex.
+    /// Triangles and wires, with indices relative to the block's first vertex.
     fn shape(
         &self,
         primitive: &Primitive,
@@ -238,7 +238,7 @@ impl<'a> Builder<'a> {
         Ok(shape)
     }
 
-    /// Drops what has a corner that is no number.
+    /// Drops triangles and wires with a corner that is not finite.
     fn drop_unsound(
         &mut self,
         block: Block,
@@ -281,7 +281,7 @@ impl<'a> Builder<'a> {
 
     fn finish(self) -> (Geometry, Vec<Body>) {
         let mut geometry = self.geometry;
-        // Nothing points to these any more; they must not widen the bounds either.
+        // Replace unused invalid positions, which would widen the bounds.
         let sound = geometry.positions.iter().copied().find(|position| position.is_finite());
         for position in geometry.positions.iter_mut().filter(|position| !position.is_finite()) {
             *position = sound.unwrap_or_default();
@@ -306,8 +306,8 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Puts `more` behind the `start` elements that `all` should have by now, filling up what is
-/// missing. Nothing is copied where `all` is still empty.
+/// Appends `more` after `start` elements, filling missing ones. Moves the data without a copy if `all` is
+/// empty.
 fn append_or_take<T: Copy>(all: &mut Vec<T>, start: usize, more: Vec<T>, filler: T) {
     if more.is_empty() {
         return;
@@ -320,8 +320,8 @@ fn append_or_take<T: Copy>(all: &mut Vec<T>, start: usize, more: Vec<T>, filler:
     }
 }
 
-/// Puts `more` behind what arrays should have by now, for arrays that are empty as long as nothing is known,
-/// and else must stay as long as there are triangles.
+/// Appends `more` to an optional per-triangle array. The array stays empty until it has data; then it has one
+/// entry for every triangle.
 fn pad_after<T: Copy>(all: &mut Vec<T>, start: usize, more: Vec<T>, count: usize, filler: T) {
     append_or_take(all, start, more, filler);
     if !all.is_empty() {

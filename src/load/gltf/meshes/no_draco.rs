@@ -1,11 +1,11 @@
-//! Stands for `draco` where the library is built without it.
+//! Replaces `draco` in builds without the feature.
 
 use super::vertex_streams::Streams;
 use crate::error::{Error, ErrorKind};
 use crate::load::gltf::json::{Draco, Primitive};
 use crate::load::gltf::storage::buffers::Buffers;
 
-/// Refuses the stream of a primitive.
+/// Returns an error for a compressed primitive.
 pub fn decode(_: &Buffers, _: &Primitive, _: &Draco, _: &str) -> Result<Streams, Error> {
     Err(Error::new(
         "the model is compressed by Draco, which this program was built without (feature `draco`)",

@@ -1,9 +1,9 @@
-//! Assembles triangles and wires from indices, for each of the modes a primitive may have.
+//! Assembles triangles and wires from indices, for each primitive mode.
 
 use crate::error::Error;
 use crate::scene::Warnings;
 
-/// How indices make triangles or lines.
+/// Primitive mode: how indices form triangles or lines.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mode {
     Points,
@@ -16,7 +16,7 @@ pub enum Mode {
 }
 
 impl Mode {
-    /// The mode of a number in the file; triangles if there is none.
+    /// Mode of a number in the file; triangles by default.
     pub fn new(code: Option<u32>) -> Result<Self, Error> {
         Ok(match code {
             Some(0) => Self::Points,
@@ -30,13 +30,13 @@ impl Mode {
         })
     }
 
-    /// Whether a run of indices goes on until its type's largest value ends it.
+    /// Whether the mode supports primitive restart: strips, loops and fans.
     pub fn runs(self) -> bool {
         !matches!(self, Self::Points | Self::Lines | Self::Triangles)
     }
 }
 
-/// The triangles and wires that a run of indices makes.
+/// Triangles and wires of a primitive.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Shape {
     pub triangles: Vec<[u32; 3]>,
@@ -44,7 +44,7 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// Adds one run; left-over indices are counted.
+    /// Adds a run of indices; left-over indices are counted.
     pub fn add(&mut self, mode: Mode, run: &[u32], warnings: &mut Warnings) {
         let mut left_over = |rest: &[u32]| {
             if !rest.is_empty() {
@@ -74,7 +74,7 @@ impl Shape {
                 }
             }
             Mode::TriangleStrip => {
-                // Every other triangle of a strip lies the other way round.
+                // Every other triangle of a strip has reversed winding.
                 let turned =
                     |(i, [a, b, c]): (usize, &[u32; 3])| if i % 2 == 0 { [*a, *b, *c] } else { [*a, *c, *b] };
                 self.triangles.extend(run.array_windows().enumerate().map(turned));

@@ -1,4 +1,4 @@
-//! What moves vertices: the morph targets of a primitive, and the joints of a skin.
+//! Reads deformations: the morph targets of a primitive, and the joints of a skin.
 
 use glam::{DAffine3, DMat3, DVec3};
 
@@ -9,10 +9,10 @@ use crate::error::Error;
 use crate::load::gltf::json::Primitive;
 use crate::load::gltf::storage::buffers::Buffers;
 
-/// Most sets of four joints a vertex is looked for.
+/// Maximum number of sets of four joints per vertex.
 const SETS: usize = 16;
 
-/// The joints of a skin and their inverse bind matrices.
+/// Joints of a skin, and their inverse bind matrices.
 pub fn skin(buffers: &Buffers, number: usize) -> Result<Skin, Error> {
     let place = |error: Error| error.within(format!("skin {number}"));
     let Some(stored) = buffers.root.skins.get(number) else {
@@ -38,8 +38,8 @@ fn bind_matrix([a, b, c, _, d, e, f, _, g, h, i, _, x, y, z, _]: [f64; 16]) -> D
     DAffine3::from_mat3_translation(DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]), DVec3::new(x, y, z))
 }
 
-/// What moves the vertices of a primitive: its morph targets, all of them or those that have a weight, and its influences if it
-/// hangs on so many joints.
+/// Deformations of a primitive: its morph targets (all, or those with a weight), and its joint weights if it
+/// has a skin.
 pub fn body(
     streams: &Streams,
     buffers: &Buffers,

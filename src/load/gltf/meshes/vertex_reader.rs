@@ -1,4 +1,4 @@
-//! Reads the vertices of a primitive, with the texture coordinates that its material shows.
+//! Reads the vertices of a primitive, with the texture coordinates that its material uses.
 
 use glam::DVec3;
 
@@ -10,7 +10,7 @@ use crate::load::gltf::json::{Primitive, TextureTransform};
 use crate::load::gltf::material_reader;
 use crate::load::gltf::storage::buffers::Buffers;
 
-/// Reads what a drawing needs of a primitive.
+/// Reads the vertex attributes that a drawing needs.
 pub fn read(buffers: &Buffers, primitive: &Primitive) -> Result<Streams, Error> {
     let attribute = |name: &str| primitive.attributes.get(name).copied();
     let position = attribute("POSITION").ok_or_else(|| Error::new("it has no POSITION"))?;
@@ -48,7 +48,7 @@ fn colours(buffers: &Buffers, accessor: usize) -> Result<Vec<[f32; 4]>, Error> {
     buffers.read(accessor, |rgba: [f64; 4]| rgba.map(|v| v as f32))
 }
 
-/// The set of texture coordinates that the base-colour texture uses.
+/// Attribute with the texture coordinates of the base-colour texture.
 pub fn uv_name(buffers: &Buffers, primitive: &Primitive) -> String {
     let material = primitive.material.and_then(|material| buffers.root.materials.get(material));
     let texture = material.and_then(material_reader::base_texture);
@@ -57,13 +57,13 @@ pub fn uv_name(buffers: &Buffers, primitive: &Primitive) -> String {
     format!("TEXCOORD_{set}")
 }
 
-/// The material of a primitive, if its texture coordinates are not simply the first set.
+/// Material of a primitive whose texture coordinates are not simply the first set.
 pub fn uv_variant(buffers: &Buffers, primitive: &Primitive) -> Option<usize> {
     let plain = uv_transform(buffers, primitive).is_none() && uv_name(buffers, primitive) == "TEXCOORD_0";
     primitive.material.filter(|_| !plain)
 }
 
-/// How the base-colour texture moves its coordinates (KHR_texture_transform).
+/// Transform of the base-colour texture's coordinates (KHR_texture_transform).
 fn uv_transform<'a>(buffers: &Buffers<'a>, primitive: &Primitive) -> Option<&'a TextureTransform> {
     let root = buffers.root;
     let texture = material_reader::base_texture(root.materials.get(primitive.material?)?)?;

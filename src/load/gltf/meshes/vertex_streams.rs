@@ -4,22 +4,22 @@ use glam::DVec3;
 
 use crate::error::Error;
 
-/// Vertices of a primitive; arrays are as long as `positions`, or empty where there is nothing.
+/// Vertices of a primitive; arrays are as long as `positions`, or empty.
 #[derive(Debug, Default)]
 pub struct Streams {
     pub positions: Vec<DVec3>,
     pub normals: Vec<[f32; 3]>,
     pub uvs: Vec<[f32; 2]>,
     pub colours: Vec<[f32; 4]>,
-    /// The triangles that a compressed primitive brings with it.
+    /// Triangles of a compressed primitive.
     pub triangles: Option<Vec<[u32; 3]>>,
 }
 
 impl Streams {
-    /// Whether arrays are as long as they should be.
+    /// Checks the lengths of the arrays.
     ///
     /// # Errors
-    /// Names one that is not.
+    /// Names an array of the wrong length.
     pub fn check(&self) -> Result<(), Error> {
         let count = self.positions.len();
         let lengths =

@@ -1,8 +1,8 @@
-//! The index codecs: triangles that share edges with the ones before, and plain sequences.
+//! Index codecs: triangles that share edges with recent ones, and plain sequences.
 
 use super::{Cursor, unzigzag};
 
-/// The last sixteen things, newest first.
+/// Ring buffer of the last sixteen items, newest first.
 #[derive(Debug)]
 struct Recent<T> {
     slots: [T; 16],
@@ -19,16 +19,16 @@ impl<T: Copy> Recent<T> {
         self.slots[self.newest] = thing;
     }
 
-    /// The thing pushed `back` pushes before the newest.
+    /// The item that was pushed `back` pushes before the newest.
     fn get(&self, back: u8) -> T {
         self.slots[(self.newest + 16 - usize::from(back % 16)) % 16]
     }
 }
 
-/// Decodes `count` indices of triangles, a multiple of three.
+/// Decodes `count` triangle indices, a multiple of three.
 pub fn triangles(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     let mut data = Cursor(bytes);
-    // Codes of version 1 use the last two places of the recent vertices for neighbours of `last`.
+    // Codes of version 1 use the last two positions of the recent vertices for neighbours of `last`.
     let recent_codes = match data.byte()? {
         0xe0 => 15,
         0xe1 => 13,
@@ -49,7 +49,7 @@ pub fn triangles(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     for &code in codes {
         let (high, low) = (code >> 4, code & 15);
         let triangle = if high < 15 {
-            // The triangle stands on a recent edge.
+            // The triangle shares a recent edge.
             let [a, b] = edges.get(high);
             let c = match low {
                 0 => fresh(&mut next),
@@ -68,7 +68,7 @@ pub fn triangles(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
             edges.push([a, c]);
             [a, b, c]
         } else {
-            // It has no edge in common: its second and third corner are coded in one byte.
+            // The triangle shares no edge; its second and third corner are coded in one byte.
             let listed = low < 14;
             let pair = if listed { *table.get(usize::from(low))? } else { data.byte()? };
             let (second, third) = (pair >> 4, pair & 15);
@@ -77,7 +77,7 @@ pub fn triangles(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
             }
             let explicit = |code: u8| !listed && code == 15;
             let mut a = if low == 15 { 0 } else { fresh(&mut next) };
-            // The recent vertices are those before this triangle.
+            // Only vertices before this triangle count as recent.
             let recent = |code: u8| vertices.get(code.wrapping_sub(1));
             let mut b = if second == 0 { fresh(&mut next) } else { recent(second) };
             let mut c = if third == 0 { fresh(&mut next) } else { recent(third) };
@@ -113,7 +113,7 @@ pub fn sequence(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
         return None;
     }
     data.tail(4)?;
-    // Every index takes a byte at least.
+    // Every index takes at least one byte.
     let mut decoded = Vec::with_capacity(count.min(data.0.len()) * stride);
     let mut last = [0_u32; 2];
     for _ in 0..count {

@@ -14,7 +14,7 @@ use super::json::Meshopt;
 use super::uri::shown;
 use crate::error::Error;
 
-/// The uncompressed bytes of a view.
+/// Decompresses a view.
 pub fn decode(packed: &Meshopt, bytes: &[u8]) -> Result<Vec<u8>, Error> {
     let Meshopt { count, byte_stride: stride, .. } = *packed;
     let filter = packed.filter.as_deref().unwrap_or("NONE");
@@ -47,7 +47,7 @@ pub fn decode(packed: &Meshopt, bytes: &[u8]) -> Result<Vec<u8>, Error> {
     Ok(decoded)
 }
 
-/// What is left of a stream.
+/// Unread bytes of a stream.
 #[derive(Debug, Clone, Copy)]
 struct Cursor<'a>(&'a [u8]);
 
@@ -64,14 +64,14 @@ impl<'a> Cursor<'a> {
         Some(taken)
     }
 
-    /// Takes bytes off the end.
+    /// Takes bytes from the end.
     fn tail(&mut self, count: usize) -> Option<&'a [u8]> {
         let (rest, taken) = self.0.split_at_checked(self.0.len().checked_sub(count)?)?;
         self.0 = rest;
         Some(taken)
     }
 
-    /// A number in groups of seven bits, the lowest first.
+    /// Reads a LEB128 number: groups of seven bits, lowest first.
     fn varint(&mut self) -> Option<u32> {
         let mut value = 0;
         for group in 0..5 {
@@ -84,7 +84,7 @@ impl<'a> Cursor<'a> {
         Some(value)
     }
 
-    /// `last` moved by a signed difference.
+    /// `last` plus a signed difference that is read from the stream.
     fn moved(&mut self, last: u32) -> Option<u32> {
         self.varint().map(|value| last.wrapping_add(unzigzag(value)))
     }
@@ -110,7 +110,7 @@ mod tests {
         serde_json::from_str(&json).unwrap()
     }
 
-    /// Elements of four words that move as positions, noise, flags and floats do.
+    /// Elements of four words that vary like positions, noise, flags and floats.
     fn elements(count: u32) -> Vec<[u32; 4]> {
         let element = |i: u32| {
             let noise = i.wrapping_mul(2_654_435_761) >> (i % 3 * 8);
@@ -159,7 +159,7 @@ mod tests {
         let stream = &stream[..length];
         let decoded = decode(&packed("TRIANGLES", indices.len(), 4), stream).unwrap();
         let read: Vec<u32> = decoded.as_chunks().0.iter().map(|b| u32::from_le_bytes(*b)).collect();
-        // The codec may turn a triangle round, never over.
+        // The codec may rotate the corners of a triangle, but not reverse them.
         for (was, is) in indices.as_chunks::<3>().0.iter().zip(read.as_chunks::<3>().0) {
             assert!((0..3).any(|turn| (0..3).all(|i| was[i] == is[(i + turn) % 3])), "{was:?} {is:?}");
         }
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn sequences_run_on_two_values() {
-        // 1000, 1001 and 999 from the first running value, 4 from the second, in bytes of seven bits.
+        // 1000, 1001 and 999 from the first running value, 4 from the second, in LEB128.
         let stream = [0xd1, 0xa0, 0x1f, 4, 17, 6, 0, 0, 0, 0];
         let decoded = decode(&packed("INDICES", 4, 4), &stream).unwrap();
         assert_eq!(decoded, bytes(&[1000, 1001, 4, 999]));

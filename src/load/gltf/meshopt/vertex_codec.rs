@@ -1,15 +1,15 @@
-//! The vertex codec: blocks of up to 256 elements, byte column by byte column, as differences.
+//! Vertex codec: blocks of up to 256 elements, stored by byte columns, as differences.
 
 use super::Cursor;
 
-/// Elements of a group whose differences have the same number of bits.
+/// Elements of a group with a common bit width.
 const GROUP: usize = 16;
-/// Most elements of a block.
+/// Maximum elements of a block.
 const BLOCK: usize = 256;
 
 /// Decodes `count` elements of `stride` bytes, a multiple of 4 up to 256.
 ///
-/// Memory grows with what is decoded, never with what is announced.
+/// Memory grows with the decoded data, not with the announced count.
 pub fn decode(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     let mut data = Cursor(bytes);
     let version = match data.byte()? {
@@ -49,7 +49,7 @@ pub fn decode(bytes: &[u8], count: usize, stride: usize) -> Option<Vec<u8>> {
     data.0.is_empty().then_some(decoded)
 }
 
-/// One byte of each element of a block, still as differences. `control` is the column's in
+/// Reads one byte of each element of a block, still as differences. `control` is the mode of the column in
 /// version 1.
 fn read_column(data: &mut Cursor, control: Option<u8>, column: &mut [u8]) -> Option<()> {
     let widths = match control {
@@ -71,7 +71,7 @@ fn read_column(data: &mut Cursor, control: Option<u8>, column: &mut [u8]) -> Opt
     Some(())
 }
 
-/// Sixteen differences of `width` bits; the largest value stands for a whole byte that follows.
+/// Reads sixteen differences of `width` bits; the maximum value is an escape for a full byte that follows.
 fn read_group(data: &mut Cursor, width: usize, group: &mut [u8]) -> Option<()> {
     let packed = data.take(GROUP * width / 8)?;
     match width {
@@ -81,13 +81,13 @@ fn read_group(data: &mut Cursor, width: usize, group: &mut [u8]) -> Option<()> {
             let escape = (1_u8 << width) - 1;
             for i in 0..GROUP {
                 let bit = i * width;
-                // Single bits are stored from the low end of a byte, wider ones from the high end.
+                // Single bits are stored from the low end of a byte, wider values from the high end.
                 let shift = if width == 1 { bit % 8 } else { 8 - width - bit % 8 };
                 let mut value = packed.get(bit / 8)? >> shift & escape;
                 if value == escape {
                     value = data.byte()?;
                 }
-                // The last group of a block may be longer than the block.
+                // The last group of a block may be longer than the rest of the block.
                 if let Some(slot) = group.get_mut(i) {
                     *slot = value;
                 }

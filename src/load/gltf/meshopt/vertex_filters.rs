@@ -1,11 +1,11 @@
-//! Filters that follow the vertex codec: unit vectors, quaternions, floats and colours.
+//! Filters after the vertex codec: unit vectors, quaternions, floats and colours.
 
 /// Rounds half away from zero.
 fn rounded(value: f32) -> i32 {
     (value + if value >= 0.0 { 0.5 } else { -0.5 }) as i32
 }
 
-/// Unit vectors from two octahedral coordinates; the third holds what 1 is.
+/// Unit vector from two octahedral coordinates; the third component is the value that represents 1.
 fn octahedral([x, y, one]: [f32; 3], full: f32) -> [i32; 3] {
     let z = one - x.abs() - y.abs();
     let fold = z.min(0.0);
@@ -33,7 +33,7 @@ pub fn octahedral_16(bytes: &mut [u8]) {
     }
 }
 
-/// Unit quaternions without their largest component, whose number stands in the low two bits.
+/// Unit quaternions without their largest component; the low two bits give its index.
 pub fn quaternion(bytes: &mut [u8]) {
     for element in bytes.as_chunks_mut::<8>().0 {
         let stored = words(*element);
@@ -50,7 +50,7 @@ pub fn quaternion(bytes: &mut [u8]) {
     }
 }
 
-/// Floats from a mantissa of 24 bits and an exponent of 8.
+/// Floats of a 24-bit mantissa and an 8-bit exponent.
 pub fn exponential(bytes: &mut [u8]) {
     for element in bytes.as_chunks_mut::<4>().0 {
         let stored = u32::from_le_bytes(*element).cast_signed();
@@ -60,7 +60,7 @@ pub fn exponential(bytes: &mut [u8]) {
     }
 }
 
-/// Colours from luma, two differences and opacity; the highest bit of the last gives the scale.
+/// Colour from luma, two differences and opacity; the highest bit of the opacity gives the scale.
 fn colour(luma: i32, orange: i32, green: i32, opacity: i32, full: f32) -> [i32; 4] {
     let mut one = opacity;
     for shift in [1, 2, 4, 8] {
@@ -72,7 +72,7 @@ fn colour(luma: i32, orange: i32, green: i32, opacity: i32, full: f32) -> [i32; 
         .map(|v| (v as f32 * scale + 0.5) as i32)
 }
 
-/// Colours of bytes.
+/// Colours of 8-bit channels.
 pub fn colour_8(bytes: &mut [u8]) {
     for element in bytes.as_chunks_mut::<4>().0 {
         let [y, co, cg, a] = *element;
@@ -81,7 +81,7 @@ pub fn colour_8(bytes: &mut [u8]) {
     }
 }
 
-/// Colours of 16-bit numbers.
+/// Colours of 16-bit channels.
 pub fn colour_16(bytes: &mut [u8]) {
     for element in bytes.as_chunks_mut::<8>().0 {
         let [y, co, cg, a] = words(*element);
@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn quaternions_get_their_largest_component_back() {
-        // One is 1023 here; x = 0.6 and the largest component, number 2, is 0.8.
+        // 1023 represents 1; x = 0.6, and the largest component, number 2, is 0.8.
         let x = (0.6 * std::f32::consts::SQRT_2 * 1023.0).round() as u16;
         let mut bytes = bytes_of([x, 0, 0, 1020 | 2]);
         quaternion(&mut bytes);
@@ -134,7 +134,7 @@ mod tests {
         assert_eq!(f32::from_le_bytes(bytes), 1.5);
         let mut bytes = [80, 20, 246, 127];
         colour_8(&mut bytes);
-        // Luma 80, orange 20, green -10, of 127.
+        // Luma 80, orange 20, green -10, out of 127.
         assert_eq!(bytes, [221, 141, 141, 255]);
     }
 }

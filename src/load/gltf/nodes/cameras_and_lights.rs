@@ -1,4 +1,4 @@
-//! Cameras and lights of the scene, put into the world by the nodes that hold them.
+//! Cameras and lights of the scene, placed in the world by their nodes.
 
 use std::f64::consts::{FRAC_PI_4, PI};
 
@@ -14,7 +14,7 @@ use crate::scene::{Camera, Light, LightKind, NamedCamera, Projection, Warnings};
 /// Height of the frame of a file's camera, px.
 const FRAME_PX: f64 = 1000.0;
 
-/// The cameras of the nodes that are shown, and which of the file they are in which node.
+/// Cameras of visible nodes, with their number in the file and their node.
 pub fn cameras(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> (Vec<NamedCamera>, Vec<Held>) {
     let (mut cameras, mut holders) = (Vec::new(), Vec::new());
     let mut missing = Spots::default();
@@ -43,8 +43,8 @@ pub fn cameras(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> (Vec<
     (cameras, holders)
 }
 
-/// A camera sits at the origin of its node and looks along -z with y up; glTF ignores the node's
-/// scale for all else.
+/// Camera of a node: at its origin, looking along -z with y up. As glTF specifies, the node's scale has no
+/// other effect.
 fn look(camera: &JsonCamera, world: DAffine3) -> Option<Camera> {
     let (projection, aspect, near) = if let Some(lens) = &camera.perspective {
         let fov_y_deg = Some(lens.yfov).filter(|angle| *angle > 0.0 && *angle < PI)?.to_degrees();
@@ -67,7 +67,7 @@ fn look(camera: &JsonCamera, world: DAffine3) -> Option<Camera> {
     })
 }
 
-/// The lights (KHR_lights_punctual) of the nodes that are shown, and which of the file they are in which node.
+/// Lights of visible nodes (KHR_lights_punctual), with their number in the file and their node.
 pub fn lights(root: &Root, nodes: &Hierarchy, warnings: &mut Warnings) -> (Vec<Light>, Vec<Held>) {
     let known = root.extensions.lights.as_ref().map_or(&[][..], |lights| &lights.lights);
     let (mut lights, mut holders) = (Vec::new(), Vec::new());

@@ -1,4 +1,4 @@
-//! [`Hierarchy`]: which nodes are shown, in which order, and where each stands in the world.
+//! [`Hierarchy`]: the visible nodes of the scene in order, with the world transforms of all nodes.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 use serde_json::Value;
@@ -10,21 +10,21 @@ use crate::error::Error;
 use crate::load::gltf::json::{Node, Root};
 use crate::scene::Warnings;
 
-/// The nodes of a file, worked out without recursion, so that a chain of any depth is fine.
+/// The nodes of a file, resolved without recursion, so that any depth is possible.
 #[derive(Debug)]
 pub struct Hierarchy {
-    /// World transform of every node, shown or not: joints of skins may lie outside the scene.
+    /// World transform of every node, visible or not: joints of skins may be outside the scene.
     pub world: Vec<DAffine3>,
-    /// The nodes of the scene that is drawn, each once, depth first; with clips also what these show at some time.
+    /// Nodes of the drawn scene, each once, depth first. With clips, also those that become visible at some
+    /// time.
     pub shown: Vec<usize>,
-    /// All nodes at rest, and their numbers, parents first.
+    /// Rest state of all nodes, and their indices with parents first.
     pub rest: Vec<rig::Node>,
     pub order: Vec<usize>,
 }
 
 impl Hierarchy {
-    /// Works out the nodes of the default scene; of the first one if none is the default; of all
-    /// nodes without a parent if the file has no scene.
+    /// Resolves the default scene; without one the first scene; without any scene all root nodes.
     pub fn new(root: &Root, warnings: &mut Warnings) -> Result<Self, Error> {
         let parents = parents(&root.nodes, warnings)?;
         let rest: Vec<rig::Node> = (root.nodes.iter().zip(&parents).enumerate())
@@ -46,7 +46,7 @@ impl Hierarchy {
         Ok(Self { world, shown, rest, order })
     }
 
-    /// Shows also what is hidden at rest and clips show at some time.
+    /// Adds nodes that are hidden at rest and become visible in a clip.
     pub fn wake(&mut self, root: &Root, clips: &[Clip]) -> Result<(), Error> {
         let mut wakes = vec![false; root.nodes.len()];
         for channel in clips.iter().flat_map(|clip| &clip.channels) {
@@ -66,7 +66,7 @@ impl Hierarchy {
     }
 }
 
-/// The nodes of the scene that is drawn, each once, depth first, but for those that are not visible and what hangs on them.
+/// Nodes of the drawn scene, each once, depth first, without invisible nodes and their descendants.
 fn shown(
     root: &Root,
     rest: &[rig::Node],
@@ -100,7 +100,7 @@ fn shown(
     Ok(shown)
 }
 
-/// The parent of each node.
+/// Parent of each node.
 fn parents(nodes: &[Node], warnings: &mut Warnings) -> Result<Vec<Option<usize>>, Error> {
     let mut parents: Vec<Option<usize>> = vec![None; nodes.len()];
     for (index, node) in nodes.iter().enumerate() {
@@ -118,15 +118,14 @@ fn parents(nodes: &[Node], warnings: &mut Warnings) -> Result<Vec<Option<usize>>
     Ok(parents)
 }
 
-/// World transforms, each worked out once its parent's is known, and in which order that is; what is never reached lies in a
-/// cycle.
+/// World transforms in topological order, and that order. Nodes that are never reached are part of a cycle.
 fn world_transforms(nodes: &[Node], rest: &[rig::Node]) -> Result<(Vec<DAffine3>, Vec<usize>), Error> {
     let mut world = vec![None; nodes.len()];
     let mut order = Vec::with_capacity(nodes.len());
     let parent = |node: usize| rest.get(node).and_then(|node| node.parent);
     let mut ready: Vec<usize> = (0..nodes.len()).filter(|node| parent(*node).is_none()).collect();
     while let Some(index) = ready.pop() {
-        // A child that is listed twice by its parent comes here twice.
+        // A child that its parent lists twice is reached twice.
         let Some(node) = nodes.get(index).filter(|_| matches!(world.get(index), Some(None))) else {
             continue;
         };
@@ -156,7 +155,7 @@ fn is_visible(_: usize, node: &Node) -> bool {
     node.extensions.visibility.as_ref().and_then(|v| v.visible).unwrap_or(true)
 }
 
-/// How much of each morph target a node's mesh has, one for each that any of its primitives has.
+/// Weights of a node's morph targets: one for each target of any primitive of its mesh.
 fn weights(root: &Root, node: &Node) -> Vec<f64> {
     let Some(mesh) = node.mesh.and_then(|mesh| root.meshes.get(mesh)) else { return Vec::new() };
     let mut weights = node.weights.as_ref().unwrap_or(&mesh.weights).clone();
@@ -186,7 +185,7 @@ fn placement(node: &Node, index: usize, warnings: &mut Warnings) -> Placement {
     }
 }
 
-/// The name a node is known by: its own, its mesh's, or its number.
+/// Name of a node: its own, that of its mesh, or its number.
 pub fn name(root: &Root, index: usize) -> String {
     let node = root.nodes.get(index);
     let mesh = node.and_then(|node| node.mesh).and_then(|mesh| root.meshes.get(mesh));

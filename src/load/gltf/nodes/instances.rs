@@ -1,4 +1,4 @@
-//! Places of the instances of a node (EXT_mesh_gpu_instancing).
+//! Transforms of the instances of a node (EXT_mesh_gpu_instancing).
 
 use glam::{DAffine3, DQuat, DVec3};
 
@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::load::gltf::json::Instancing;
 use crate::load::gltf::storage::buffers::Buffers;
 
-/// The transform of each instance, relative to its node.
+/// Transform of each instance relative to its node.
 pub fn places(buffers: &Buffers, instancing: &Instancing) -> Result<Vec<DAffine3>, Error> {
     let attribute = |name: &str| instancing.attributes.get(name).copied();
     let translations = attribute("TRANSLATION").map(|a| buffers.read(a, DVec3::from_array)).transpose()?;

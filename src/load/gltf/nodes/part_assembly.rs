@@ -1,4 +1,4 @@
-//! Makes the parts of a scene: each node that is shown, and each instance of it.
+//! Makes the parts of a scene: one for each visible node with a mesh, and for each instance of it.
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
@@ -16,17 +16,17 @@ use crate::load::gltf::missing_references::Missing;
 use crate::load::gltf::storage::buffers::Buffers;
 use crate::scene::{Geometry, Material, Part, Scene, Warnings, nothing_to_draw};
 
-/// Most parts a scene may have: instances cost a file almost nothing.
+/// Maximum number of parts, as instances take almost no space in a file.
 const MOST_PARTS: usize = 10_000_000;
 
-/// Coordinates beyond this would overflow where they are multiplied with one another.
+/// Maximum world coordinate; products of larger ones overflow.
 const LARGEST_COORDINATE: f64 = 1e50;
 
-/// A mesh as a node shows it: with its weights, and with its skin; and the node, if its weights change in time.
+/// Identity of a geometry: mesh, skin, bits of the weights; and the node, if its weights are animated.
 type Key = (usize, Option<usize>, Vec<u64>, Option<usize>);
 
-/// Adds geometries and parts to the scene; each mesh is stored once for each pose it is shown in. If there are clips, what moves
-/// geometries and parts is added to the rig.
+/// Adds geometries and parts to the scene; each mesh is stored once for each pose. With clips, the rig is
+/// filled as well.
 pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarchy) -> Result<(), Error> {
     let rigged = !rig.clips.is_empty();
     let mut morphing = vec![false; nodes.rest.len()];
@@ -97,7 +97,7 @@ pub fn add(scene: &mut Scene, rig: &mut Rig, buffers: &Buffers, nodes: &Hierarch
                 scene.geometries.len() - 1
             }
         };
-        // The joints have carried a skinned mesh into the world already.
+        // The joints already transform a skinned mesh to world space.
         let world = if skin.is_some() { DAffine3::IDENTITY } else { world };
         let places = match &node.extensions.instancing {
             Some(instancing) => instances::places(buffers, instancing).map_err(here)?,
@@ -160,7 +160,7 @@ fn check_size(world_from_part: DAffine3, reach: DVec3) -> Result<(), Error> {
         .remedy("scale the model down"))
 }
 
-/// Drops parts that show neither triangles nor lines, and what moves them.
+/// Drops parts without triangles and lines, and their entries in the rig.
 fn drop_empty(scene: &mut Scene, rig: &mut Rig) {
     let is_empty = |geometry: &Geometry| geometry.triangles.is_empty() && geometry.wires.is_empty();
     let empty: Vec<bool> = scene.geometries.iter().map(is_empty).collect();
@@ -185,7 +185,7 @@ fn drop_empty(scene: &mut Scene, rig: &mut Rig) {
     retain(&mut scene.geometries, &full);
 }
 
-/// Keeps what is to be kept by its place.
+/// Keeps the marked items.
 fn retain<T>(all: &mut Vec<T>, keep: &[bool]) {
     let mut next = keep.iter();
     all.retain(|_| next.next().copied().unwrap_or(true));

@@ -1,20 +1,20 @@
-//! Product names for the nodes of files that Open CASCADE wrote, as converters of STEP do.
+//! Product names for the nodes of files written by Open CASCADE, for example by STEP converters.
 //!
-//! A STEP file names products, and sometimes their occurrences in an assembly. Open CASCADE writes a node for each occurrence. Two kinds
-//! of nodes have no name that a user knows:
+//! A STEP file names products, and sometimes their occurrences in an assembly. Open CASCADE writes a node for
+//! each occurrence. Two kinds of nodes have no name that a user would recognise:
 //!
-//! - A node called `=>[0:1:1:3]` is a reference in Open CASCADE's own document. The product's name stands on the node above; among
-//!   several children of one assembly it stands on the node's mesh.
-//! - A node called `NAUO12` or `12` has the number of its occurrence. The product's name stands on its mesh.
+//! - A node called `=>[0:1:1:3]` is a reference in Open CASCADE's own document. The product's name is on the
+//!   parent node, or on the node's mesh if the assembly has several children.
+//! - A node called `NAUO12` or `12` has the number of its occurrence. The product's name is on its mesh.
 //!
-//! Both take the product's name, so that `--only` and `--hide` find parts by it.
+//! Both get the product's name, so that `--only` and `--hide` can select parts by it.
 
 use crate::load::gltf::json::Root;
 
-/// How `asset.generator` begins in files of Open CASCADE.
+/// Start of `asset.generator` in files of Open CASCADE.
 const GENERATOR: &str = "Open CASCADE";
 
-/// Names the nodes after their products, if Open CASCADE wrote the file.
+/// Names nodes after their products, if Open CASCADE wrote the file.
 pub fn name_after_products(root: &mut Root) {
     if !root.asset.generator.as_ref().is_some_and(|generator| generator.starts_with(GENERATOR)) {
         return;
@@ -36,7 +36,7 @@ pub fn name_after_products(root: &mut Root) {
     }
 }
 
-/// The product's name for a node without one.
+/// Product name for a node without a usable name.
 fn product(root: &Root, parents: &[Option<usize>], index: usize) -> Option<String> {
     let node = root.nodes.get(index)?;
     let own = node.name.as_deref()?;

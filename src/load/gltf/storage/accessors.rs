@@ -1,4 +1,4 @@
-//! Reads accessors: every count, offset and stride is checked before memory is asked for.
+//! Reads accessors. Every count, offset and stride is checked before memory is allocated.
 
 use super::buffers::Buffers;
 use crate::error::Error;
@@ -37,7 +37,7 @@ impl Component {
         }
     }
 
-    /// The largest value of a type of indices, which ends a strip.
+    /// Maximum value of an index type, which restarts a strip.
     fn restart(self) -> Result<u32, Error> {
         match self {
             Self::U8 => Ok(u32::from(u8::MAX)),
@@ -48,7 +48,7 @@ impl Component {
     }
 }
 
-/// The bytes of `count` elements, `stride` apart; no bytes at all stand for zeros.
+/// Bytes of `count` elements, `stride` apart; `None` stands for zeros.
 #[derive(Debug, Clone, Copy)]
 struct Elements<'a> {
     bytes: Option<&'a [u8]>,
@@ -58,12 +58,12 @@ struct Elements<'a> {
     normalized: bool,
 }
 
-/// Indices as read.
+/// Indices of a primitive.
 #[derive(Debug, Clone)]
 pub struct Indices {
     /// The indices.
     pub values: Vec<u32>,
-    /// The largest value of their type, which ends a strip.
+    /// Maximum value of the index type, which restarts a strip.
     pub restart: u32,
 }
 
@@ -76,24 +76,24 @@ impl Buffers<'_> {
         })
     }
 
-    /// How many components an element has, 4 for `VEC4`.
+    /// Number of components of an element, such as 4 for `VEC4`.
     pub fn lanes(&self, index: usize) -> Result<usize, Error> {
         let accessor = self.accessor(index)?;
         lanes(&accessor.shape).map_err(|error| error.at(format!("accessor {index}")))
     }
 
-    /// How many elements an accessor announces, unchecked.
+    /// Number of elements according to the JSON, unchecked.
     #[cfg(feature = "draco")]
     pub fn announced(&self, index: usize) -> Option<usize> {
         self.root.accessors.get(index).map(|accessor| accessor.count)
     }
 
-    /// Whether the bytes of an accessor are stored in a view, not in a compressed stream.
+    /// Whether the data of an accessor is in a buffer view, and not in a compressed stream.
     pub fn is_stored(&self, index: usize) -> bool {
         self.root.accessors.get(index).is_some_and(|accessor| accessor.buffer_view.is_some())
     }
 
-    /// Elements of `N` components, made into whatever the caller wants.
+    /// Elements of `N` components, converted by `make`.
     pub fn read<const N: usize, R: Clone>(
         &self,
         index: usize,
@@ -114,7 +114,7 @@ impl Buffers<'_> {
         Ok(values)
     }
 
-    /// The step of the values of an accessor that are stored as whole numbers; 0 for floating-point numbers.
+    /// Step of the values of an accessor with integer components; 0 for floating point.
     pub fn step(&self, index: usize) -> f64 {
         let Ok(accessor) = self.accessor(index) else { return 0.0 };
         let largest = match Component::new(accessor.component_type) {
@@ -128,7 +128,7 @@ impl Buffers<'_> {
         if accessor.normalized { 1.0 / largest } else { 1.0 }
     }
 
-    /// Indices of a primitive.
+    /// Reads the indices of a primitive.
     pub fn indices(&self, index: usize) -> Result<Indices, Error> {
         let place = |error: Error| error.within(format!("accessor {index}"));
         let accessor = self.accessor(index)?;
@@ -144,7 +144,7 @@ impl Buffers<'_> {
         elements.whole_numbers().map_err(place)
     }
 
-    /// Plain bytes, one a scalar: the bit fields of some extensions, which are no fractions whatever the file says.
+    /// Reads one byte per scalar: bit fields of some extensions, never normalised.
     pub fn bytes(&self, index: usize) -> Result<Vec<u8>, Error> {
         let accessor = self.accessor(index)?;
         if Component::new(accessor.component_type).is_ok_and(|component| component != Component::U8) {
@@ -169,7 +169,7 @@ impl Buffers<'_> {
             normalized: accessor.normalized,
         };
         let Some(view) = accessor.buffer_view else {
-            // Zeros cost the file nothing, so their number is held to what else it holds.
+            // Zeros take no space in the file, so their number is limited by the size of its data.
             if accessor.count > self.total().max(1 << 16) {
                 let message = format!("it has {} elements without data", accessor.count);
                 return Err(Error::new(message));
@@ -219,7 +219,7 @@ impl Buffers<'_> {
 }
 
 impl<'a> Elements<'a> {
-    /// The part of a view these elements lie in, or what does not fit.
+    /// Slice of a view that these elements occupy; an error if it does not fit.
     fn within(&self, bytes: &'a [u8], offset: usize, size: usize) -> Result<&'a [u8], String> {
         if self.count == 0 {
             return Ok(&[]);
@@ -234,7 +234,7 @@ impl<'a> Elements<'a> {
         })
     }
 
-    /// All elements; the kind of number is looked at once, not for each of them.
+    /// Converts all elements; the component type is matched once, not for each element.
     fn collect<const N: usize, R: Clone>(&self, make: impl Fn([f64; N]) -> R) -> Vec<R> {
         let Some(bytes) = self.bytes else {
             return vec![make([0.0; N]); self.count];
@@ -303,7 +303,7 @@ impl<'a> Elements<'a> {
     }
 }
 
-/// Elements of `N` components of `S` bytes each; `bytes` ends with the last element.
+/// Converts elements of `N` components of `S` bytes each; `bytes` ends with the last element.
 fn gather<const N: usize, const S: usize, R>(
     bytes: &[u8],
     stride: usize,
@@ -316,7 +316,7 @@ fn gather<const N: usize, const S: usize, R>(
         make(std::array::from_fn(|lane| lanes.get(lane).map_or(0.0, |b| decode(*b))))
     };
     if stride == N * S {
-        // The usual case, in which the length of a chunk is known to the compiler.
+        // Usual case, with a chunk length known at compile time.
         bytes.chunks_exact(N * S).map(element).collect()
     } else {
         bytes.chunks(stride.max(1)).map(element).collect()

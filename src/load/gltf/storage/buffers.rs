@@ -1,4 +1,4 @@
-//! The bytes behind a file: its buffers, and the views into them, decompressed where needed.
+//! Bytes of buffers and buffer views, decompressed where needed.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -9,20 +9,20 @@ use crate::load::gltf::json::lenient_index::Shown;
 use crate::load::gltf::json::{Buffer, Root};
 use crate::load::gltf::{meshopt, uri};
 
-/// Reads at most so many bytes of a file named by a path relative to the model.
+/// Reads up to a number of bytes of a file, given its path relative to the model.
 pub type Fetch<'f> = dyn Fn(&str, usize) -> io::Result<Vec<u8>> + 'f;
 
 /// All buffers of a file.
 #[derive(Debug)]
 pub struct Buffers<'a> {
-    /// The JSON that describes them.
+    /// JSON that describes them.
     pub root: &'a Root,
     buffers: Vec<Cow<'a, [u8]>>,
     decompressed: Vec<OnceCell<Result<Vec<u8>, Error>>>,
 }
 
 impl<'a> Buffers<'a> {
-    /// Gathers the buffers: the BIN chunk, data URIs and files beside the model.
+    /// Collects the buffers: the BIN chunk, data URIs and files next to the model.
     pub fn gather(root: &'a Root, bin: Option<&'a [u8]>, fetch: &Fetch) -> Result<Self, Error> {
         let mut buffers = Vec::with_capacity(root.buffers.len());
         for (number, buffer) in root.buffers.iter().enumerate() {
@@ -34,12 +34,12 @@ impl<'a> Buffers<'a> {
         Ok(Self { root, buffers, decompressed })
     }
 
-    /// How many bytes there are in all: a bound for what a file may ask for without giving data.
+    /// Number of bytes of all buffers: a bound for allocations that the file requests without data.
     pub fn total(&self) -> usize {
         self.buffers.iter().map(|buffer| buffer.len()).sum()
     }
 
-    /// The bytes of a view and its stride, if it has one.
+    /// Bytes of a view, and its stride, if it has one.
     pub fn view(&self, index: usize) -> Result<(&[u8], Option<usize>), Error> {
         let place = || format!("bufferView {}", Shown(index));
         let Some((view, cell)) = self.root.buffer_views.get(index).zip(self.decompressed.get(index)) else {
@@ -81,7 +81,7 @@ impl<'a> Buffers<'a> {
 fn bytes_of<'a>(buffer: &Buffer, bin: Option<&'a [u8]>, fetch: &Fetch) -> Result<Cow<'a, [u8]>, Error> {
     let fallback = [&buffer.extensions.ext_meshopt, &buffer.extensions.khr_meshopt];
     if fallback.into_iter().flatten().any(|extension| extension.fallback) {
-        // It would only repeat uncompressed what the compressed views hold.
+        // A fallback buffer only repeats the content of compressed views.
         return Ok(Cow::Borrowed(&[]));
     }
     let bytes: Cow<'a, [u8]> = match &buffer.uri {

@@ -1,4 +1,4 @@
-//! Splits a file into its JSON and its binary chunk: GLB, or plain JSON without a chunk.
+//! Splits a file into JSON and binary chunk: GLB, or plain JSON without a chunk.
 
 use crate::error::Error;
 use crate::scene::Warnings;
@@ -12,11 +12,11 @@ const REEXPORT: &str = "export the model again as glTF 2.0";
 pub struct Container<'a> {
     /// The JSON text.
     pub json: &'a [u8],
-    /// The BIN chunk of a GLB file.
+    /// BIN chunk of a GLB file.
     pub bin: Option<&'a [u8]>,
 }
 
-/// Splits `bytes`, whichever of the two forms they have.
+/// Splits `bytes`; detects the form by the first bytes.
 pub fn split<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<Container<'a>, Error> {
     if bytes.starts_with(b"glTF") {
         return glb(bytes, warnings);
@@ -29,7 +29,7 @@ pub fn split<'a>(bytes: &'a [u8], warnings: &mut Warnings) -> Result<Container<'
     }
 }
 
-/// What a file is that is no glTF at all.
+/// Error that describes a file that is not glTF.
 fn stranger(bytes: &[u8]) -> Error {
     let text = bytes.trim_ascii_start();
     if text.starts_with(b"version https://git-lfs") {

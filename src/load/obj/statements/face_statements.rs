@@ -1,4 +1,4 @@
-//! The statements that name vertices: `f` and `l`.
+//! Parses the statements that refer to vertices: `f` and `l`.
 
 use glam::DVec3;
 
@@ -11,7 +11,7 @@ use crate::mesh::EdgeMark;
 use crate::scene::extent::coordinate_limits::is_drawable;
 
 impl Parser<'_> {
-    /// The next corner of a face or line; none at the end of the line.
+    /// Next corner of a face or line; `None` at the end of the line.
     #[inline]
     fn corner(&mut self) -> Result<Option<Corner>, Stop> {
         self.cursor.skip_blanks();
@@ -39,7 +39,7 @@ impl Parser<'_> {
         if self.cursor.at_word_end() { Ok(Some(corner)) } else { Err(self.not_an_index().into()) }
     }
 
-    /// Index of a texture coordinate or a normal. One that points nowhere is none.
+    /// Index of a texture coordinate or normal; [`NONE`] if it is out of range.
     #[inline]
     fn attribute(&mut self, count: usize) -> u32 {
         match self.cursor.integer() {
@@ -51,7 +51,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A negative index, or one of a vertex still to come, or a mistake.
+    /// Parses a negative index, or one of a vertex further below, or reports an error.
     #[cold]
     fn unusual_position(&mut self) -> Result<u32, Stop> {
         let place = self.cursor.clone();
@@ -108,7 +108,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Adds the triangles of a face, whose corners are `corners`.
+    /// Triangulates the face with corners `corners`.
     pub(crate) fn cut_corners(&mut self) {
         match *self.corners.as_slice() {
             [a, b, c] => self.triangle([a, b, c], [EdgeMark::Unmarked; 3]),
@@ -189,7 +189,7 @@ impl Parser<'_> {
     }
 }
 
-/// How many vertices there are from here on.
+/// Number of vertices in the rest of the text.
 fn count_vertices(cursor: &Cursor) -> usize {
     let mut cursor = cursor.clone();
     let mut count = 0;

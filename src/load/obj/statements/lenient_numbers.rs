@@ -1,7 +1,7 @@
-//! Numbers, and words where a number should stand; vertices with one of them.
+//! Numbers in unusual notation, and vertices that contain them.
 //!
-//! A word is read if it says one number: with a decimal comma, or with a unit behind it. A vertex with a coordinate that says
-//! none, or several, has no place, and what needs it as a corner is left out.
+//! A word with a decimal comma or with a unit after the number is read as a number. A vertex with a
+//! coordinate that cannot be read is invalid; faces and lines that use it are left out.
 
 use glam::DVec3;
 
@@ -10,27 +10,27 @@ use crate::load::shown;
 use crate::load::text_cursor::Cursor;
 use crate::scene::extent::coordinate_limits::is_drawable;
 
-/// What Visual C writes after `1.` where a number is none.
+/// Suffixes that Visual C writes after `1.` for values that are not numbers.
 const NO_NUMBERS: [&[u8]; 4] = [b"#QNAN", b"#SNAN", b"#IND", b"#INF"];
 
-/// Longer words are no numbers, in bytes.
+/// Maximum bytes of a word with a decimal comma.
 const LONGEST_WORD: usize = 200;
 
-/// What a word where a number should stand says.
+/// Meaning of a word in place of a number.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Odd {
-    /// A number, in another notation than that of OBJ: a decimal comma, or a unit behind it.
+    /// A number in a notation that OBJ does not have: a decimal comma, or a unit after it.
     Number(f64),
-    /// A word for no number, such as `1.#QNAN`, or a comment right behind a number.
+    /// A number, or NaN for a word such as `1.#QNAN`; possibly with a comment right after it.
     Usual(f64),
     /// Nothing: the line ends.
     Missing,
-    /// Neither.
+    /// Not a number.
     Unreadable,
 }
 
 impl Parser<'_> {
-    /// A vertex whose statement has more than three usual numbers, or others.
+    /// Parses a vertex with more than three numbers, or with unusual ones.
     #[inline(never)]
     pub(crate) fn any_position(&mut self) {
         let place = self.cursor.clone();
@@ -74,14 +74,14 @@ impl Parser<'_> {
         }
         if count >= 3 {
             let [r, g, b, _] = extra;
-            // White for those before it that have none.
+            // Earlier vertices without a colour are white.
             self.out.colours.resize(id, [1.0; 3]);
             self.out.colours.push([r, g, b]);
         }
     }
 
-    /// The next number of the line, of a texture coordinate or a normal. A word that is none is read as far as it goes,
-    /// or as 0, with a warning.
+    /// Next number of the line, for a texture coordinate or normal. Of an invalid word, the numeric start is
+    /// read, or 0, with a warning.
     #[inline]
     pub(crate) fn number(&mut self) -> f64 {
         self.cursor.skip_blanks();
@@ -90,7 +90,7 @@ impl Parser<'_> {
         self.settled(start, read)
     }
 
-    /// The number at `start`, of which `read` was read; as [`Self::number`] has it.
+    /// Validates the number `read` at `start`; handles other words like [`Self::number`].
     #[inline]
     pub(crate) fn settled(&mut self, start: usize, read: Option<f64>) -> f64 {
         match read {
@@ -123,9 +123,9 @@ impl Parser<'_> {
         });
     }
 
-    /// The next coordinate of a vertex; NaN, with a warning, where none can be read.
+    /// Next coordinate of a vertex; NaN, with a warning, if it cannot be read.
     ///
-    /// A guess would move the corner of a face, and nothing in the drawing would show it.
+    /// A guessed value would move a corner, and the error would not be visible in the drawing.
     #[inline]
     pub(crate) fn coordinate(&mut self) -> f64 {
         self.cursor.skip_blanks();
@@ -158,7 +158,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Counts the vertex at hand, once, among those that have no place.
+    /// Records the present vertex, once, as invalid.
     fn note_unplaced(&mut self, at: &Cursor, what: impl FnOnce(&Cursor) -> String) {
         if !self.is_unplaced {
             self.is_unplaced = true;
@@ -166,7 +166,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Passes the word at `start`, of which `read` was read as a number, and says what it is.
+    /// Skips the word at `start`, with the number `read` at its beginning, and classifies it.
     fn odd_word(&mut self, start: usize, read: Option<f64>) -> Odd {
         let rest = self.cursor.bytes.get(self.cursor.at..).unwrap_or_default();
         if let Some(value) = read.filter(|_| rest.starts_with(b"#")) {
@@ -185,7 +185,7 @@ impl Parser<'_> {
         let tail = self.cursor.bytes.get(end_of_number..self.cursor.at).unwrap_or_default();
         match (read, tail.first()) {
             (Some(value), _) if !value.is_finite() => Odd::Usual(f64::NAN),
-            // A program of a country that writes commas for points.
+            // Decimal comma of a localised program.
             (_, Some(b',')) => comma_number(word).map_or(Odd::Unreadable, Odd::Number),
             (Some(value), Some(_)) if is_unit(tail) => Odd::Number(value),
             _ => Odd::Unreadable,
@@ -193,14 +193,14 @@ impl Parser<'_> {
     }
 }
 
-/// Whether letters behind a number name its unit, as in `3cm` or `1.5f`, and do not change its value: `1e`, `0x` and `1d`
-/// begin an exponent or another base.
+/// Whether letters after a number are a unit, as in `3cm` or `1.5f`. Letters that may begin an exponent or
+/// another base, as in `1e`, `0x` and `1d`, are not.
 fn is_unit(tail: &[u8]) -> bool {
     let begins = tail.first().is_some_and(|c| !matches!(c.to_ascii_lowercase(), b'd' | b'e' | b'x'));
     begins && tail.iter().all(u8::is_ascii_alphabetic)
 }
 
-/// A number whose decimal point is a comma, or with a comma behind it; words of hundreds of bytes are none.
+/// Number with a decimal comma, or with a comma after it.
 fn comma_number(word: &[u8]) -> Option<f64> {
     let comma = word.iter().position(|b| *b == b',').filter(|_| word.len() <= LONGEST_WORD)?;
     let mut copy = word.to_vec();
@@ -212,7 +212,7 @@ fn comma_number(word: &[u8]) -> Option<f64> {
     cursor.number().filter(|_| cursor.at == copy.len())
 }
 
-/// What is left out because of its corners: so many faces, and so many lines.
+/// Describes the number of faces and lines that were left out because of their corners.
 pub(crate) fn left_out([faces, lines]: [u64; 2]) -> String {
     let counted = |n: u64, noun: &str| match n {
         0 => None,

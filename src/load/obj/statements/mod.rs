@@ -25,12 +25,12 @@ use crate::mesh::EdgeMark;
 use crate::scene::extent::coordinate_limits::is_drawable;
 use crate::scene::warnings::{Spots, Warnings};
 
-/// Triangles and wires that follow one another in the same part with the same material.
+/// Consecutive triangles and wires of one part and one material.
 #[derive(Debug, Clone)]
 pub(crate) struct FaceGroup {
     /// Index into `objects`.
     pub object: usize,
-    /// Index into `materials`, if `usemtl` came before.
+    /// Index into `materials`, if there was a `usemtl` before.
     pub material: Option<usize>,
     /// Its triangles.
     pub triangles: Range<usize>,
@@ -38,26 +38,26 @@ pub(crate) struct FaceGroup {
     pub wires: Range<usize>,
 }
 
-/// An `o`, a `g`, or what came before both.
+/// An `o`, a `g`, or the part before both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Object<'a> {
     Unnamed,
     Named(&'a [u8]),
 }
 
-/// All that an OBJ file says, with polygons cut into triangles.
+/// Content of an OBJ file, with polygons triangulated.
 #[derive(Default)]
 pub(crate) struct Statements<'a> {
     pub positions: Vec<DVec3>,
-    /// Colours of the first vertices, or of none.
+    /// Vertex colours; shorter than `positions` if the last vertices have none, or empty.
     pub colours: Vec<[f32; 3]>,
     pub uvs: Vec<[f32; 2]>,
     pub normals: Vec<[f32; 3]>,
     pub triangles: Vec<[u32; 3]>,
-    /// As long as `triangles` or shorter: the rest has none.
+    /// At most as long as `triangles`; the remaining triangles have none.
     pub corner_uvs: Vec<[u32; 3]>,
     pub corner_normals: Vec<[u32; 3]>,
-    /// As long as `triangles` or shorter: the rest is unmarked.
+    /// At most as long as `triangles`; the remaining triangles are unmarked.
     pub edge_marks: Vec<[EdgeMark; 3]>,
     pub wires: Vec<[u32; 2]>,
     pub runs: Vec<FaceGroup>,
@@ -65,14 +65,14 @@ pub(crate) struct Statements<'a> {
     /// Names of `usemtl`, each once, in order of first use.
     pub materials: Vec<&'a [u8]>,
     pub libraries: Vec<&'a [u8]>,
-    /// Whether there are positions that cannot be drawn.
+    /// Whether any position cannot be drawn.
     pub has_bad_positions: bool,
-    /// Vertices of which only x and y are written.
+    /// Number of vertices with only x and y.
     flat_vertices: usize,
     pub warnings: Warnings,
 }
 
-/// What stopped the parser.
+/// Reason for which parsing stopped.
 enum Stop {
     Error(Error),
     /// A face before its vertices.
@@ -86,24 +86,25 @@ impl From<Error> for Stop {
 }
 
 impl<'a> Statements<'a> {
-    /// Parses the file.
+    /// Parses a file.
     pub fn parse(bytes: &'a [u8]) -> Result<Self, Error> {
         let statements = Self::parse_as(bytes, false)?;
-        // A drawing in the plane: no vertex has a z.
+        // If no vertex has a z coordinate, the file is a plane drawing.
         if statements.flat_vertices > 0 && statements.flat_vertices == statements.positions.len() {
             return Self::parse_as(bytes, true);
         }
         Ok(statements)
     }
 
-    /// Parses the file; `is_flat` if a vertex of two coordinates lies in the plane z = 0.
+    /// Parses a file; with `is_flat`, vertices of two coordinates have z = 0.
     fn parse_as(bytes: &'a [u8], is_flat: bool) -> Result<Self, Error> {
         let parser = |positions| Parser { is_flat, ..Parser::new(bytes, positions) };
         match parser(Vec::new()).run() {
             Ok(statements) => Ok(statements),
             Err(Stop::Error(error)) => Err(error),
             Err(Stop::FaceFirst) => {
-                // Some writers put the faces first; cutting polygons needs all positions by then.
+                // Some exporters write the faces first, but triangulation needs all positions, so they are
+                // read in a first pass.
                 let mut first = parser(Vec::new());
                 first.only_vertices = true;
                 let vertices = first.run().map_err(Stop::into_error)?;
@@ -130,7 +131,7 @@ struct Parser<'a> {
     position_count: usize,
     second_pass: bool,
     only_vertices: bool,
-    /// Whether vertices of two coordinates lie in the plane z = 0.
+    /// Whether vertices of two coordinates have z = 0.
     is_flat: bool,
     corners: Vec<Corner>,
     points: Vec<DVec3>,
@@ -141,7 +142,7 @@ struct Parser<'a> {
     material: Option<usize>,
     groups: rustc_hash::FxHashMap<&'a [u8], usize>,
     material_ids: rustc_hash::FxHashMap<&'a [u8], usize>,
-    /// Faces and lines left out because of a corner without a place.
+    /// Faces and lines left out because of an invalid corner.
     unusable: [u64; 2],
     too_short: u64,
     points_passed: u64,
@@ -149,7 +150,7 @@ struct Parser<'a> {
     odd_numbers: Spots,
     /// Vertices with a coordinate that cannot be read or drawn.
     unplaced: Spots,
-    /// Whether the vertex at hand is one.
+    /// Whether the present vertex is one of them.
     is_unplaced: bool,
 }
 
@@ -220,7 +221,8 @@ impl<'a> Parser<'a> {
         Ok(out)
     }
 
-    /// Adds what was read ahead, and goes on behind it; stays where it does not hold with what was before.
+    /// Adds a run that was parsed in parallel and moves behind it. Does nothing if its indices are not valid
+    /// yet.
     fn add_run(&mut self, Run { end, read, .. }: Run) {
         match read {
             Read::Positions(points) => {
@@ -249,7 +251,7 @@ impl<'a> Parser<'a> {
         self.cursor.at = end;
     }
 
-    /// The less frequent statements.
+    /// Parses the less frequent statements.
     fn other(&mut self) -> Result<(), Stop> {
         let start = self.cursor.at;
         let keyword = self.cursor.word();
@@ -276,7 +278,7 @@ impl<'a> Parser<'a> {
             b"o" => {
                 let name = self.cursor.rest_of_line();
                 if !self.has_objects {
-                    // Groups inside objects are finer than parts.
+                    // Groups inside objects are ignored.
                     self.groups.clear();
                     self.has_objects = true;
                 }
@@ -321,7 +323,7 @@ impl<'a> Parser<'a> {
                 } else {
                     self.pass_line()
                 }
-                // A byte that is neither a word nor a blank.
+                // A byte that is neither part of a word nor a blank.
                 if self.cursor.at == start {
                     self.cursor.at += 1;
                 }
@@ -346,7 +348,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Passes the rest of a statement, with the lines that continue it.
+    /// Skips the rest of a statement, including continuation lines.
     fn pass_line(&mut self) {
         while self.cursor.rest_of_line().ends_with(b"\\") && !self.cursor.at_end() {
             self.cursor.at +=
@@ -354,7 +356,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// `v x y z`, with a weight or a colour after it.
+    /// Parses `v x y z`, with an optional weight or colour.
     #[inline]
     fn position(&mut self) {
         match plain_position(self.cursor.bytes, self.cursor.at) {

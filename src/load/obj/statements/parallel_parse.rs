@@ -1,8 +1,9 @@
-//! [`Ahead`]: long runs of plain statements, read by several threads before it is their turn.
+//! [`Ahead`]: parses long runs of plain statements on several threads, ahead of the parser.
 //!
-//! Vertices and faces of nothing but numbers are most of any large file, and one says nothing about how to read
-//! another. So the text is cut into blocks at ends of lines, in which such statements are read side by side. The parser
-//! comes by statement for statement; where it stands at the beginning of a run it takes it as it is, and all else it reads itself.
+//! Vertices and faces of plain numbers are the bulk of every large file, and can be parsed independently of
+//! each other. The text is divided into blocks at line ends, and plain statements in the blocks are parsed in
+//! parallel. The parser then visits the text in order: at the beginning of a run it takes the whole run, and
+//! it parses all other statements itself.
 
 use std::collections::VecDeque;
 
@@ -13,66 +14,68 @@ use super::plain_statements::{Corner, NO_CORNER, plain_face, plain_position, pla
 use crate::load::text_cursor::plain_number;
 use crate::scene::extent::coordinate_limits::is_drawable;
 
-/// Shorter texts are read before other threads have begun.
+/// Minimum size of a text for parallel parsing, bytes. Shorter texts are parsed before other threads have
+/// started.
 const LEAST_TEXT: usize = 1 << 17;
-/// Bytes that one thread reads at a time.
+/// Bytes per parallel task.
 const BLOCK: usize = 1 << 16;
-/// Blocks that are read at a time, so that little is there twice.
+/// Blocks parsed at a time. Bounds the memory for data that is held twice.
 const BLOCKS: usize = 32;
-/// A block is left to the parser from where it has more than so many other statements, and one for so many plain ones.
+/// A block is left to the parser after this number of other statements, plus one for each `PLAIN_OF_OTHERS`
+/// plain ones.
 const MOST_OTHERS: usize = 64;
 const PLAIN_OF_OTHERS: usize = 16;
 
-/// Statements of one kind that follow one another.
+/// Consecutive statements of one kind.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Run {
-    /// Index of the byte at which the first begins.
+    /// Byte index of the start of the first statement.
     start: usize,
-    /// Index of the byte at which the line of the last ends.
+    /// Byte index of the end of the last statement's line.
     pub end: usize,
     pub read: Read,
 }
 
-/// What a run says.
+/// Values of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Read {
-    /// `v`: places that can be drawn.
+    /// `v`: positions that can be drawn.
     Positions(Vec<DVec3>),
     /// `vt`.
     Uvs(Vec<[f32; 2]>),
     /// `vn`.
     Normals(Vec<[f32; 3]>),
-    /// `f` with three bare indices, counted from 0, and the largest of them.
+    /// `f` with three plain indices, counted from 0, and the largest of them.
     Triangles(Vec<[u32; 3]>, u32),
-    /// `f` with three or four corners of which some have more than a place, and the largest index of these. The last of three is
-    /// [`NO_CORNER`].
+    /// `f` with three or four corners, some with texture coordinates or normals, and the largest position
+    /// index. The fourth corner of a triangle is [`NO_CORNER`].
     Faces(Vec<[Corner; 4]>, u32),
 }
 
-/// What was read before its turn.
+/// Runs that were parsed ahead of the parser.
 #[derive(Debug, Default)]
 pub(crate) struct Ahead {
-    /// Runs in the order of the text.
+    /// Runs in text order.
     runs: VecDeque<Run>,
-    /// Where the next block begins.
+    /// Byte index of the next block.
     next: usize,
-    /// Bytes of a block; 0 if nothing is read ahead.
+    /// Bytes per block; 0 if nothing is parsed ahead.
     block: usize,
 }
 
 impl Ahead {
-    /// For a text that is worth it.
+    /// Chooses parallel parsing if the text is long enough.
     pub fn of(bytes: &[u8]) -> Self {
         let alone = bytes.len() < LEAST_TEXT || rayon_core::current_num_threads() == 1;
         Self::with_blocks(if alone { 0 } else { BLOCK })
     }
 
-    /// In blocks of about so many bytes.
+    /// Parses in blocks of about `block` bytes.
     pub fn with_blocks(block: usize) -> Self {
         Self { block, ..Self::default() }
     }
 
-    /// The run that begins at `at`, where a statement begins.
+    /// Takes the run that begins at `at`, the start of a statement.
     #[inline]
     pub fn take(&mut self, bytes: &[u8], at: usize) -> Option<Run> {
         if self.block == 0 || (at < self.next && self.runs.front().is_none_or(|run| at < run.start)) {
@@ -83,7 +86,7 @@ impl Ahead {
 
     #[inline(never)]
     fn take_there(&mut self, bytes: &[u8], at: usize) -> Option<Run> {
-        // What a statement reached into was another statement than it seemed.
+        // Skip runs inside a statement that the parser has already consumed, such as a continued line.
         while self.runs.front().is_some_and(|run| run.start < at) {
             self.runs.pop_front();
         }
@@ -93,7 +96,7 @@ impl Ahead {
         self.runs.pop_front_if(|run| run.start == at)
     }
 
-    /// Reads the blocks that begin at `at`.
+    /// Parses the blocks that begin at `at`.
     fn read(&mut self, bytes: &[u8], at: usize) {
         let mut starts = vec![at];
         while let Some(last) = starts.last().copied().filter(|last| *last < bytes.len()) {
@@ -112,7 +115,7 @@ impl Ahead {
     }
 }
 
-/// The runs of the lines from one index of a byte up to another.
+/// Runs in the lines between two byte indices.
 fn runs(bytes: &[u8], start: usize, end: usize) -> Vec<Run> {
     let mut runs: Vec<Run> = Vec::new();
     let (mut at, mut plain, mut others, mut joins) = (start, 0, 0, false);
@@ -155,7 +158,7 @@ fn runs(bytes: &[u8], start: usize, end: usize) -> Vec<Run> {
     runs
 }
 
-/// What one plain statement says.
+/// Values of one plain statement.
 enum One {
     Position(DVec3),
     Uv([f32; 2]),
@@ -165,7 +168,7 @@ enum One {
 }
 
 impl Run {
-    /// Adds a statement that ends at `end`, if it is of the kind of the run.
+    /// Adds a statement that ends at `end`, if it has the same kind as the run.
     #[inline]
     fn takes(&mut self, one: &One, end: usize) -> bool {
         match (&mut self.read, one) {
@@ -199,7 +202,7 @@ impl From<One> for Read {
     }
 }
 
-/// The largest index of a position.
+/// Largest position index of a face.
 fn largest_of(corners: &[Corner; 4]) -> u32 {
     corners.iter().filter(|corner| **corner != NO_CORNER).fold(0, |largest, corner| largest.max(corner[0]))
 }
@@ -249,7 +252,7 @@ mod tests {
         })
     }
 
-    /// Everything that a text says, or why not.
+    /// Debug text of everything in a text, or the error.
     fn said(text: &[u8], block: usize) -> String {
         parsed(text, block).map_or_else(
             |error| error,
@@ -327,7 +330,7 @@ mod tests {
         let ends: Vec<[usize; 2]> = found.iter().map(|run| [run.start, run.end]).collect();
         assert_eq!(ends, [[0, 15], [17, 24], [35, 42], [51, 58]]);
         assert_eq!(found[1].read, Read::Triangles(vec![[0, 1, 2]], 2));
-        // A file of other statements is left alone soon.
+        // Parallel parsing gives up soon on a file of other statements.
         let others = "s 1\n".repeat(1000) + "v 1 2 3\n";
         assert!(runs(others.as_bytes(), 0, others.len()).is_empty());
     }

@@ -1,19 +1,19 @@
-//! Statements of nothing but usual numbers, as most of a large file are; others are none.
+//! Recognises plain statements: decimal numbers or indices without special notation, the bulk of large files.
 
 use glam::DVec3;
 
 use crate::load::text_cursor::{plain_digits, plain_index, plain_number};
 
-/// No index.
+/// Index for "none".
 pub(crate) const NONE: u32 = u32::MAX;
 
-/// Position, texture coordinate and normal of a corner.
+/// Indices of position, texture coordinate and normal of a corner.
 pub(crate) type Corner = [u32; 3];
 
-/// Where a face has but three corners.
+/// Fourth corner of a face with three corners.
 pub(crate) const NO_CORNER: Corner = [NONE; 3];
 
-/// Three usual numbers and the end of the line.
+/// Three plain numbers and the end of the line.
 #[inline(always)]
 pub(crate) fn plain_position(bytes: &[u8], mut at: usize) -> Option<(DVec3, usize)> {
     let mut axes = [0.0; 3];
@@ -29,7 +29,7 @@ pub(crate) fn plain_position(bytes: &[u8], mut at: usize) -> Option<(DVec3, usiz
     matches!(bytes.get(at)?, b'\n' | b'\r').then_some((DVec3::from_array(axes), at))
 }
 
-/// Three bare indices and the end of the line.
+/// Three plain indices and the end of the line.
 #[inline(always)]
 pub(crate) fn plain_triangle(bytes: &[u8], at: usize) -> Option<([u64; 3], usize)> {
     let (a, at) = plain_index(bytes, at)?;
@@ -38,7 +38,7 @@ pub(crate) fn plain_triangle(bytes: &[u8], at: usize) -> Option<([u64; 3], usize
     matches!(bytes.get(at)?, b'\n' | b'\r').then_some(([a, b, c], at))
 }
 
-/// Three or four corners of indices of few digits, and the end of the line: as the parser reads them.
+/// Three or four corners with short indices, and the end of the line. Gives the same result as the parser.
 pub(crate) fn plain_face(bytes: &[u8], mut at: usize) -> Option<([Corner; 4], usize)> {
     let mut corners = [NO_CORNER; 4];
     let mut count = 0;
@@ -52,7 +52,7 @@ pub(crate) fn plain_face(bytes: &[u8], mut at: usize) -> Option<([Corner; 4], us
         let corner = corners.get_mut(count)?;
         for (k, index) in corner.iter_mut().enumerate() {
             let (value, end) = plain_digits(bytes, at);
-            // Another index may be missing, or none.
+            // Indices of texture coordinates and normals may be missing or 0.
             let digits = end - at;
             if digits > 9 || (k == 0 && value == 0) {
                 return None;

@@ -1,4 +1,5 @@
-//! Triangles of polygons: convex, concave, with corners in line, huge, and the slow way to find ears.
+//! Triangulations of polygons: convex, concave, with collinear corners, huge; and a slow reference for ear
+//! clipping.
 
 use super::*;
 
@@ -12,7 +13,7 @@ fn flat(points: &[(f64, f64)]) -> Vec<DVec3> {
     points.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect()
 }
 
-/// Sum of the areas and the smallest of them; a cut without overlaps has no negative area.
+/// Sum of the areas, and the smallest area; a triangulation without overlaps has no negative one.
 fn areas(points: &[DVec3], triangles: &[[u32; 3]]) -> (f64, f64) {
     let area = |t: &[u32; 3]| {
         let [a, b, c] = t.map(|i| points[i as usize]);
@@ -69,7 +70,7 @@ fn any_side_and_any_plane_serve() {
     }
 }
 
-/// The rule, word by word.
+/// Reference: the definition of an ear, without caching.
 fn slow_ears(p: &[DVec2]) -> Vec<[u32; 3]> {
     let (mut left, mut out): (Vec<usize>, Vec<[u32; 3]>) = ((0..p.len()).collect(), Vec::new());
     while left.len() > 3 {
@@ -102,7 +103,7 @@ fn the_quick_way_gives_the_ears_of_the_slow_way() {
     let mut state = 7_u64;
     for round in 0..300 {
         let n = 5 + round % 40;
-        // Stars, some of them with corners that coincide, and tangles.
+        // Stars, some with coinciding corners, and self-intersecting polygons.
         let points: Vec<DVec2> = (0..n)
             .map(|i| {
                 state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -128,15 +129,15 @@ fn huge_polygons_take_no_time() {
     let mut triangles = Vec::new();
     assert_eq!(triangulate(&points, &mut triangles), CutOutcome::Sound);
     triangles.clear();
-    // A corner that juts in makes it concave.
+    // A corner pushed inwards makes it concave.
     let jagged: Vec<_> = points.iter().copied().chain([DVec3::new(0.1, 0.2, 0.0)]).collect();
     assert_eq!(triangulate(&jagged, &mut triangles), CutOutcome::TooLarge);
     assert_eq!(triangles.len(), jagged.len() - 2);
-    // Corners that only repeat do not count.
+    // Repeated corners do not count.
     let ell = [(2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (1.0, 2.0), (0.0, 2.0), (0.0, 0.0)];
     let repeated: Vec<_> = flat(&ell).into_iter().flat_map(|p| std::iter::repeat_n(p, 9_000)).collect();
     assert_eq!(cut(&repeated).len(), 4);
-    // A comb has few ears at a time and all of them late.
+    // A comb has few ears at a time, all of them late in the order.
     let comb = |n: usize| -> Vec<DVec3> {
         let teeth = (0..n).map(|i| DVec3::new(i as f64, if i % 2 == 0 { 0.0 } else { 9.0 }, 0.0));
         teeth.rev().chain([DVec3::new(0.0, -1.0, 0.0), DVec3::new(n as f64, -1.0, 0.0)]).collect()
@@ -149,13 +150,13 @@ fn huge_polygons_take_no_time() {
 
 #[test]
 fn no_triangle_lies_along_a_side_with_a_corner_in_it() {
-    // Triangles, quads and a concave polygon with corners in the middle of their sides.
+    // Triangles, quads and a concave polygon, with corners in the middle of their sides.
     let shapes: [&[(f64, f64)]; 3] = [
         &[(0.0, 0.0), (3.0, 0.1), (1.0, 2.0)],
         &[(0.0, 0.0), (3.0, 0.0), (3.0, 2.0), (0.0, 2.0)],
         &[(0.0, 0.0), (4.0, 0.0), (4.0, 1.0), (1.0, 1.0), (1.0, 3.0), (0.0, 3.0)],
     ];
-    // Corners of a plus. Some are in line across it.
+    // Corners of a plus. Some are collinear across it.
     let plus = [
         (1.0, 0.0),
         (2.0, 0.0),
@@ -196,7 +197,7 @@ fn no_triangle_lies_along_a_side_with_a_corner_in_it() {
             for k in 0..shape.len() {
                 let (p, q) = (DVec2::from(shape[k]), DVec2::from(shape[(k + 1) % shape.len()]));
                 points.push(p);
-                // None, one or two corners, off the side by rounding to single precision.
+                // Zero, one or two corners, off the side by single-precision rounding.
                 for t in [0.37, 0.71].into_iter().take((pattern >> (2 * k) & 3) as usize) {
                     points.push(p.lerp(q, t).as_vec2().as_dvec2());
                 }

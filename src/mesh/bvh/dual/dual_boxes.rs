@@ -1,32 +1,34 @@
-//! [`DualBoxes`]: a 16-fold tree of boxes in four dimensions that lists which of them a hyperplane
-//! through a camera may cut.
+//! [`DualBoxes`]: 16-ary tree of four-dimensional boxes, queried by a hyperplane.
 //!
-//! Source: Claes, Di Fiore, Vansichem and Van Reeth, "Fast 3D cartoon rendering with improved
-//! quality by exploiting graphics hardware", IVCNZ 2001, section 4: each item lies in the smallest
-//! cube that holds it, and each cube keeps two boxes, one around its own items and one around those
-//! of its children. Here a cube with many items of its own keeps them in blocks with a box each,
-//! so that items on a border between large cubes, of which there are many, are not all asked.
+//! 1. Each item is stored in the smallest cube that contains it.
+//! 2. Each cube has two bounding boxes: one for the items stored in it, and one for the items of its
+//!    children.
+//! 3. A cube that stores many items keeps them in blocks, each with a box. Many items lie on a border between
+//!    large cubes, and not all of them need a test.
+//!
+//! Source: Claes, Di Fiore, Vansichem and Van Reeth, "Fast 3D cartoon rendering with improved quality by
+//! exploiting graphics hardware", IVCNZ 2001, section 4. Blocks are an addition.
 
 use crate::parallel::prelude::*;
 use glam::DVec4;
 
-/// Halvings of each axis.
+/// Number of halvings of each axis.
 const LEVELS: u32 = 16;
-/// Items of a block, and of a cube that is not divided any more.
+/// Number of items in a block, and in a cube that is not divided further.
 const BLOCK: usize = 8;
 
-/// An item to be found: its box in the cube from −1 to 1.
+/// Item with its box in the cube from −1 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Item {
-    /// The corner with the smallest coordinates.
+    /// Lower corner.
     pub low: DVec4,
-    /// The corner with the largest coordinates.
+    /// Upper corner.
     pub high: DVec4,
-    /// Its number.
+    /// Number of the item.
     pub id: u32,
 }
 
-/// A box that is never smaller than what it was made for.
+/// Box in single precision, rounded outward.
 #[derive(Debug, Clone, Copy)]
 struct Box4 {
     low: [f32; 4],
@@ -36,7 +38,7 @@ struct Box4 {
 impl Box4 {
     const EMPTY: Self = Self { low: [f32::INFINITY; 4], high: [f32::NEG_INFINITY; 4] };
 
-    /// Single precision is enough for boxes if they are rounded outward.
+    /// Rounds outward, so that the box still contains the item.
     fn of(item: &Item) -> Self {
         Self {
             low: item.low.to_array().map(|x| (x as f32).next_down()),
@@ -53,8 +55,7 @@ impl Box4 {
         sum
     }
 
-    /// Whether the dot product with `plane` may be as large as `low` somewhere in the box, and as
-    /// small as `high`.
+    /// Whether the dot product with `plane` may lie between `low` and `high` somewhere in the box.
     #[inline]
     fn may_hold(&self, plane: &[f64; 4], low: f64, high: f64) -> bool {
         let (mut least, mut most) = (0.0, 0.0);
@@ -67,43 +68,43 @@ impl Box4 {
     }
 }
 
-/// A cube that holds items of its own, or whose children part them.
+/// Cube with own items, or with several children.
 #[derive(Debug, Clone)]
 struct Cube {
-    /// Around the items of the children; empty if there are none.
+    /// Box around the items of the children; empty if there are none.
     children: Box4,
-    /// Around the cube's own items; empty if there are none.
+    /// Box around its own items; empty if there are none.
     own: Box4,
-    /// The first block of its own items; they end where those of the next cube begin.
+    /// First block of the items stored in it. They end where those of the next cube begin.
     first_block: u32,
-    /// The next cube that is no child of this one.
+    /// The next cube that is not a descendant.
     after: u32,
 }
 
-/// What a search found.
+/// Result of a query.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct DualFound {
-    /// Numbers of the items that may be cut, ascending.
+    /// Numbers of the items that the hyperplane may cut, ascending.
     pub items: Vec<u32>,
-    /// How many boxes were looked at.
+    /// Number of boxes tested.
     pub boxes: usize,
 }
 
-/// Boxes in four dimensions, in a 16-fold tree.
+/// Four-dimensional boxes in a 16-ary tree.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct DualBoxes {
-    /// Each cube before its children.
+    /// The cubes, each before its children.
     cubes: Vec<Cube>,
-    /// The box of each block, and its first item; one more at the end.
+    /// Box of each block, with its first item; one extra entry at the end.
     blocks: Vec<(Box4, u32)>,
     /// Numbers of the items, block by block.
     ids: Vec<u32>,
 }
 
-/// Where an item stands in the tree: the Morton number of its cube, with zeros below its level, then
-/// the level, then the Morton number of its middle, as far as there is room.
+/// Sort key of an item in the tree: Morton code of its cube with zeros below its level, then the level, then
+/// the leading bits of the Morton code of its centre.
 ///
-/// A cube comes before its children and they come one after another.
+/// A cube sorts directly before its children.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Place(u128);
 
@@ -116,25 +117,25 @@ impl Place {
         Self(u128::from(cube) << 64 | u128::from(level) << 59 | u128::from(middle >> 5))
     }
 
-    /// How often the whole was halved.
+    /// Depth of the cube.
     fn level(self) -> u32 {
         (self.0 >> 59) as u32 & 31
     }
 
-    /// Which of the sixteen children of its ancestor at a level it lies in.
+    /// Index of the child, 0 to 15, of its ancestor at a level.
     fn child(self, level: u32) -> u32 {
         (self.0 >> (64 + 4 * (LEVELS - 1 - level))) as u32 & 15
     }
 }
 
-/// Items in the order of the tree.
+/// Items in tree order.
 struct Sorted<'a> {
     items: &'a [Item],
     places: &'a [(Place, u32)],
 }
 
 impl DualBoxes {
-    /// The tree of some items; the result does not depend on their order.
+    /// Builds the tree; the result does not depend on the order of the items.
     pub fn new(mut items: Vec<Item>) -> Self {
         items.par_sort_unstable_by_key(|item| item.id);
         let mut places: Vec<(Place, u32)> = items
@@ -153,7 +154,7 @@ impl DualBoxes {
         tree
     }
 
-    /// Adds a cube of this level and all in it, and returns the box around it.
+    /// Adds a cube of this level with all its contents, and returns the box around it.
     fn add(&mut self, Sorted { items, places }: &Sorted, level: u32) -> Box4 {
         let own = if places.len() <= BLOCK || level == LEVELS {
             places.len()
@@ -162,7 +163,7 @@ impl DualBoxes {
         };
         let child = |(place, _): &(Place, u32)| place.child(level);
         if own == 0 && child(&places[0]) == child(&places[places.len() - 1]) {
-            // A cube with nothing of its own and one child is that child.
+            // A cube with a single child and no items is replaced by the child.
             return self.add(&Sorted { items, places }, level + 1);
         }
         let cube = self.cubes.len();
@@ -197,7 +198,7 @@ impl DualBoxes {
         self.cubes.len()
     }
 
-    /// The items in whose box the dot product with `plane` may lie between `low` and `high`.
+    /// The items whose boxes contain points with a dot product between `low` and `high`.
     pub fn find(&self, plane: DVec4, low: f64, high: f64) -> DualFound {
         let plane = plane.to_array();
         let mut found = DualFound::default();
@@ -208,7 +209,7 @@ impl DualBoxes {
                 let end = self.cubes.get(at + 1).map_or(self.blocks.len() - 1, |c| c.first_block as usize);
                 let blocks = &self.blocks[cube.first_block as usize..=end];
                 for pair in blocks.windows(2) {
-                    // The box of an only block is that of the cube.
+                    // A single block has the box of its cube.
                     found.boxes += usize::from(blocks.len() > 2);
                     if blocks.len() == 2 || pair[0].0.may_hold(&plane, low, high) {
                         found.items.extend(&self.ids[pair[0].1 as usize..pair[1].1 as usize]);
@@ -223,14 +224,14 @@ impl DualBoxes {
     }
 }
 
-/// Position along the Morton curve of a point in the cube from −1 to 1: four bits a level.
+/// Position along the Morton curve of a point in the cube from −1 to 1: four bits per level.
 fn morton(p: DVec4) -> u64 {
     let cells = f64::from((1_u32 << LEVELS) - 1);
     let axis = |x: f64| spread(((x + 1.0) / 2.0 * cells).clamp(0.0, cells) as u64);
     axis(p.x) << 3 | axis(p.y) << 2 | axis(p.z) << 1 | axis(p.w)
 }
 
-/// Sixteen bits, each followed by three zeros.
+/// Spreads sixteen bits, with three zeros after each.
 fn spread(sixteen: u64) -> u64 {
     let mut bits = sixteen;
     bits = (bits | bits << 24) & 0x0000_00ff_0000_00ff;
@@ -256,7 +257,7 @@ mod tests {
 
     #[test]
     fn finds_what_asking_every_box_finds_and_little_more() {
-        // A lattice of points, some stretched to boxes across the borders of cubes.
+        // Points on a lattice, some extended to boxes across the borders of cubes.
         let mut items = Vec::new();
         for id in 0..4000_u32 {
             let axis = |n: u32| f64::from(id.wrapping_mul(2_654_435_761 + 97 * n) >> 12 & 1023) / 512.0 - 1.0;

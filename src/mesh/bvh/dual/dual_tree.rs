@@ -1,10 +1,11 @@
-//! [`DualTree`]: which edges of a mesh may be contours for an eye, without asking all of them.
+//! [`DualTree`]: finds the edges of a mesh that may be contours for a camera, without testing all edges.
 //!
-//! Source: Claes, Di Fiore, Vansichem and Van Reeth, "Fast 3D cartoon rendering with improved
-//! quality by exploiting graphics hardware", IVCNZ 2001, section 4. The plane of a face is a point
-//! in four dimensions, its unit normal and its offset; an edge is the pair of points of its two
-//! faces; an eye, in homogeneous coordinates, is a hyperplane through zero; and the contours are
-//! the pairs that it parts. The tree proposes: whoever draws asks the faces themselves.
+//! The plane of a face is a point in four dimensions: its unit normal and its offset. An edge is the pair of
+//! points of its two faces. A camera position in homogeneous coordinates is a hyperplane through the origin,
+//! and contours are the pairs that it separates. The tree returns candidates; the caller tests the faces.
+//!
+//! Source: Claes, Di Fiore, Vansichem and Van Reeth, "Fast 3D cartoon rendering with improved quality by
+//! exploiting graphics hardware", IVCNZ 2001, section 4.
 
 use crate::parallel::prelude::*;
 use glam::{DVec3, DVec4};
@@ -13,29 +14,28 @@ use super::dual_boxes::{DualBoxes, DualFound, Item};
 use crate::geometry::numbers::tolerance;
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
-/// Squares of areas beyond this, or below its inverse, have lost digits or will: such faces are
-/// always asked.
+/// Squared areas above this, or below its inverse, lose precision. Edges of such faces are always candidates.
 const HUGE: f64 = 1e180;
 
-/// Edges of a mesh, by the planes of the two faces that meet in them.
+/// Edges of a mesh, indexed by the planes of their two faces.
 #[derive(Debug, Clone, Default)]
 pub struct DualTree {
     boxes: DualBoxes,
-    /// Edges that are always proposed, ascending.
+    /// Edges that are always candidates, ascending.
     always: Vec<u32>,
-    /// Offsets are measured in this length.
+    /// Unit of length for offsets.
     radius: f64,
     len: usize,
 }
 
 impl DualTree {
-    /// The tree of those edges of a mesh for which `active` holds.
+    /// Builds the tree over the edges for which `active` holds.
     ///
-    /// Only edges where two faces with area meet are told apart; all others are always proposed.
+    /// Edges that do not join two faces with area are always candidates.
     #[must_use]
     pub fn new(mesh: &Mesh, active: impl Fn(usize) -> bool + Sync) -> Self {
         let radius = mesh.extents.ball().1;
-        // The same operations as where faces are asked, so that rounding is the same as well.
+        // The same operations as in the contour test, so that rounding is identical.
         let plane = |face: u32| {
             let [a, b, c] = mesh.corners(FaceId(face));
             let normal = (b - a).cross(c - a);
@@ -74,7 +74,7 @@ impl DualTree {
         self.len
     }
 
-    /// Whether there are none.
+    /// Whether the tree has no edges.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len == 0
@@ -86,19 +86,19 @@ impl DualTree {
         self.boxes.cubes()
     }
 
-    /// All edges that may be contours, and some that are none.
+    /// All edges that may be contours. May contain others.
     ///
-    /// The eye is in homogeneous coordinates, local space: a point with w = 1, or with w = 0 the
-    /// direction towards an eye that is infinitely far away. An edge that is left out has two faces
-    /// that turn the same side to the eye (different sides if they run along it the same way), and
-    /// neither is seen edge-on.
+    /// `eye` is in homogeneous coordinates, local space: a point with w = 1, or with w = 0 the direction
+    /// towards a camera at infinity. For an edge that is not returned, both faces turn the same side to the
+    /// camera (different sides if they run along the edge in the same direction), and neither is seen
+    /// edge-on.
     #[must_use]
     pub fn candidates(&self, eye: DVec4) -> DualFound {
-        // The normal of the eye's hyperplane, where offsets are fractions of the radius.
+        // Normal of the hyperplane of the camera. Offsets are in units of the radius.
         let plane = if eye.w == 0.0 { eye } else { (eye.truncate() / self.radius).extend(1.0) };
         let reach = plane.truncate().length() + plane.w;
         let margin = tolerance::DUAL_OF_REACH * reach;
-        // Beyond these numbers, products of what is computed for a face may leave the range.
+        // Outside this range, products in the computation of a face may overflow.
         let mut found = if reach < 1e40 && reach > 1e-6 {
             self.boxes.find(plane, -margin, margin)
         } else {
@@ -112,11 +112,11 @@ impl DualTree {
     }
 }
 
-/// Triangles of a rounded surface, by the normals at their corners: which of them may hold the
-/// border of a tone.
+/// Triangles of a curved surface, indexed by their corner normals, to find those that may contain a tone
+/// border.
 ///
-/// Section 4 of the same paper: the light of a tone border is a plane in the space of normals, and
-/// the triangles whose corners it parts hold a piece of the border.
+/// Source: section 4 of the same paper. A tone border is a plane in the space of normals. Triangles whose
+/// corners it separates contain a part of the border.
 #[derive(Debug, Clone, Default)]
 pub struct ToneTree {
     boxes: DualBoxes,
@@ -124,10 +124,9 @@ pub struct ToneTree {
 }
 
 impl ToneTree {
-    /// The tree of triangles with these unit normals at their corners.
+    /// Builds the tree from the unit normals at the corners of each triangle.
     ///
-    /// Whether normals are interpolated between corners as they are or made unit vectors again
-    /// does not matter: the boxes hold both.
+    /// The boxes cover both interpolated normals and renormalised ones.
     #[must_use]
     pub fn new(corner_normals: &[[DVec3; 3]]) -> Self {
         let items: Vec<Item> = corner_normals
@@ -138,13 +137,13 @@ impl ToneTree {
                 let [a, b, c] = normals;
                 let (mut low, mut high) = (a.min(b).min(c), a.max(b).max(c));
                 let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
-                // |m|² = Σ wᵢ|nᵢ|² − Σ wᵢwⱼ|nᵢ − nⱼ|² for m = Σ wᵢnᵢ, and the last sum of weights is
-                // at most a third. Making m a unit vector moves it by what its length lacks.
+                // |m|² = Σ wᵢ|nᵢ|² − Σ wᵢwⱼ|nᵢ − nⱼ|² for m = Σ wᵢnᵢ, and the last sum of weights is at most
+                // a third. Normalisation moves m by 1 − |m|.
                 let shortest = (1.0 - longest / 3.0).max(0.0).sqrt();
                 let widen = 1.0 - shortest + tolerance::DUAL_OF_REACH;
                 let are_units = normals.iter().all(|n| (n.length_squared() - 1.0).abs() <= 1e-6);
                 if shortest <= 0.1 || !are_units {
-                    // Normals that point to all sides, or nowhere.
+                    // Normals in opposite directions, or zero.
                     (low, high) = (DVec3::NEG_ONE, DVec3::ONE);
                 }
                 let (low, high) = ((low - widen).max(DVec3::NEG_ONE), (high + widen).min(DVec3::ONE));
@@ -160,13 +159,13 @@ impl ToneTree {
         self.len
     }
 
-    /// Whether there are none.
+    /// Whether the tree has no triangles.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
 
-    /// The triangles in which L·n may take the value `level`, for the unit vector `towards_light`.
+    /// The triangles where L·n may take the value `level`, for the unit vector `towards_light`.
     #[must_use]
     pub fn candidates(&self, towards_light: DVec3, level: f64) -> DualFound {
         let margin = tolerance::DUAL_OF_REACH * 2.0;

@@ -1,40 +1,41 @@
-//! [`FaceGroup`]: a few faces seen along parallel rays, all compared with a ray at once.
+//! [`FaceGroup`]: eight faces projected along parallel rays, compared with a ray at once.
 //!
-//! Loops over the faces are written out, without closures over arrays: only so do compilers take several faces in one step.
+//! Loops over the faces are written out without closures over arrays, because only then do compilers
+//! vectorise them.
 
 use super::ray_grid::{Around, GridRay};
 
-/// Faces of a group: plain loops over so many numbers are what processors do at once.
+/// Number of faces in a group. Plain loops of this length vectorise.
 pub(crate) const WIDTH: usize = 8;
 
-/// How much wider than the rounding of a coordinate that of what is made of some of them may be.
+/// Rounding error of sums of coordinates, as a multiple of that of one coordinate.
 const SUMS: f32 = 4.0;
 
-/// One number of each face.
+/// One number per face.
 type Lanes = [f32; WIDTH];
 
-/// Some faces in the space of their rays, the third axis along them.
+/// Faces in ray space, with the third axis along the rays.
 pub(crate) struct FaceGroup {
     /// Coordinates of the three corners.
     corners: [[Lanes; 3]; 3],
-    /// Normals, twice as long as the face is large.
+    /// Normals, with the length of twice the area.
     normals: [Lanes; 3],
-    /// By how much the three sides of each face may be off.
+    /// Error bounds of the three side functions of each face.
     side_rooms: [Lanes; 3],
-    /// By how much its plane may be off, and by how much more for each unit along the rays.
+    /// Error bound of the plane function, constant and per unit along the rays.
     plane_rooms: [Lanes; 2],
-    /// A bit for each face.
+    /// One bit per face.
     all: u32,
     pub around: Around,
 }
 
 impl FaceGroup {
-    /// Faces by their corners, whose coordinates are off by `slack` at most.
+    /// Builds a group from face corners whose coordinates are accurate to `slack`.
     #[inline]
     pub fn new(faces: &[u32], corners: impl Fn(u32) -> [[f32; 3]; 3], slack: f32) -> Self {
         let mut of = [[[0.0; WIDTH]; 3]; 3];
         for k in 0..WIDTH {
-            // The last one stands in for those that are missing.
+            // The last face fills missing entries.
             let corners = corners(faces[k.min(faces.len() - 1)]);
             for corner in 0..3 {
                 for axis in 0..3 {
@@ -58,7 +59,7 @@ impl FaceGroup {
             side_rooms[0][k] = (ux.abs() + uy.abs()) * wide;
             side_rooms[1][k] = (wx.abs() + wy.abs()) * wide;
             side_rooms[2][k] = (vx.abs() + vy.abs()) * wide;
-            // Corners are off, and so is the normal, by the length of the sides.
+            // The errors of the corners and of the normal grow with the length of the sides.
             let sides = ux.abs() + uy.abs() + uz.abs() + vx.abs() + vy.abs() + vz.abs();
             plane_rooms[0][k] = (nx.abs() + ny.abs() + nz.abs() + sides * width) * wide;
             plane_rooms[1][k] = sides * wide;
@@ -67,7 +68,8 @@ impl FaceGroup {
         Self { corners: of, normals, side_rooms, plane_rooms, all, around }
     }
 
-    /// Which faces a ray may meet, one bit each: those that it begins before, and that hold it, seen from either side.
+    /// The faces that a ray may meet, one bit each: those in front of its start that contain it in
+    /// projection, from either side.
     #[inline]
     pub fn may_meet(&self, ray: &GridRay) -> u32 {
         let ([x, y], z) = (ray.at, ray.from);
@@ -81,7 +83,7 @@ impl FaceGroup {
             let g = (ax[k] - cx[k]) * (y - cy[k]) - (ay[k] - cy[k]) * (x - cx[k]);
             let above = nx[k] * (x - ax[k]) + ny[k] * (y - ay[k]) + nz[k] * (z - az[k]);
             let room = room[k] + of_way[k] * (z - az[k]).abs();
-            // Along the normal a ray meets what is above it, against the normal what is below.
+            // Along the normal a ray meets planes above it, against the normal planes below.
             let along = (e >= -r[k]) & (f >= -s[k]) & (g >= -t[k]) & (above <= room);
             let against = (e <= r[k]) & (f <= s[k]) & (g <= t[k]) & (above >= -room);
             found[k] = u32::from(along | against);

@@ -1,9 +1,10 @@
-//! [`ParallelRays`]: which of many rays in one direction a mesh blocks, all of them at once.
+//! [`ParallelRays`]: blocked rays among many parallel rays, tested against a mesh at once.
 //!
-//! Seen along their direction rays are points and faces triangles of a plane. The points are sorted into the cells of a
-//! grid, and faces ask those of the cells that they cover, eight faces at a time, where every ray would have to go down a
-//! tree for itself. What the grid proposes the exact test decides, that of [`RayTree`]. Where a grid would not do, as faces
-//! cover too many of the points, the rays that are left go through the tree.
+//! 1. Along their direction, rays project to points and faces to triangles. The points are sorted into a 2-D
+//!    grid.
+//! 2. Groups of eight faces are compared with the rays in the cells that they cover.
+//! 3. The exact test of [`RayTree`] decides the candidates.
+//! 4. If faces cover too many points, the remaining rays use the tree.
 
 use glam::{DVec3, Vec3};
 
@@ -13,29 +14,30 @@ use super::ray_tree::{RayTree, meets};
 use crate::geometry::numbers::tolerance;
 use crate::mesh::{FaceId, Mesh};
 
-/// Rays are compared with groups of faces at most so often, for each ray and face there is; then the tree goes on.
+/// Maximum number of ray and group comparisons, per ray and face of the input. After that the tree takes
+/// over.
 const PATIENCE: usize = 64;
 
-/// A ray: where it begins, and how far it goes, in lengths of its direction.
+/// Ray: its start, and its length in lengths of the direction.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Start {
     pub point: DVec3,
     pub reach: f64,
 }
 
-/// A mesh, ready to be met by rays that are parallel.
+/// Mesh prepared for queries with parallel rays.
 pub(crate) struct ParallelRays<'a> {
     mesh: &'a Mesh,
     /// The faces that have an area.
     faces: Vec<u32>,
-    /// The middle of each group's box, and half its sides.
+    /// Centre and half extents of the box of each group.
     boxes: Vec<[Vec3; 2]>,
-    /// Wider than rounding of what is projected can be.
+    /// Exceeds the rounding of projected coordinates.
     slack: f32,
 }
 
 impl<'a> ParallelRays<'a> {
-    /// All faces of a mesh that have an area.
+    /// Prepares all faces of a mesh that have an area.
     pub(crate) fn new(mesh: &'a Mesh) -> Self {
         let (middle, half) = mesh.extents.ball();
         let slack = (tolerance::RAY_BOX_OF_MESH * (half + middle.length())) as f32;
@@ -51,9 +53,11 @@ impl<'a> ParallelRays<'a> {
         Self { mesh, faces, boxes, slack }
     }
 
-    /// For each of some rays in a direction (of length 1) whether a face is nearer than its reach. A face that holds its start may
-    /// be met or not. Without a tree of the mesh there is no answer where it would take too long: whoever asks for many directions
-    /// side by side makes the tree before, as no task may wait for another that makes it.
+    /// For each ray in a unit `direction`, whether a face is nearer than its reach. A face that contains the
+    /// start may be met or not.
+    ///
+    /// Without `tree`, the result is `None` if the sweep would take too long. Callers with many parallel
+    /// directions build the tree first, so that no task waits for another to build it.
     pub(crate) fn blocked(
         &self,
         rays: &[Start],
@@ -70,7 +74,7 @@ impl<'a> ParallelRays<'a> {
         Some(blocked)
     }
 
-    /// Lets each group of faces ask the rays that it covers; none if it takes too long.
+    /// Compares each group of faces with the rays that it covers; `None` if that takes too long.
     fn sweep(&self, rays: &[Start], direction: DVec3, blocked: &mut [bool]) -> Option<()> {
         let (across, up) = direction.any_orthonormal_pair();
         let project = |p: DVec3| [p.dot(across) as f32, p.dot(up) as f32, p.dot(direction) as f32];
@@ -110,7 +114,7 @@ impl<'a> ParallelRays<'a> {
     }
 }
 
-/// The box along some axes around one that is given by its middle and half its sides.
+/// Bounding box, along other axes, of a box given by its centre and half extents.
 #[inline]
 fn box_along(axes: &[Vec3; 3], middle: Vec3, half: Vec3, slack: f32) -> Around {
     let (mut low, mut high) = ([0.0; 3], [0.0; 3]);
@@ -128,13 +132,13 @@ mod tests {
     use crate::geometry::numbers::noise::hash;
     use crate::mesh::Soup;
 
-    /// A point of the cube from -1 to 1.
+    /// Point in the cube from -1 to 1.
     fn point(n: u32) -> DVec3 {
         let part = |axis: u64| hash(axis, &[u64::from(n)]) as f64 / u64::MAX as f64 * 2.0 - 1.0;
         DVec3::new(part(0), part(1), part(2))
     }
 
-    /// Triangles of a size in a cube, and one over all of it.
+    /// Triangles of a size in a cube, and one that covers all of it.
     fn mesh(count: u32, size: f64) -> Mesh {
         let corner = |k: u32| point(k / 3 + 1000) + size * point(k + 5000);
         let mut positions: Vec<DVec3> = (0..3 * count).map(corner).collect();
@@ -149,7 +153,7 @@ mod tests {
 
     #[test]
     fn rays_are_blocked_as_when_every_triangle_is_asked() {
-        // Many small ones; few; needles; and so many large ones that the tree has to take over.
+        // Many small triangles; few; needles; and large ones that force the use of the tree.
         for (count, size, rays) in
             [(600, 0.1, 800), (7, 0.5, 90), (300, 0.02, 800), (2500, 3.0, 1500), (3, 0.1, 1), (3, 0.1, 0)]
         {

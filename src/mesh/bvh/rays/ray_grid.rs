@@ -1,21 +1,21 @@
-//! [`RayGrid`]: the cells of a grid over the plane across parallel rays, and the rays sorted into them.
+//! [`RayGrid`]: grid over the plane perpendicular to parallel rays, with the rays sorted into its cells.
 
 use std::ops::Range;
 
-/// Rays in a cell, on the mean.
+/// Mean number of rays per cell.
 const RAYS_OF_CELL: usize = 2;
 
-/// A ray in the plane across it.
+/// Ray projected along its direction.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct GridRay {
     pub at: [f32; 2],
-    /// From where to where along the direction; from infinity when it is blocked.
+    /// Range along the direction. It starts at infinity once the ray is blocked.
     pub from: f32,
     pub to: f32,
     pub id: u32,
 }
 
-/// A box around something, the third axis along the rays.
+/// Box in ray space, with the third axis along the rays.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Around {
     pub low: [f32; 3],
@@ -23,7 +23,7 @@ pub(crate) struct Around {
 }
 
 impl Around {
-    /// Whether a ray passes it.
+    /// Whether a ray misses the box.
     #[inline]
     pub fn is_beside(&self, ray: &GridRay) -> bool {
         let ([x, y], Self { low, high }) = (ray.at, self);
@@ -31,28 +31,28 @@ impl Around {
     }
 }
 
-/// Where the rays of each cell are among those of one direction: one after another, and so those of a row of cells.
+/// Rays of one direction, sorted by cell. The cells of a row are consecutive.
 pub(crate) struct RayGrid {
     low: [f32; 2],
-    /// Cells a unit of length.
+    /// Cells per unit of length.
     scale: [f32; 2],
-    /// Columns and rows.
+    /// Number of columns and rows.
     size: [usize; 2],
-    /// Where the rays of each cell begin.
+    /// Index of the first ray of each cell.
     starts: Vec<u32>,
-    /// From where to where along the direction the rays of each cell go, all together.
+    /// Range along the direction that the rays of each cell cover together.
     spans: Vec<[f32; 2]>,
 }
 
 impl RayGrid {
-    /// Sorts rays, of which each tells where it begins (the last coordinate along the direction), and its reach.
+    /// Sorts rays, given by start (third coordinate along the direction) and reach.
     pub fn sort(rays: impl ExactSizeIterator<Item = ([f32; 3], f32)> + Clone) -> (Self, Vec<GridRay>) {
         let nothing = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
         let (low, high) = rays.clone().fold(nothing, |(low, high), (at, _)| {
             ([0, 1, 2].map(|k| low[k].min(at[k])), [0, 1, 2].map(|k| high[k].max(at[k])))
         });
         let extent = [0, 1].map(|k| (high[k] - low[k]).max(0.0));
-        // Square cells, where the rays are not all in a line.
+        // Cells are square, unless all rays lie on a line.
         let cells = (rays.len() / RAYS_OF_CELL).max(1);
         let of_line = extent[0].max(extent[1]) / cells as f32;
         let side = (extent[0] * extent[1] / cells as f32).sqrt().max(of_line);
@@ -75,7 +75,7 @@ impl RayGrid {
             total += *start;
             *start = total;
         }
-        // Filled from behind, the starts move from the ends of the cells to their beginnings.
+        // Filled from the back, so that the starts move from the ends of the cells to their beginnings.
         for (id, (cell, ([x, y, from], reach))) in cells.iter().zip(rays).enumerate() {
             let cell = *cell as usize;
             grid.starts[cell] -= 1;
@@ -86,19 +86,20 @@ impl RayGrid {
         (grid, sorted)
     }
 
-    /// How many cells a box covers.
+    /// Number of cells that a box covers.
     #[inline]
     pub fn cells(&self, around: &Around) -> usize {
         self.lines(around).len() * self.lines(around).next().map_or(0, |cells| cells.len())
     }
 
-    /// Whether something in a box may be in the way of a ray, as far as cells can tell.
+    /// Whether a box may block a ray, by the ranges of its cells.
     #[inline]
     pub fn may_meet(&self, around: &Around) -> bool {
         self.lines(around).any(|cells| self.may_meet_in(cells, around))
     }
 
-    /// Which rays begin in the cells that a box covers, row by row, but for rows where it is in the way of none.
+    /// Ranges of the rays in the cells that a box covers, row by row. Rows where it blocks no ray are
+    /// skipped.
     #[inline]
     pub fn rows(&self, around: &Around) -> impl Iterator<Item = Range<usize>> {
         let lines = self.lines(around).filter(|cells| self.may_meet_in(cells.clone(), around));

@@ -1,8 +1,8 @@
-//! [`RayTree`]: an implicit tree of bounding boxes that tells whether a ray meets the mesh.
+//! [`RayTree`]: implicit tree of bounding boxes for ray queries.
 //!
-//! Triangles are sorted along a Morton curve by centre; eight neighbours on it make a node, eight
-//! nodes one of the next level, and so on, as in [`crate::mesh::bvh::box_tree`]. The eight boxes of a node lie
-//! coordinate by coordinate, so that all are tested at once.
+//! Triangles are sorted along a Morton curve by centre. Eight consecutive ones form a node, eight nodes one
+//! of the next level, and so on, as in `BoxTree`. The eight boxes of a node are stored by coordinate,
+//! so that all are tested at once.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -13,10 +13,10 @@ use crate::mesh::{FaceId, Mesh};
 
 /// Children of a node.
 const WIDTH: usize = 8;
-/// Nodes of one level are numbered below this.
+/// Maximum number of levels.
 const LEVELS: usize = 12;
 
-/// The boxes of eight children: least and greatest x, y and z.
+/// Boxes of eight children: lowest and highest x, y and z.
 #[derive(Debug, Clone, Copy)]
 struct Node {
     low: [[f32; WIDTH]; 3],
@@ -40,7 +40,7 @@ impl Node {
         (self.low.map(least), self.high.map(most))
     }
 
-    /// Which children a ray meets, one bit each.
+    /// The children that a ray meets, one bit each.
     #[inline]
     fn meets(&self, ray: &Ray) -> u32 {
         let (mut near, mut far) = ([0.0_f32; WIDTH], [ray.reach; WIDTH]);
@@ -51,7 +51,7 @@ impl Node {
             } else {
                 (&self.low[axis], &self.high[axis])
             };
-            // Nothing here is NaN, and plain comparisons are what processors do eight at a time.
+            // No value is NaN, and plain comparisons vectorise.
             for k in 0..WIDTH {
                 let (enter, leave) = ((first[k] - start) * inverse, (last[k] - start) * inverse);
                 near[k] = if enter > near[k] { enter } else { near[k] };
@@ -66,26 +66,26 @@ impl Node {
     }
 }
 
-/// A ray in single precision; boxes are wide enough for its rounding.
+/// Ray in single precision. The boxes have a margin for its rounding.
 struct Ray {
     start: [f32; 3],
     inverse: [f32; 3],
     reach: f32,
 }
 
-/// The triangles of a mesh, ready to be met by rays.
+/// Tree over the triangles of a mesh, for ray queries.
 #[derive(Debug, Clone)]
 pub struct RayTree {
-    /// Corners of each triangle along the curve.
+    /// Corners of the triangles, in the order of the Morton curve.
     triangles: Vec<[DVec3; 3]>,
-    /// The face each of them is.
+    /// Face of each triangle.
     faces: Vec<u32>,
-    /// Level 0 holds the boxes of the triangles, each level above those of the nodes below.
+    /// Level 0 holds the boxes of the triangles; each level above holds those of the nodes below.
     levels: Vec<Vec<Node>>,
 }
 
 impl RayTree {
-    /// The tree of all faces that have an area.
+    /// Builds the tree over all faces that have an area.
     #[must_use]
     pub fn new(mesh: &Mesh) -> Self {
         let (middle, half) = mesh.extents.ball();
@@ -102,7 +102,7 @@ impl RayTree {
         let faces: Vec<u32> = order.iter().map(|(_, face)| *face).collect();
         let triangles: Vec<[DVec3; 3]> = faces.iter().map(|face| mesh.corners(FaceId(*face))).collect();
 
-        // Wider than rounding of the rays can be.
+        // Exceeds the rounding of the rays.
         let slack = tolerance::RAY_BOX_OF_MESH * (half + middle.length());
         let mut levels: Vec<Vec<Node>> = vec![
             triangles
@@ -133,8 +133,8 @@ impl RayTree {
         Self { triangles, faces, levels }
     }
 
-    /// Whether a ray from a point meets a face nearer than `reach` times the length of `direction`.
-    /// A face that holds the point itself may be met or not.
+    /// Whether a ray from a point meets a face nearer than `reach` times the length of `direction`. A face
+    /// that contains the start may be met or not.
     #[must_use]
     pub fn is_blocked(&self, point: DVec3, direction: DVec3, reach: f64) -> bool {
         let mut blocked = false;
@@ -145,8 +145,8 @@ impl RayTree {
         blocked
     }
 
-    /// The nearest face among those that count which a ray from a point meets, and how far away that is in lengths of
-    /// `direction`, if it is less than `reach`. A face that holds the point itself may be met or not.
+    /// The nearest face with `counts` that a ray meets, and its distance in lengths of `direction`, if less
+    /// than `reach`. A face that contains the start may be met or not.
     pub(crate) fn first_met(
         &self,
         point: DVec3,
@@ -167,7 +167,7 @@ impl RayTree {
         first
     }
 
-    /// Calls for each triangle whose box a ray meets, until it is told to stop.
+    /// Calls `go_on` for each triangle whose box a ray meets, until it returns false.
     fn each_near(&self, point: DVec3, direction: DVec3, reach: f64, mut go_on: impl FnMut(u32) -> bool) {
         let inverse = |x: f64| if x.abs() < 1e-30 { 1e30 } else { (1.0 / x) as f32 };
         let ray = Ray {
@@ -175,7 +175,7 @@ impl RayTree {
             inverse: direction.to_array().map(inverse),
             reach: (reach as f32).next_up(),
         };
-        // No more than the children of one node a level wait.
+        // The stack holds at most the children of one node per level.
         let mut stack = [(0_u8, 0_u32); WIDTH * LEVELS];
         let mut count = 0;
         for node in 0..self.levels.last().map_or(0, Vec::len).min(WIDTH) {
@@ -200,7 +200,7 @@ impl RayTree {
     }
 }
 
-/// Where a ray meets a triangle, if between its start and `reach`.
+/// Distance along a ray to a triangle, if between 0 and `reach`, in lengths of `direction`.
 ///
 /// Source: Möller and Trumbore, "Fast, minimum storage ray/triangle intersection", 1997.
 #[inline]
@@ -219,7 +219,7 @@ pub(crate) fn meets([a, b, c]: &[DVec3; 3], start: DVec3, direction: DVec3, reac
     (s >= 0.0 && t >= 0.0 && s + t <= 1.0 && at > 0.0 && at < reach).then_some(at)
 }
 
-/// Position along the Morton curve of a point in the cube from −1 to 1, 63 bits.
+/// Position along the Morton curve, 63 bits, of a point in the cube from −1 to 1.
 fn morton(p: DVec3) -> u64 {
     let axis = |x: f64| spread((((x + 1.0) / 2.0).clamp(0.0, 1.0) * f64::from((1 << 21) - 1)) as u64);
     axis(p.x) << 2 | axis(p.y) << 1 | axis(p.z)
@@ -230,7 +230,7 @@ mod tests {
     use super::*;
     use crate::mesh::Soup;
 
-    /// A number from -1 to 1 that looks random.
+    /// Pseudo-random number from -1 to 1.
     fn chance(n: u32) -> f64 {
         let mut x = n.wrapping_mul(0x9e37_79b9) ^ 0x85eb_ca6b;
         x = (x ^ x >> 15).wrapping_mul(0x2c1b_3c6d);

@@ -3,7 +3,7 @@ use crate::geometry::dice::Dice;
 use crate::geometry::numbers::portable_math::{cos, sin};
 use crate::mesh::{EdgeMark, FaceId, Mesh, Soup};
 
-/// A ball of 12 x 6 quads, each of two triangles, about a point.
+/// Sphere of 12 x 6 quads, each of two triangles, around a point.
 fn ball(soup: &mut Soup, middle: DVec3, radius: f64) {
     let first = soup.positions.len() as u32;
     let (around, up) = (12, 6);
@@ -34,7 +34,7 @@ fn turned(mut soup: Soup, mut turns: impl FnMut(usize) -> bool) -> Soup {
     soup
 }
 
-/// All of a mesh that a drawing depends on.
+/// All contents of a mesh that affect a drawing.
 fn bits(mesh: &Mesh) -> String {
     let Mesh { positions, triangles, face_normals, corner_uvs, corner_colours, edge_marks, edges, .. } = mesh;
     let edges: Vec<_> = (0..edges.len()).map(|e| (edges.vertices[e], edges.faces(e))).collect();
@@ -78,7 +78,7 @@ fn closed_surfaces_are_the_same_mesh_however_they_are_wound() {
     }
 }
 
-/// The cosines between the faces' normals and the ways from the middle.
+/// Cosines between the face normals and the directions from the middle.
 fn outward(mesh: &Mesh) -> Vec<f64> {
     let faces = (0..mesh.triangles.len() as u32).map(FaceId);
     let of = |face: FaceId| {
@@ -92,7 +92,7 @@ fn outward(mesh: &Mesh) -> Vec<f64> {
 fn open_surfaces_that_enclose_a_volume_show_their_outside() {
     let mut soup = Soup::default();
     ball(&mut soup, DVec3::ZERO, 1.0);
-    // Three quarters of a ball, and half of one.
+    // Three quarters of a sphere, and half of one.
     for least in [-0.6, 0.0] {
         let mut open = soup.clone();
         open.triangles.retain(|t| t.iter().all(|v| soup.positions[*v as usize].z > least - 1e-9));

@@ -1,4 +1,4 @@
-//! Tests of the early decisions against exact signs.
+//! Comparison of the early rejections with exact predicates.
 
 use super::*;
 use crate::geometry::dice::Dice;
@@ -10,7 +10,8 @@ fn what_is_told_before_exact_signs_is_what_they_say() {
     for k in 0..20_000 {
         let rounding = [0.0, 1e-9, 1e-7][k as usize % 3];
         let tolerance = PairTolerance { rounding, ..PairTolerance::of_exact(1.0) };
-        // From whole triangles to slivers, whose planes no rounded product tells, and points so near to them.
+        // From regular triangles to slivers whose plane is not resolved by rounded products, with points that
+        // close to the plane.
         let height = 0.1f64.powi(k % 8);
         let (a, b) = (dice.point(1.0), dice.point(1.0));
         let across = (b - a).cross(dice.point(1.0)).normalize_or_zero();

@@ -1,37 +1,38 @@
 //! [`Candidate`]s for an overlap: surfaces whose planes and boxes may meet.
 //!
-//! A plane has a key of three numbers: the squares of two coordinates of its normal, which are the same on both sides, and its distance
-//! from the middle of the model. Rounding of the corners makes each number a range. Planes that share a point and a direction have
-//! keys that meet.
+//! The key of a plane has three numbers: the squares of two coordinates of its normal, and its distance from
+//! the middle of the model. Squares are equal for both sides of the plane. Rounding of the corners turns each
+//! number into a range. Coplanar surfaces have overlapping keys.
 
 use glam::DVec3;
 
 use crate::mesh::{FaceId, MaterialId, Mesh, PaintId};
 
-/// Normals cells are this wide, squares of coordinates.
+/// Width of a cell in squared normal coordinates.
 const NORMAL_CELL: f64 = 1.0 / 16.0;
 
-/// Planes are told apart by their distance from the middle in so many steps of the model's diagonal.
+/// Number of distance cells over the diagonal of the model.
 const DISTANCE_STEPS: f64 = 512.0;
 
-/// Surfaces whose normal rounding may turn by more than this (radians), or whose plane lies in more cells than this, are passed over.
+/// Maximum error of a normal by rounding (radians), and maximum number of distance cells of a plane. Other
+/// surfaces are skipped.
 const MAX_TURN: f64 = 1e-2;
 const MAX_CELLS: f64 = 8.0;
 
-/// The range of a plane's key: squares of two coordinates of its normal, and its distance from the middle, in widths of cells.
+/// Range of a plane key in cell widths: squares of two normal coordinates, and distance from the middle.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PlaneKey {
     low: DVec3,
     high: DVec3,
-    /// False for slivers, whose plane rounding turns by more than [`MAX_TURN`] or moves by more than [`MAX_CELLS`].
+    /// False for slivers, whose plane is uncertain by more than [`MAX_TURN`] or [`MAX_CELLS`].
     is_known: bool,
 }
 
 impl PlaneKey {
-    /// The key of the plane of a face.
+    /// Key of the plane of a face.
     pub(crate) fn of(mesh: &Mesh, face: u32) -> Self {
         let [a, b, c] = mesh.corners(FaceId(face));
-        // Each corner is known within half of contact.
+        // Each corner is accurate to half of the contact distance.
         let contact = mesh.extent(FaceId(face)).contact;
         let across = (b - a).cross(c - a);
         let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt();
@@ -48,7 +49,7 @@ impl PlaneKey {
         Self { low, high, is_known }
     }
 
-    /// The cells that the key may lie in; none if it is not known.
+    /// Cells that the key may lie in; none if the plane is uncertain.
     pub(crate) fn cells(&self) -> impl Iterator<Item = [i64; 3]> + use<> {
         let (low, high) = (self.low.floor().as_i64vec3(), self.high.floor().as_i64vec3());
         let last = if self.is_known { high.x } else { low.x - 1 };
@@ -57,7 +58,7 @@ impl PlaneKey {
     }
 }
 
-/// A surface in the search of one cell, with its box, which contact widens.
+/// Surface in the sweep of one cell, with its box widened by the contact distance.
 pub(crate) struct Candidate {
     pub(crate) low: DVec3,
     pub(crate) high: DVec3,
@@ -67,7 +68,7 @@ pub(crate) struct Candidate {
 }
 
 impl Candidate {
-    /// False only for surfaces of one colour, in two planes or apart.
+    /// False only for surfaces of one colour, in different planes, or out of contact.
     #[inline]
     pub(crate) fn may_overlap(&self, other: &Self) -> bool {
         let meet = |a: (DVec3, DVec3), b: (DVec3, DVec3)| a.0.cmple(b.1).all() && b.0.cmple(a.1).all();
@@ -77,7 +78,7 @@ impl Candidate {
     }
 }
 
-/// The axis along which candidates lie farthest apart.
+/// The axis along which the candidates are most spread out.
 pub(crate) fn widest_axis(own: &[Candidate]) -> usize {
     let low = own.iter().fold(DVec3::INFINITY, |low, own| low.min(own.low));
     let high = own.iter().fold(DVec3::NEG_INFINITY, |high, own| high.max(own.low));

@@ -1,7 +1,7 @@
 use super::*;
 use crate::mesh::Soup;
 
-/// Squares with a corner, a size and a material, each of its own part if it says so.
+/// Squares, each with a corner, size, material and part.
 fn squares(some: &[([f64; 3], f64, u32, u32)]) -> Soup {
     let mut soup = Soup::default();
     for (corner, size, material, part) in some {
@@ -16,7 +16,7 @@ fn squares(some: &[([f64; 3], f64, u32, u32)]) -> Soup {
     soup
 }
 
-/// Of each material the rank of its faces, 0 where it overlaps nothing and else one more.
+/// For each material the rank of its faces plus one, or 0 where they overlap nothing.
 fn ranks(mesh: &Mesh, materials: u32) -> Vec<u32> {
     let rank = |material: u32| {
         let own = (0..mesh.triangles.len() as u32)
@@ -37,7 +37,7 @@ fn the_smaller_surface_is_on_top_and_of_equal_ones_the_later() {
     assert_eq!(of(&[wall, label([2.0, 3.0, 0.0], 3.0, 1)], 2), [1, 2]);
     assert_eq!(of(&[wall, label([2.0, 3.0, 0.0], 3.0, 1), label([3.0, 4.0, 0.0], 1.0, 2)], 3), [1, 2, 3]);
     assert_eq!(of(&[wall, label([2.0, 3.0, 0.0], 10.0, 1)], 2), [1, 2]);
-    // Beside it, apart from it, and of its own colour.
+    // Next to the wall, at a distance from it, and of the same colour.
     assert_eq!(of(&[wall, label([10.0, 3.0, 0.0], 3.0, 1)], 2), [0, 0]);
     assert_eq!(of(&[wall, label([2.0, 3.0, 0.01], 3.0, 1)], 2), [0, 0]);
     assert_eq!(of(&[wall, (([2.0, 3.0, 0.0]), 3.0, 0, 1)], 1), [0]);
@@ -60,7 +60,7 @@ fn turned_and_rounded_surfaces_overlap_as_they_did() {
     }
 }
 
-/// A plate with a round hole of 24 facets, and a disc in it whose facets are those of the hole turned by `turn` of one.
+/// Plate with a round hole of 24 facets, and a disc in it whose facets are rotated by `turn` facets.
 fn pin_in_plate(turn: f64, radius: f64) -> Soup {
     let at = |radius: f64, k: f64| {
         let angle = std::f64::consts::TAU * k / 24.0;
@@ -92,7 +92,7 @@ fn pin_in_plate(turn: f64, radius: f64) -> Soup {
 fn a_flush_pin_does_not_overlap_its_plate_by_the_slivers_between_their_facets() {
     for turn in [0.0, 0.25, 0.5, 0.9] {
         assert_eq!(ranks(&Mesh::build(pin_in_plate(turn, 4.0)), 2), [0, 0], "{turn}");
-        // A head that is wider than the hole does.
+        // A head wider than the hole overlaps the plate.
         assert_eq!(ranks(&Mesh::build(pin_in_plate(turn, 4.4)), 2), [1, 2], "{turn}");
     }
 }

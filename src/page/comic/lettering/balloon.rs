@@ -1,4 +1,9 @@
-//! [`Balloon`]: a text in an outline, with a tail that is one with it.
+//! [`Balloon`]: a text in an outline that includes the tail.
+//!
+//! 1. The text is set in an ellipse, or in a box for captions.
+//! 2. The outline depends on the kind: ellipse, cloud, burst or box. Spikes and bumps vary with a hash of the
+//!    text.
+//! 3. The tail is part of the outline, except for thought balloons, which have bubbles.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,44 +18,44 @@ use crate::page::comic::comic_keys::BalloonKind;
 use crate::page::layout::Polygon;
 use crate::text::{Block, Setting};
 
-/// Between letters and the outline, in ems.
+/// Padding between letters and outline, in ems.
 const PAD: f64 = 0.55;
-/// Half the width of a tail at its balloon, in ems.
+/// Half the width of a tail where it leaves the balloon, in ems.
 const TAIL: f64 = 0.42;
-/// How far the tips of a burst and the bumps of a cloud reach beyond the ellipse of the text, in ems.
+/// Height of the spikes of a burst and of the bumps of a cloud outside the ellipse, in ems.
 const SPIKE: f64 = 1.1;
 const BUMP: f64 = 0.75;
-/// How much flatter captions are.
+/// Factor of the aspect ratio for captions.
 const FLATTER: f64 = 0.75;
-/// Sides of the polygon around a balloon.
+/// Number of sides of the hull polygon.
 const SIDES: usize = 24;
-/// Curves are off from what they stand for by at most this, mm.
+/// Tolerance of curves, mm.
 const FINE: f64 = 0.005;
 
-/// A text in an outline, both around 0, 0.
+/// A text in an outline, both centred at the origin.
 pub(crate) struct Balloon {
     kind: BalloonKind,
-    /// The text.
+    /// The set text.
     pub block: Block,
-    /// Half the width and height of the ellipse, or the box, around the text.
+    /// Half width and half height of the ellipse or box around the text, with padding.
     half: Vec2,
     em: f64,
     seed: u64,
 }
 
-/// How balloons are painted.
+/// Colours and line width of a balloon.
 pub(crate) struct Ink {
     pub fill: Colour,
     pub colour: Colour,
-    /// Width of the line, mm.
+    /// Line width, mm.
     pub line: f64,
 }
 
 impl Balloon {
-    /// Sets a text in a balloon `aspect` times as high as wide.
+    /// Sets a text in a balloon whose height is about `aspect` times its width.
     ///
     /// # Errors
-    /// If the text is empty, or no font has a letter of it.
+    /// Returns an error if the text is empty, or no font has a glyph.
     pub fn new(text: &str, kind: BalloonKind, setting: &Setting, aspect: f64) -> Result<Self, Error> {
         if text.trim().is_empty() {
             return Err(Error::new("this balloon has no text").remedy("write its text, or leave it out"));
@@ -59,9 +64,9 @@ impl Balloon {
         let pad = Vec2::new(PAD, PAD) * em;
         let (block, half) = match kind {
             BalloonKind::Caption => {
-                // Boxes hold more of their corners, and are read as lines: flatter than an ellipse.
+                // A box holds more text in its corners and should look flatter than an ellipse.
                 let (ellipse, _) = Block::in_ellipse(text, setting, FLATTER * aspect * aspect)?;
-                // As wide as its longest line, and a hair more: widths are sums.
+                // 0.1 % wider than the longest line, because widths are sums with rounding errors.
                 let block = Block::balanced(text, setting, ellipse.width * 1.001)?;
                 let half = Vec2::new(block.width, block.height) / 2.0 + pad;
                 (block, half)
@@ -75,7 +80,7 @@ impl Balloon {
         Ok(Self { kind, block, half, em, seed: hash(0, &words) })
     }
 
-    /// Half the width and height of all of it.
+    /// Half width and half height of the balloon with spikes or bumps.
     fn reach(&self) -> Vec2 {
         let beyond = match self.kind {
             BalloonKind::Shout => SPIKE,
@@ -85,17 +90,17 @@ impl Balloon {
         self.half + Vec2::new(beyond, beyond) * self.em
     }
 
-    /// The em of its letters.
+    /// Em size of the letters.
     pub fn em(&self) -> f64 {
         self.em
     }
 
-    /// How long its tail is at least.
+    /// Minimum length of the tail.
     pub fn shortest_tail(&self) -> f64 {
         self.em * if self.kind == BalloonKind::Thought { 2.4 } else { 1.4 }
     }
 
-    /// Half the width of its tail where it begins, with its line.
+    /// Half the width of the tail at the balloon, including its line.
     pub fn foot(&self) -> f64 {
         self.em
             * match self.kind {
@@ -105,7 +110,7 @@ impl Balloon {
             }
     }
 
-    /// A polygon around it, without its tail.
+    /// A polygon around the balloon without its tail, centred at the origin.
     pub fn hull(&self) -> Polygon {
         let reach = self.reach();
         if self.kind == BalloonKind::Caption {
@@ -119,7 +124,7 @@ impl Balloon {
         Polygon((0..SIDES).map(|k| corner(k).to_point()).collect())
     }
 
-    /// Its outline and its letters, with its middle at a point and a tail that ends at another one.
+    /// The outline and the letters of the balloon. `middle` is its centre, `tip` the end of its tail.
     pub fn marks(&self, middle: Point, tip: Option<Point>, ink: &Ink) -> Vec<Mark> {
         let place = Affine::translate(middle.to_vec2());
         let tip = tip.map(|tip| tip - middle);
@@ -154,7 +159,7 @@ impl Balloon {
         marks
     }
 
-    /// The outline around 0, 0, with the tail in it.
+    /// The outline with its tail, centred at the origin.
     fn outline(&self, tip: Option<Vec2>) -> BezPath {
         match self.kind {
             BalloonKind::Speech | BalloonKind::Whisper => self.ellipse(tip),
@@ -171,12 +176,12 @@ impl Balloon {
         Point::new(half.x * cos(angle), half.y * sin(angle))
     }
 
-    /// The angle of the ellipse at which the way to a point leaves it.
+    /// The parameter of the ellipse where the ray from the centre to a point leaves it.
     fn angle(&self, to: Vec2) -> f64 {
         atan2(to.y / self.half.y, to.x / self.half.x)
     }
 
-    /// An ellipse whose line leaves it for the tip of the tail and comes back: all of it but what lies between the feet of the tail.
+    /// An ellipse with a tail: the arc outside the tail, then two curves to the tip and back.
     fn ellipse(&self, tip: Option<Vec2>) -> BezPath {
         let half = self.half;
         let Some(tip) = tip else {
@@ -190,7 +195,7 @@ impl Balloon {
         let (from, to) = (self.on_ellipse(half, middle + wide), self.on_ellipse(half, middle - wide));
         path.move_to(from);
         path.extend(arc.append_iter(FINE));
-        // A tail bends a little, both its sides the same way.
+        // Both sides of the tail bend slightly in the same direction.
         let aside = Vec2::new(tip.y, -tip.x) * 0.06 * if tip.x < 0.0 { -1.0 } else { 1.0 };
         let tip = tip.to_point();
         let bend = |foot: Point| foot.lerp(tip, 0.5) + aside;
@@ -217,7 +222,7 @@ impl Balloon {
             }
             let before = self.on_ellipse(self.half, angle(k - 1));
             let out = self.on_ellipse(self.half, (angle(k - 1) + angle(k)) / 2.0).to_vec2().normalize();
-            // A cubic reaches three quarters of the way to its handles.
+            // A cubic reaches three quarters of the distance to its handles.
             let out = out * (BUMP * self.em);
             path.curve_to(before + out, at + out, at);
         }
@@ -225,7 +230,7 @@ impl Balloon {
         path
     }
 
-    /// Bubbles that lead to the tip, smaller and smaller.
+    /// Bubbles of decreasing size towards the tip of the tail.
     fn bubbles(&self, tip: Vec2) -> BezPath {
         let angle = self.angle(tip);
         let reach = self.on_ellipse(self.reach(), angle).to_vec2();
@@ -237,7 +242,7 @@ impl Balloon {
         path
     }
 
-    /// Tips all around, of which one is the tail.
+    /// A star of spikes; the first spike is the tail.
     fn burst(&self, tip: Option<Vec2>) -> BezPath {
         let girth = PI * (self.half.x + self.half.y);
         let count = (girth / (2.1 * self.em)).round().max(9.0) as u64;
@@ -248,7 +253,7 @@ impl Balloon {
         for k in 0..count {
             let chance = |n: u64| (hash(self.seed, &[k, n]) % 1000) as f64 / 1000.0;
             let middle = first + step * k as f64;
-            // Letters end at the ellipse; tips reach up to a spike beyond it.
+            // Letters end at the ellipse; spikes reach up to `SPIKE` ems outside it.
             let out = SPIKE * self.em * (0.55 + 0.45 * chance(0));
             let spike = match tip.filter(|_| k == 0) {
                 Some(tip) => tip.to_point(),

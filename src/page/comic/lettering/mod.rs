@@ -28,22 +28,22 @@ use crate::text::{Font, Setting};
 use balloon::{Balloon, Ink};
 use tail_target::Target;
 
-/// Sizes of letters, in shares of what is asked for, that are tried until all balloons find a place.
+/// Letter sizes that are tried until all balloons fit, as shares of the requested size.
 const SIZES: [f64; 5] = [1.0, 0.92, 0.85, 0.78, 0.7];
 
-/// How much higher than wide the ellipses of balloons may be, the best first.
+/// Aspect ratios (height by width) of balloons, preferred first.
 const ASPECTS: [f64; 3] = [0.62, 0.9, 1.3];
 
-/// From a balloon to the line around its panel, to other balloons, and to faces, in ems.
+/// Gap from a balloon to the panel border, other balloons and faces, in ems.
 const GAP: f64 = 0.45;
 
-/// More balloons in a panel are refused.
+/// Maximum number of balloons in a panel.
 const MOST_BALLOONS: usize = 50;
 
-/// More letters in a balloon are refused.
+/// Maximum number of letters in a balloon.
 const MOST_LETTERS: usize = 1000;
 
-/// How letters are set on a page.
+/// Sets the letters of all panels of a page.
 pub(crate) struct Lettering<'a> {
     keys: &'a LetteringKeys,
     reading: Reading,
@@ -51,17 +51,17 @@ pub(crate) struct Lettering<'a> {
     source: &'a Source,
 }
 
-/// A balloon that was told, and what it takes to place it.
+/// The keys of a balloon, and the target of its tail.
 struct Told<'a> {
     keys: &'a BalloonKeys,
     target: Option<Target>,
 }
 
 impl<'a> Lettering<'a> {
-    /// Reads the font.
+    /// Reads the font of the page.
     ///
     /// # Errors
-    /// If there is no such font, or letters have no size.
+    /// Returns an error if there is no such font, or the letter size is not above 0.
     pub fn new(keys: &'a LetteringKeys, reading: Reading, source: &'a Source) -> Result<Self, Error> {
         let mut setting = Setting::new(font(&keys.font, source)?).with_leading(1.1);
         setting.upper_case = keys.upper_case;
@@ -69,10 +69,11 @@ impl<'a> Lettering<'a> {
         Ok(Self { keys, reading, setting: setting.with_em(above(&keys.size, source)?), source })
     }
 
-    /// The letters of a panel, as a drawing of the whole page.
+    /// The letters of a panel as a drawing of the whole page; `None` if it has none.
     ///
     /// # Errors
-    /// If a text cannot be set, a tail points at no part, or there is no room for a balloon: at its line.
+    /// Returns an error at the line of a balloon whose text cannot be set, whose tail points at no part, or
+    /// that does not fit.
     pub fn letter(
         &self,
         shape: &Shape,
@@ -96,7 +97,7 @@ impl<'a> Lettering<'a> {
         let Rect { x1: width, y1: height, .. } = sheet.bleed;
         let page = Page { width, height, unit: Unit::Mm, background: None };
         let name = format!("{}-letters", shape.name);
-        // Balloons and their words lie over one another in the order they are told in.
+        // Balloons and their words overlap in the order of the page file.
         let layers = vec![Layer { kind: LayerKind::Callouts, pen: None, ordered: false, marks }];
         let drawing = Drawing::new(&name, page, layers);
         Ok(Some(Item { name, drawing, place: Affine::IDENTITY, clip: None }))
@@ -138,7 +139,7 @@ impl<'a> Lettering<'a> {
         Ok(sound_effect::painted(letters, colours, line))
     }
 
-    /// The balloons of a panel in their places.
+    /// The placed balloons of a panel.
     fn balloons(
         &self,
         shape: &Shape,
@@ -220,7 +221,7 @@ impl<'a> Lettering<'a> {
         Err(self.source.fault(&text, "there is no room in the panel for this balloon", advice))
     }
 
-    /// The part that a tail points at.
+    /// The target of a balloon's tail, if it has a tail.
     fn target(
         &self,
         keys: &BalloonKeys,
@@ -256,7 +257,7 @@ impl<'a> Lettering<'a> {
         }
     }
 
-    /// A balloon with its text set, in each shape that it may have.
+    /// A balloon with its text set, once for each aspect ratio.
     fn set(&self, told: &Told, size: f64) -> Result<Vec<Balloon>, Error> {
         let Told { keys, .. } = told;
         let own = keys.size.as_ref().map_or(Ok(self.setting.em()), |size| above(size, self.source))?;
@@ -287,7 +288,7 @@ impl<'a> Lettering<'a> {
     }
 }
 
-/// What a balloon asks of its place, which has one of those shapes.
+/// The placement request of a balloon with its possible shapes.
 fn wish(shapes: &[Balloon], told: &Told, shape: &Shape) -> Wish {
     let bounds = shape.outline.bounds();
     let at = told.keys.at.as_ref().map(|at| {
@@ -306,7 +307,7 @@ fn wish(shapes: &[Balloon], told: &Told, shape: &Shape) -> Wish {
     }
 }
 
-/// A font by its name or its file, which is relative to the page file.
+/// A bundled font by its name, or a font file relative to the page file.
 fn font(name: &Spanned<String>, source: &Source) -> Result<Font, Error> {
     let is_name = !name.get_ref().contains(['/', '\\', '.']);
     if !is_name {
@@ -319,7 +320,7 @@ fn font(name: &Spanned<String>, source: &Source) -> Result<Font, Error> {
     Font::named(name.get_ref()).map_err(|error| source.about(&name.span(), error))
 }
 
-/// Refuses a place that is far from its panel.
+/// Checks that a position is not far outside its panel.
 fn within_panel(at: &Spanned<[f64; 2]>, source: &Source) -> Result<(), Error> {
     if at.get_ref().iter().all(|share| (-0.5..=1.5).contains(share)) {
         return Ok(());
@@ -328,7 +329,7 @@ fn within_panel(at: &Spanned<[f64; 2]>, source: &Source) -> Result<(), Error> {
     Err(source.fault(&at.span(), "this place is too far from the panel", advice))
 }
 
-/// A length above 0.
+/// A length above 0, in mm.
 fn above(length: &Spanned<Mm>, source: &Source) -> Result<f64, Error> {
     let Mm(mm) = *length.get_ref();
     if mm > 0.0 {

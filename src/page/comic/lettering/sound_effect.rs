@@ -1,4 +1,4 @@
-//! Sound effects: large letters with a line around them, turned, stretched, bent along an arc.
+//! Sound effects: large outlined letters, rotated, stretched and bent along an arc.
 
 use kurbo::{Affine, BezPath, PathEl, Point, Rect, Shape};
 
@@ -10,10 +10,10 @@ use crate::page::comic::comic_keys::SoundKeys;
 use crate::page::layout::Polygon;
 use crate::text::{Block, Setting};
 
-/// The outlines of the letters in their place, and what there is to say of their fonts.
+/// The outlines of the letters in position, and messages about missing glyphs.
 ///
 /// # Errors
-/// If no font has a letter.
+/// Returns an error if the text is empty, or no font has a glyph.
 pub(crate) fn sound(
     text: &str,
     setting: &Setting,
@@ -37,7 +37,7 @@ pub(crate) fn sound(
             return p;
         }
         let angle = p.x / radius;
-        // Around a centre below if the middle is up.
+        // The centre of the arc is below the text if the arc is positive.
         Point::new((radius - p.y) * sin(angle), radius - (radius - p.y) * cos(angle))
     };
     let letters = block.marks(corner, Colour::BLACK).into_iter().map(|mark| {
@@ -57,14 +57,14 @@ fn moved(element: PathEl, to: impl Fn(Point) -> Point) -> PathEl {
     }
 }
 
-/// The letters painted, the line around them below, and the box around all of it.
+/// The painted letters with their outline below, and a box around everything.
 pub(crate) fn painted(letters: Vec<BezPath>, [fill, colour]: [Colour; 2], line: f64) -> (Vec<Mark>, Polygon) {
     let boxes = letters.iter().map(Shape::bounding_box);
     let all = boxes.reduce(|a, b| a.union(b)).unwrap_or_default().inset(line);
     let provenance = || Provenance { classes: vec!["sound"], ..Provenance::default() };
     let stroke = || {
         Paint::Stroke(StrokePaint {
-            // Half of it lies under the letters.
+            // The letters cover the inner half of the outline.
             width: line * 2.0,
             colour,
             cap: Cap::Round,

@@ -1,30 +1,31 @@
-//! [`Target`]: what a tail points at, and the face that nothing is to cover.
+//! [`Target`]: the part that the tail of a balloon points at.
 
 use kurbo::{Point, Rect};
 
 use crate::page::figure::Place;
 use crate::page::layout::Polygon;
 
-/// Words in the names of parts that speak.
+/// Words in the names of parts that speak, most specific first.
 const FACES: [&str; 6] = ["mouth", "beak", "face", "head", "helmet", "skull"];
 
-/// A part that fills more than this share of its panel is no face.
+/// Maximum share of the panel that a face covers; larger parts are not faces.
 const LARGEST_FACE: f64 = 0.3;
 
-/// What a tail points at.
+/// The target of a balloon's tail.
 pub(crate) struct Target {
-    /// The name of the part.
+    /// Name of the part.
     pub part: String,
-    /// The outline of the part on the page, within its panel.
+    /// Convex hull of the part on the page, clipped to its panel.
     pub hull: Polygon,
-    /// The point in it that the tail goes towards.
+    /// The point of the hull that the tail points to.
     pub aim: Point,
-    /// What is kept free of balloons.
+    /// The hull, if the part is a face and must not be covered.
     pub face: Option<Polygon>,
 }
 
 impl Target {
-    /// Of several parts that which is called a face, or the highest one; none where none is within the panel.
+    /// Chooses one of several parts: the one that is named like a face, otherwise the highest one. `None` if
+    /// no part is in the panel.
     pub fn of(places: &[Place], panel: &Polygon) -> Option<Self> {
         let within = |place: &Place| Polygon(place.hull.clone()).common(panel);
         let seen: Vec<(&Place, Polygon)> = places
@@ -42,7 +43,7 @@ impl Target {
         })?;
         let bounds = hull.bounds();
         let is_face = hull.area() <= LARGEST_FACE * panel.area();
-        // Of what is larger, the tail points at the upper part.
+        // The tail points at the upper part of a large part.
         let (hull, aim) = match is_face {
             true => (hull.clone(), bounds.center()),
             false => {

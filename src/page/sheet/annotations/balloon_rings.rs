@@ -1,8 +1,12 @@
-//! Balloons around a view: in one ring or two, as near as they and their leaders find clear paper.
+//! Balloons around a view, in one ring or two, as near to the view as free paper allows.
 //!
-//! A ring is a rectangle around the view. Its places that lie on clear paper are given to the items so that no two leaders cross
-//! ([`leaders`], [`spokes`]). If a leader crosses another one, a text or a balloon all the same, or there are too few places, the next rings are tried:
-//! farther out, or two, whose places are staggered so that leaders run between the balloons of the inner ring.
+//! A ring is a rectangle around the view with slots for balloons.
+//!
+//! 1. Slots on free paper are assigned to the items so that no two leaders cross ([`leaders`], [`spokes`]).
+//! 2. If there are too few slots, or a leader crosses another one, a text or a balloon, the next rings are
+//!    tried.
+//! 3. The next rings are farther out, or there are two. Slots of two rings are staggered, so leaders of the
+//!    outer ring run between the balloons of the inner ring.
 
 use kurbo::{Affine, Circle, Point, Rect, Shape as _, Vec2};
 
@@ -16,28 +20,29 @@ use crate::page::sheet::part_balloons::leader_assignment::{
 };
 use crate::page::sheet::parts_list::parts_list_items::Item;
 
-/// Height of numbers, mm.
+/// Letter height of numbers, mm.
 const LETTERS: f64 = 3.5;
 
-/// From the view to the first ring, and from ring to ring, mm.
+/// Distance from the view to the first ring, and from ring to ring, mm.
 const FIRST: f64 = 10.0;
 const STEP: f64 = 9.5;
 
-/// Room that a balloon takes along a ring, where there is one ring.
+/// Length of border per balloon in a single ring, mm.
 const ALONE: f64 = 10.0;
 
-/// From the middle of a balloon to a leader that passes it, mm: its radius, clear paper, and what leaders lean to the side.
+/// Distance from the centre of a balloon to a leader that passes it, mm: radius, clearance, and the slant of
+/// leaders.
 const PASSING: f64 = 5.2;
 
-/// Clear paper around a balloon, mm.
+/// Clearance around a balloon, mm.
 const CLEAR: f64 = 0.8;
 
-/// How many rings there are at most; how much farther out the last one is tried at a time, and how often, mm.
+/// Maximum number of rings; outward step of the outermost ring, mm; number of such steps.
 const RINGS: u32 = 2;
 const FARTHER: f64 = 3.0;
 const STEPS: u32 = 32;
 
-/// Draws the balloons of items that have an anchor.
+/// Draws the balloons of all items that have an anchor.
 pub(crate) fn draw(
     rect: Rect,
     items: &[Item],
@@ -50,8 +55,8 @@ pub(crate) fn draw(
     if points.is_empty() {
         return Ok(());
     }
-    // The outermost ring counts: that is the room that the view needs.
-    // Where it does not go otherwise, leaders cross those of diameters, and then heads of arrows.
+    // The offset of the outermost ring decides, because the view needs that much room. If nothing else fits,
+    // leaders may cross those of diameters, and then arrow heads.
     let ways = [(Clear::Leaders, STEPS / 3), (Clear::Solids, STEPS / 3), (Clear::Texts, STEPS)];
     let rings = ways.into_iter().flat_map(|(clear, steps)| {
         (0..steps).flat_map(move |step| {
@@ -113,18 +118,18 @@ pub(crate) fn draw(
         board.balloons.circle(centre, RADIUS, NARROW);
         board.taken.take(Shape::disc(centre, RADIUS), Kind::Solid);
         let word = board.word_within(&items[*item].number, LETTERS, 2.0 * RADIUS - 1.5)?;
-        // On one line of writing whether or not letters reach below it.
+        // All numbers share a baseline, whether or not they have descenders.
         let at = Point::new(centre.x - word.bounds.center().x, centre.y - word.bounds.y0 / 2.0);
         board.write_in_balloon(&word, Affine::translate(at.to_vec2()));
     }
     Ok(())
 }
 
-/// The places of one ring or two that lie on clear paper.
+/// Slots of one ring or two that are on free paper.
 fn places(rect: Rect, (rings, farther): (u32, f64), board: &Board) -> Vec<Point> {
     let inner = rect.inflate(FIRST + farther, FIRST + farther);
     let all = if rings == 1 { slots(inner, ALONE, 0.5) } else { staggered(inner) };
-    // At corners places of neighbouring sides may be near each other.
+    // At corners, slots of neighbouring sides may be close to each other.
     let mut kept: Vec<Point> = Vec::new();
     for p in all {
         let near = 2.0 * RADIUS + CLEAR;
@@ -136,7 +141,7 @@ fn places(rect: Rect, (rings, farther): (u32, f64), board: &Board) -> Vec<Point>
     kept
 }
 
-/// Places on rays from the middle of a ring, in turn on this ring and the one around it: rays are so far apart that each passes the
+/// Slots on rays from the centre, alternating between this ring and the one around it. Each ray passes the
 /// balloons of its neighbours.
 fn staggered(inner: Rect) -> Vec<Point> {
     let outer = inner.inflate(STEP, STEP);
@@ -156,7 +161,7 @@ fn staggered(inner: Rect) -> Vec<Point> {
         turns.push(turn);
         turn += step(turn);
     }
-    // Each has another ring than both its neighbours.
+    // An even count, so that the last slot and the first one are on different rings.
     let count = turns.len() - turns.len() % 2;
     let slack = turn / std::f64::consts::TAU;
     let place = |(k, turn): (usize, &f64)| {

@@ -1,5 +1,7 @@
-//! [`centre_lines`]: the axes of cylinders, as lines where they are seen from the side and as crosses where they are seen along them
-//! (ISO 128-2, line type 04.1).
+//! [`centre_lines`]: axes of cylinders, as lines where they are seen from the side and as crosses where they
+//! are seen end-on.
+//!
+//! Source: ISO 128-2, line type 04.1.
 
 use kurbo::{Point, Vec2};
 
@@ -11,17 +13,17 @@ use crate::page::sheet::canvas::sheet_canvas::{CHAIN, NARROW, way};
 use crate::page::sheet::view::sheet_view::Sight;
 use crate::surface::Cylinder;
 
-/// How far lines reach beyond the cylinder, mm.
+/// Overshoot of centre lines at both ends, mm.
 const BEYOND: f64 = 2.5;
 
-/// Cylinders of a smaller radius on paper have none; lines shorter than the second are not broken, mm.
+/// Cylinders with a smaller radius on paper get no centre line; shorter lines are drawn solid, mm.
 const SMALLEST: f64 = 0.7;
 const UNBROKEN: f64 = 9.0;
 
-/// Lines nearer than this are one, mm.
+/// Lines and crosses closer than this are merged, mm.
 const SAME: f64 = 0.05;
 
-/// Draws them in a view from a side, or in a section.
+/// Draws the centre lines of a side view or a section.
 pub(crate) fn centre_lines(plan: &Plan, number: usize, found: &[Cylinder], board: &mut Board) {
     let placed = &plan.views[number];
     let section = plan.cut_of(number);
@@ -56,7 +58,7 @@ fn view(sight: &Sight, found: &[Cylinder], board: &mut Board) {
     for (at, radius) in crosses {
         for out in [Vec2::new(1.0, 0.0), Vec2::new(0.0, 1.0), Vec2::new(-1.0, 0.0), Vec2::new(0.0, -1.0)] {
             let reach = radius + BEYOND;
-            // Long dashes cross in the middle.
+            // Long dashes meet in the centre.
             let dash: &[f64] = if 2.0 * reach < UNBROKEN { &[] } else { &CHAIN };
             board.ink.dashed(way(&[at, at + out * reach]), NARROW, dash, CHAIN[0] / 2.0);
             board.taken.take(Shape::line(at, at + out * reach, NARROW), Kind::Geometry);
@@ -71,7 +73,7 @@ fn view(sight: &Sight, found: &[Cylinder], board: &mut Board) {
     }
 }
 
-/// Adds a line, or lengthens the one that it goes on.
+/// Adds a line, or extends a collinear one that it continues.
 fn add(lines: &mut Vec<[Point; 2]>, new: [Point; 2]) {
     let [mut a, mut b] = new;
     if (b - a).hypot2() < SAME * SAME {

@@ -1,4 +1,4 @@
-//! Letters of details, and titles of views.
+//! Labels of details, and titles of views.
 
 use kurbo::{Point, Rect, Vec2};
 
@@ -8,18 +8,18 @@ use crate::page::sheet::canvas::annotation_board::Board;
 use crate::page::sheet::canvas::paper_occupancy::{Clear, Kind, Shape};
 use crate::page::sheet::canvas::sheet_canvas::NARROW;
 
-/// Height of letters, mm.
+/// Letter height, mm.
 const LETTERS: f64 = 5.0;
 
-/// From a circle to the end of its leader, how much farther it is tried and how often, mm.
+/// First length of a leader, step size of the length, mm, and maximum number of steps.
 const OUT: f64 = 4.0;
 const FARTHER: f64 = 2.0;
 const STEPS: u32 = 60;
 
-/// Directions that are tried, from the upper right on to both sides.
+/// Number of leader directions, from the upper right to both sides.
 const WAYS: u32 = 48;
 
-/// From a view to its title, and how far that is moved up at most, mm.
+/// Distance from a view to its title, and how far the title moves up at most, mm.
 const TITLE: f64 = 3.0;
 const HIGHEST: u32 = 400;
 
@@ -30,7 +30,7 @@ pub(crate) fn circle(centre: Point, radius: f64, board: &mut Board) {
     board.ink.circle(centre, radius, NARROW);
 }
 
-/// Writes the letter of a detail, with a line to its circle.
+/// Writes the letter of a detail, with a leader to its circle.
 pub(crate) fn of_detail(label: &str, centre: Point, radius: f64, board: &mut Board) -> Result<(), Error> {
     let word = board.word(label, LETTERS)?;
     for clear in [Clear::Leaders, Clear::Texts] {
@@ -41,7 +41,7 @@ pub(crate) fn of_detail(label: &str, centre: Point, radius: f64, board: &mut Boa
                 let out = Vec2::new(cos(turn), -sin(turn));
                 let from = centre + out * radius;
                 let to = from + out * (OUT + FARTHER * f64::from(step));
-                // The letter stands behind the end of the line.
+                // The letter stands past the end of the leader.
                 let half = word.bounds.size().to_vec2() / 2.0;
                 let clearance = 0.8 + (out.x * half.x).abs() + (out.y * half.y).abs();
                 let place = word.centred(to + out * clearance);

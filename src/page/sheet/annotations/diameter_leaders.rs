@@ -1,7 +1,9 @@
-//! Diameters and radii: an arrow to the circle, and a value outside the view on a shelf.
+//! Dimensions of diameters and radii: a leader with an arrow to the circle, and the value on a shelf outside
+//! the view.
 //!
-//! Leaders go out from the middle of the circle in all directions. Of those that meet nothing solid, and whose value is on clear paper
-//! outside the view, the shortest is taken; to the right and upwards costs less than where lengths stand.
+//! Leaders start radially in all directions. The cheapest one that touches nothing solid and whose value has
+//! free paper is taken. The cost is the length; values on the left or below cost more, because lengths stand
+//! there.
 
 use kurbo::{Circle, Point, Rect, Shape as _, Vec2};
 
@@ -13,15 +15,15 @@ use crate::page::sheet::canvas::paper_occupancy::{Clear, Kind};
 use crate::page::sheet::canvas::sheet_canvas::{CHAIN, NARROW, way};
 use crate::page::sheet::dimensions::dimension_set::Led;
 
-/// How far outside the view a value is written, how much farther it is tried and how often, mm.
+/// First distance of a value from the view, step size of the distance, mm, and number of steps.
 const OUT: f64 = 5.0;
 const FARTHER: f64 = 5.0;
 const STEPS: u32 = 16;
 
-/// Directions that are tried.
+/// Number of leader directions.
 const WAYS: u32 = 72;
 
-/// Costs of a value on the left and below, mm of leader.
+/// Extra cost of a value on the left and below, in mm of leader.
 const LEFT: f64 = 25.0;
 const BELOW: f64 = 15.0;
 
@@ -29,7 +31,7 @@ struct Leader {
     tip: Point,
     knee: Point,
     shelf: Point,
-    /// The middle of the value.
+    /// Centre of the value.
     middle: Point,
     cost: f64,
 }
@@ -80,7 +82,7 @@ fn leader(led: &Led, rect: Rect, word: &Word, (k, more): (u32, f64)) -> Leader {
     let outer = rect.inflate(OUT, OUT);
     let turn = std::f64::consts::TAU * (f64::from(k) + 0.5) / f64::from(WAYS);
     let out = Vec2::new(cos(turn), -sin(turn));
-    // To the border of the view.
+    // Distances to the border of the view.
     let reach = |p: f64, d: f64, low: f64, high: f64| match d {
         d if d > 1e-9 => (high - p) / d,
         d if d < -1e-9 => (low - p) / d,

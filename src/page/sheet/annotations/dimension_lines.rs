@@ -1,9 +1,13 @@
-//! Lengths on a view: their lines, arrows and values (ISO 129-1).
+//! Dimensions of lengths: dimension lines, extension lines, arrows and values (ISO 129-1).
 //!
-//! Lengths along a side stand in rows, from the shortest to the longest. Each takes the innermost row in which its value is on clear
-//! paper, away from where lines of longer ones will pass, and in which none that it overlaps stands as far out. A value that has no room
-//! between the arrows moves along its line, to the other end, and outwards. Other lengths take the nearest line, then the nearest place
-//! on it, where the value is clear.
+//! Lengths along a side stand in rows, from the shortest to the longest:
+//!
+//! 1. A length takes the innermost row where its value has free paper and crosses no extension line of a
+//!    longer length.
+//! 2. Lengths that overlap it must stand in inner rows.
+//! 3. A value that does not fit between the arrows moves along its line, then past one end, then farther out.
+//!
+//! Other lengths take the nearest offset, and there the nearest position, where the value has free paper.
 
 use kurbo::{Affine, Point, Rect, Vec2};
 
@@ -15,45 +19,46 @@ use crate::page::sheet::canvas::sheet_canvas::NARROW;
 use crate::page::sheet::dimensions::dimension_set::Slanted;
 use crate::page::sheet::view::view_side::Told;
 
-/// From the view to the first row, and from row to row, mm.
+/// Distance from the view to the first row, and from row to row, mm.
 const FIRST: f64 = 9.0;
 const STEP: f64 = 7.5;
 
-/// Room between two lengths in a row, mm.
+/// Minimum gap between two lengths in a row, mm.
 const APART: f64 = 2.0;
 
-/// Rows that are tried.
+/// Maximum number of rows.
 const ROWS: u32 = 40;
 
-/// From the shape to the line that leads from it, and how far that goes on past the dimension line, mm.
+/// Gap between the shape and its extension line, and overshoot of the extension line past the dimension line,
+/// mm.
 const GAP: f64 = 0.8;
 const PAST: f64 = 2.0;
 
-/// From a line to the value above it, mm.
+/// Gap between a dimension line and its value, mm.
 const ABOVE: f64 = 1.0;
 
-/// How far a value is moved at a time, and how often, mm.
+/// Step size of a value along its line, mm, and maximum number of steps.
 const SHIFT: f64 = 2.0;
 const SHIFTS: u32 = 40;
 
-/// How far other lengths stand from their points, and by how much farther they are tried, mm.
+/// First offset of a slanted length from its points, and step size of the offset, mm.
 const BESIDE: f64 = 10.0;
 const FARTHER: f64 = 4.0;
 
-/// How far outside the view lines pass that lead to such lengths, mm.
+/// Length outside the view that is reserved for extension lines of slanted lengths, mm.
 const PASSED: f64 = 40.0;
 
-/// A length on a line.
+/// A dimension line with its arrows and extension lines.
 struct DimensionLine {
     points: [Point; 2],
-    /// On the line.
+    /// The projections of both points on the line.
     feet: [Point; 2],
-    /// From one to the other.
+    /// Unit vector from the first foot to the second.
     way: Vec2,
     length: f64,
-    /// Whether the arrows have room between the feet.
+    /// Whether both arrows fit between the feet.
     is_inside: bool,
-    /// The direction in which the value is read.
+    /// Unit vector along which the value is read.
     reading: Vec2,
 }
 
@@ -62,7 +67,7 @@ impl DimensionLine {
         let feet = points.map(|p| through + along * (p - through).dot(along));
         let length = (feet[1] - feet[0]).hypot2().sqrt();
         let way = if length > 0.0 { (feet[1] - feet[0]) / length } else { along };
-        // Values are read from below or from the right.
+        // Values must be readable from below or from the right.
         let mut reading = along;
         if reading.x < -1e-9 || reading.x.abs() <= 1e-9 && reading.y > 0.0 {
             reading = -reading;
@@ -70,7 +75,7 @@ impl DimensionLine {
         Self { points, feet, way, length, is_inside: length >= 2.0 * ARROW + 1.0, reading }
     }
 
-    /// Places of the middle of a value, from the middle of the line along its way: the best first.
+    /// Candidate positions for the centre of a value, along the line from its middle, preferred first.
     fn spots(&self, wide: f64) -> Vec<f64> {
         let mut spots = Vec::new();
         let slack = self.length / 2.0 - ARROW - wide / 2.0;
@@ -85,10 +90,10 @@ impl DimensionLine {
         spots
     }
 
-    /// The ends of the line where the value stands at a spot, from its middle along its way.
+    /// Both ends of the line, along it from its middle, if the value is at `spot`.
     fn ends(&self, spot: f64, wide: f64) -> [f64; 2] {
         let own = self.length / 2.0 + if self.is_inside { 0.0 } else { 2.0 * ARROW };
-        // It runs under a value that stands outside.
+        // The line extends below a value that is outside.
         let reach = if spot.abs() < self.length / 2.0 { 0.0 } else { spot.abs() + wide / 2.0 };
         if spot < 0.0 { [-own.max(reach), own] } else { [-own, own.max(reach)] }
     }
@@ -97,17 +102,17 @@ impl DimensionLine {
         self.feet[0].midpoint(self.feet[1]) + self.way * along
     }
 
-    /// Where a value stands, above its line or below.
+    /// The placement of a value above or below its line.
     fn place(&self, word: &Word, spot: f64, is_above: bool) -> Affine {
         let up = Vec2::new(self.reading.y, -self.reading.x);
-        // Commas and brackets reach below the line of writing.
+        // Commas and brackets reach below the baseline.
         let rise = if is_above { ABOVE + word.bounds.y1.max(0.0) } else { -ABOVE + word.bounds.y0 };
         let at = self.at(spot) + up * rise;
         let [c, s] = [self.reading.x, self.reading.y];
         Affine::new([c, s, -s, c, at.x, at.y]) * Affine::translate((-word.bounds.center().x, 0.0))
     }
 
-    /// The lines that lead to it.
+    /// The extension lines.
     fn leading(&self) -> impl Iterator<Item = [Point; 2]> + '_ {
         self.points.iter().zip(self.feet).filter_map(|(p, foot)| {
             let out = foot - *p;
@@ -116,17 +121,17 @@ impl DimensionLine {
         })
     }
 
-    /// The heads of its arrows: tips and where they point.
+    /// Tip and direction of both arrow heads.
     fn heads(&self) -> [(Point, Vec2); 2] {
         let sign = if self.is_inside { 1.0 } else { -1.0 };
         [(self.feet[0], -self.way * sign), (self.feet[1], self.way * sign)]
     }
 
-    /// Whether its lines and arrows touch nothing solid.
+    /// Whether lines and arrow heads touch nothing that `clear` excludes.
     fn is_free(&self, ends: [f64; 2], clear: Clear, board: &Board) -> bool {
         let heads = self.heads().map(|(tip, towards)| Board::head(tip, towards, ARROW).wider(LINE_CLEAR));
         board.is_line_free(self.at(ends[0]), self.at(ends[1]), clear)
-            // Lines that lead to rows farther out pass the arrows of others that begin at the same point.
+            // Extension lines to outer rows may pass arrow heads that start at the same point.
             && self.leading().all(|[a, b]| board.is_line_free(a, b, Clear::Texts))
             && heads.iter().all(|head| board.taken.is_free(head, Clear::Texts))
     }
@@ -144,13 +149,14 @@ impl DimensionLine {
     }
 }
 
-/// A length that has its place in a row.
+/// A length that has its row, and its extent along the side.
 struct Rowed {
     row: u32,
     span: [f64; 2],
 }
 
-/// Draws lengths along one side of a view in rows; no value stands where lines will pass later, at `kept` along the side.
+/// Draws the lengths along one side of a view in rows. `kept` are positions along the side that values must
+/// avoid, because lines will pass there.
 pub(crate) fn rows(rect: Rect, told: &[&Told], kept: &[f64], board: &mut Board) -> Result<(), Error> {
     let mut order: Vec<usize> = (0..told.len()).collect();
     let long = |k: usize| told[k].span()[1] - told[k].span()[0];
@@ -194,7 +200,7 @@ pub(crate) fn rows(rect: Rect, told: &[&Told], kept: &[f64], board: &mut Board) 
     Ok(())
 }
 
-/// Two places along the side of a length, rising.
+/// Two positions along the side of a length, in rising order.
 fn along(told: &Told, [a, b]: [Point; 2]) -> [f64; 2] {
     let [a, b] = [a, b].map(|p| if told.side.is_across() { p.x } else { p.y });
     [a.min(b), a.max(b)]
@@ -208,7 +214,7 @@ fn in_row(told: &Told, rect: Rect, row: u32) -> DimensionLine {
     DimensionLine::new(told.ends, along, corner + out * away)
 }
 
-/// The paper where lines that lead to lengths in no row may pass.
+/// The paper that extension lines of slanted lengths may need.
 pub(crate) fn passing<'a>(rect: Rect, told: impl Iterator<Item = &'a Slanted>) -> Occupancy {
     let mut kept = Occupancy::default();
     let far = rect.size().to_vec2().hypot2().sqrt() + PASSED;
@@ -221,13 +227,13 @@ pub(crate) fn passing<'a>(rect: Rect, told: impl Iterator<Item = &'a Slanted>) -
     kept
 }
 
-/// Across a length, to below or the right.
+/// The normal of a length that points below, or to the right if the length is vertical.
 fn outward(along: Vec2) -> Vec2 {
     let out = Vec2::new(-along.y, along.x);
     if out.y < -1e-9 || out.y.abs() <= 1e-9 && out.x < 0.0 { -out } else { out }
 }
 
-/// Draws a length that stands in no row.
+/// Draws a length that is not in a row.
 pub(crate) fn slanted(rect: Rect, told: &Slanted, board: &mut Board) -> Result<(), Error> {
     let word = board.word(&told.text, HIGH)?;
     let wide = word.bounds.width();

@@ -42,16 +42,17 @@ use crate::surface::Cylinder;
 use crate::text::Font;
 use section_marks::CutMark;
 
-/// Clear paper around the place where a leader begins, mm.
+/// Radius of the free paper around the start of a leader, mm.
 const ANCHOR: f64 = 1.5;
 
-/// What is to be written on the views.
+/// The annotations of all views.
 pub(crate) struct Layout<'a> {
     pub font: &'a Font,
     pub measures: &'a Measures,
-    /// Whose centre lines are drawn.
+    /// Cylinders with centre lines.
     pub cylinders: &'a [Cylinder],
-    /// What has balloons, and where it is seen, in units of the model to the right and down from the corner of the view.
+    /// Items with balloons. Each anchor is relative to the corner of the view, in model units, x right and y
+    /// down.
     pub items: &'a [Item],
     pub anchors: &'a [Option<DVec2>],
     /// The scale of the sheet.
@@ -59,10 +60,10 @@ pub(crate) struct Layout<'a> {
 }
 
 impl Layout<'_> {
-    /// Writes on a view.
+    /// Places all annotations of a view.
     ///
     /// # Errors
-    /// If a text cannot be set.
+    /// Returns an error if a text cannot be set.
     pub fn board(&self, view: usize, plan: &Plan, drawn: &DrawnViews) -> Result<Board, Error> {
         let mut board = Board::new(self.font);
         let sight = &plan.views[view].sight;
@@ -76,7 +77,7 @@ impl Layout<'_> {
         } else {
             Vec::new()
         };
-        // Leaders begin where no text is.
+        // Texts must not cover the start of a leader.
         for anchor in anchors.iter().flatten() {
             board.taken.take(Shape::disc(*anchor, ANCHOR), Kind::Geometry);
         }
@@ -131,14 +132,14 @@ impl Layout<'_> {
         Ok(board)
     }
 
-    /// The planes that are marked on a view, those first whose arrows lie on none of the others.
+    /// The section marks of a view, ordered so that no arrow lies on a mark placed later.
     fn cut_marks(&self, view: usize, plan: &Plan, board: &mut Board) -> Vec<CutMark> {
         let sight = &plan.views[view].sight;
         let rect = sight.rect();
         let mut marks: Vec<CutMark> = Vec::new();
         for cut in plan.cuts.iter().filter(|cut| titles_and_notes::crossed(plan, cut) == Some(view)) {
             let normal = cut.plane.normal();
-            // Towards the eye of the section, on the page.
+            // Towards the viewer of the section, on the page.
             let back = sight.page(plan.middle + normal) - sight.page(plan.middle);
             let back = back / back.hypot2().sqrt();
             let on = sight.page(plan.middle - normal * cut.plane.distance(plan.middle));
@@ -151,7 +152,7 @@ impl Layout<'_> {
         marks
     }
 
-    /// The room that a view needs for what is written on it, more than it has anyway, mm: on the left, above, on the right, below.
+    /// The extra margins that annotations need outside the regular margin: left, above, right, below, mm.
     pub fn room(board: &Board, rect: Rect) -> [f64; 4] {
         let Some(extents) = board.extents() else { return [0.0; 4] };
         let own = AROUND - ELEMENTS_CLEAR;

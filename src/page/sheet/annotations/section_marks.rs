@@ -1,8 +1,10 @@
-//! Marks of cutting planes: a chain line with thick ends, arrows in the direction of sight and letters (ISO 128-3).
+//! Section marks: a chain line with thick ends, arrows in the viewing direction, and letters (ISO 128-3).
 //!
-//! An end stands as near to the view as its arrow and its letter find clear paper, away from where lines of lengths will pass. An end that
-//! finds none is placed once the lengths have their places, outside their rows. Planes are marked in the order in which their arrows
-//! point away from each other: the arrow of the next one then lies farther out than the end of the one before.
+//! 1. An end goes as near to the view as its arrow and letter find free paper, away from future extension
+//!    lines.
+//! 2. An end without such a place is placed after the dimensions, outside their rows.
+//! 3. Planes are marked in the direction of their arrows, so the arrow of a plane lies farther out than the
+//!    ends of the planes before it.
 
 use kurbo::{Point, Rect, Vec2};
 
@@ -11,42 +13,44 @@ use crate::page::sheet::canvas::annotation_board::{Board, TEXT_CLEAR, Word};
 use crate::page::sheet::canvas::paper_occupancy::{Clear, Kind, Shape};
 use crate::page::sheet::canvas::sheet_canvas::{CHAIN, NARROW, WIDE, way};
 
-/// Height of letters, mm.
+/// Letter height, mm.
 const LETTERS: f64 = 5.0;
 
-/// From the view to the end of the line, by how much farther it is tried, and how far at most, mm.
+/// Distance from the view to the end of the line, mm; outward step, mm; maximum number of steps, near the
+/// view and later.
 const REACH: f64 = 7.0;
 const FARTHER: f64 = 1.0;
 const NEAR: u32 = 24;
 const FAR: u32 = 240;
 
-/// Length of a thick end, from its end to the arrow, and from the line to the tail of the arrow, mm.
+/// Length of a thick end, distance from its end to the arrow, length of the arrow, and length of its head,
+/// mm.
 const THICK: f64 = 5.0;
 const INSET: f64 = 1.0;
 const TAIL: f64 = 9.0;
 const HEAD: f64 = 4.0;
 
-/// How near to a letter a line of a length may pass later, mm.
+/// Clearance between a letter and future extension lines, mm.
 const KEPT: f64 = 0.8;
 
-/// Where lines of lengths will pass on the side of a view in a direction.
+/// Positions of future extension lines on the side of a view in a direction.
 type Kept<'a> = &'a dyn Fn(Vec2) -> Vec<f64>;
 
-/// The line of a cutting plane on a view.
+/// The section mark of a cutting plane in a view.
 pub(crate) struct CutMark {
     label: String,
     on: Point,
-    /// Along the line, and across it to the eye of the section.
+    /// Unit vectors along the line, and across it against the arrows.
     along: Vec2,
     back: Vec2,
-    /// The ends that have no place yet: which way, and where the view ends.
+    /// Ends without a place: direction (-1 or 1), and where the view ends along the line.
     open: Vec<(f64, f64)>,
-    /// The ends that have.
+    /// Positions of the placed ends along the line.
     ends: [Option<f64>; 2],
 }
 
 impl CutMark {
-    /// The line through a point of a view, seen from `back`.
+    /// A mark through point `on` of a view; its section is seen from the side of `back`.
     pub fn new(label: &str, on: Point, back: Vec2, rect: Rect) -> Self {
         let along = Vec2::new(-back.y, back.x);
         let corners = [(rect.x0, rect.y0), (rect.x1, rect.y0), (rect.x1, rect.y1), (rect.x0, rect.y1)];
@@ -67,30 +71,31 @@ impl CutMark {
         self.on + self.along * along
     }
 
-    /// How far to the eye it stands.
+    /// Position of the plane along `back`.
     pub fn depth(&self) -> f64 {
         self.on.to_vec2().dot(self.back)
     }
 
-    /// Where it passes a side of the view on which an end is open: the place across the page, or down it.
+    /// Where the line crosses the side of the view in direction `outward`, if its end there has no place yet:
+    /// the x coordinate if `across`, else y.
     pub fn open_at(&self, across: bool, outward: Vec2) -> Option<f64> {
         let passes = self.open.iter().any(|(sign, _)| (self.along * *sign).dot(outward) > 0.7);
         passes.then_some(if across { self.on.x } else { self.on.y })
     }
 
-    /// Takes the paper of the line within the view.
+    /// Marks the paper of the line within the view as occupied.
     pub fn take_inside(&self, board: &mut Board) {
         if let [(_, low), (_, high)] = self.open[..] {
             board.taken.take(Shape::line(self.at(low), self.at(high), NARROW), Kind::Line);
         }
     }
 
-    /// Places ends near the view; `kept` is where lines of lengths will pass on the side in a direction.
+    /// Places ends near the view. `kept` returns the positions of future extension lines for a direction.
     pub fn place_near(&mut self, kept: Kept, board: &mut Board) -> Result<(), Error> {
         self.place(board, NEAR, Some(kept))
     }
 
-    /// Places the other ends, and draws the line.
+    /// Places the remaining ends and draws the line.
     pub fn finish(mut self, board: &mut Board) -> Result<(), Error> {
         self.place(board, FAR, None)?;
         for _ in &self.open {
@@ -105,7 +110,7 @@ impl CutMark {
     fn place(&mut self, board: &mut Board, tries: u32, kept: Option<Kept>) -> Result<(), Error> {
         let word = board.word(&self.label, LETTERS)?;
         for (sign, border) in std::mem::take(&mut self.open) {
-            // Where nothing else is left a line may pass the head of an arrow.
+            // If nothing else is left, a line may cross an arrow head.
             let ways = [Clear::All, Clear::Solids, Clear::Texts];
             let found =
                 ways.into_iter().filter(|clear| kept.is_none() || *clear == Clear::All).find_map(|clear| {
@@ -125,7 +130,7 @@ impl CutMark {
         Ok(())
     }
 
-    /// Where the letter of an end stands, if all of the end has clear paper.
+    /// The centre of the letter at an end, if the whole end fits.
     fn letter(
         &self,
         (sign, border, end): (f64, f64, f64),
@@ -186,7 +191,7 @@ impl CutMark {
         board.taken.take(Shape::line(self.at(border), a, NARROW), Kind::Line);
         board.line(tip + self.back * TAIL, tip + self.back * 3.0, NARROW, Kind::Line);
         board.arrow(tip, -self.back, HEAD);
-        // Nothing passes between the arrow and its letter.
+        // Nothing may pass between the arrow and its letter.
         board.taken.take(Shape::line(tip + self.back * 3.0, letter, NARROW), Kind::Arrow);
         board.write(word, word.centred(letter));
     }

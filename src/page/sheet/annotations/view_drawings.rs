@@ -1,6 +1,7 @@
-//! [`DrawnViews`]: the drawings of the views, and the lines that take paper.
+//! [`DrawnViews`]: the drawings of the views, and their lines as chords that occupy paper.
 //!
-//! A view is drawn at one size. While the sheet is arranged its lines are scaled; it is drawn anew once its size is settled.
+//! A view is drawn at one scale. While the sheet is arranged, its lines are only scaled. It is drawn again
+//! once its scale is settled.
 
 use kurbo::{Point, Shape as _, Vec2};
 
@@ -12,16 +13,16 @@ use crate::page::sheet::canvas::annotation_board::flat_lines;
 use crate::page::sheet::view::sheet_view::RIM;
 use crate::pipeline::Prepared;
 
-/// How far polygons may be from curves that are cut off at a circle, mm.
+/// Tolerance of curves that are clipped to a circle, mm.
 const TOLERANCE: f64 = 0.01;
 
 /// The drawing of a view.
 struct DrawnView {
     item: Item,
     warnings: Vec<String>,
-    /// Length on paper of a unit of the model when it was drawn.
+    /// Length on paper of a model unit at the time of drawing, mm.
     unit: f64,
-    /// Its lines, from the corner of the view, and their widths.
+    /// Chords of its lines relative to the corner of the view, and line widths, mm.
     chords: Vec<([Vec2; 2], f64)>,
 }
 
@@ -32,15 +33,15 @@ pub(crate) struct DrawnViews<'a> {
 }
 
 impl<'a> DrawnViews<'a> {
-    /// None yet, of scenes that are prepared.
+    /// Empty, for prepared scenes, with room for `views` drawings.
     pub fn new(prepared: Vec<Option<Prepared<'a>>>, views: usize) -> Self {
         Self { prepared, views: (0..views).map(|_| None).collect() }
     }
 
-    /// Draws the views that are not drawn at their size. Reports whether there were any.
+    /// Draws the views that are missing or were drawn at another scale. Returns whether there were any.
     ///
     /// # Errors
-    /// If one cannot be drawn.
+    /// Returns an error if a view cannot be drawn.
     pub fn update(&mut self, plan: &Plan) -> Result<bool, Error> {
         let mut any = false;
         for view in 0..plan.views.len() {
@@ -63,7 +64,7 @@ impl<'a> DrawnViews<'a> {
             let circle = item.place.inverse() * circle_of(sight).to_path(1e-4);
             item.drawing.cut(&circle, TOLERANCE);
             if item.drawing.layers.iter().all(|layer| layer.marks.is_empty()) {
-                // Says more than that the drawing is empty.
+                // This warning is more useful than the one about an empty drawing.
                 warnings.clear();
                 warnings.push(format!(
                     "the detail `{}` shows nothing: no line of the model is in its circle; move `at` or \
@@ -83,7 +84,7 @@ impl<'a> DrawnViews<'a> {
         Ok(Some(DrawnView { item, warnings, unit: sight.unit, chords }))
     }
 
-    /// The lines of a view where it stands, and their widths.
+    /// The chords of a view at its present position and scale, with their widths.
     pub fn chords(&self, view: usize, plan: &Plan) -> impl Iterator<Item = ([Point; 2], f64)> + '_ {
         let sight = &plan.views[view].sight;
         let (corner, unit) = (sight.corner, sight.unit);
@@ -98,7 +99,7 @@ impl<'a> DrawnViews<'a> {
         self.views[view].as_ref().map(of).unwrap_or_default().into_iter()
     }
 
-    /// The drawings where they stand, and their warnings, each once.
+    /// The drawings at their positions, and their distinct warnings.
     pub fn into_items(self, plan: &Plan) -> (Vec<Item>, Vec<String>) {
         let (mut items, mut warnings) = (Vec::new(), Vec::new());
         for (view, drawn) in self.views.into_iter().enumerate() {

@@ -1,16 +1,20 @@
-//! [`Room`]: free places of a sheet, into which views are put one after the other.
+//! [`Room`]: the free paper of a sheet, for placing views one after another.
+//!
+//! Algorithm: maximal rectangles, with the best short side fit.
+//!
+//! Source: J. Jylänki, "A thousand ways to pack the bin", 2010.
 
 use kurbo::{Point, Rect};
 
-/// Rounding of places on a sheet, mm.
+/// Rounding tolerance of positions, mm.
 const SLACK: f64 = 1e-6;
 
-/// Whether a rectangle lies in another one.
+/// Whether a rectangle lies inside another one.
 fn holds(outer: Rect, rect: Rect) -> bool {
     outer.inflate(SLACK, SLACK).contains_rect(rect)
 }
 
-/// The free places of a sheet: the largest rectangles that nothing is in.
+/// The free paper of a sheet as its maximal free rectangles.
 #[derive(Debug, Clone)]
 pub(crate) struct Room {
     free: Vec<Rect>,
@@ -21,7 +25,8 @@ impl Room {
         Self { free: vec![space] }
     }
 
-    /// Puts a rectangle of that size where it fits best, upper left; `None` where it does not.
+    /// Places a rectangle of the given size in the upper left corner of the tightest free rectangle; `None`
+    /// if it fits nowhere.
     pub fn put(&mut self, width: f64, height: f64) -> Option<Rect> {
         let fits = |rect: &&Rect| rect.width() >= width && rect.height() >= height;
         let left = |rect: &Rect| (rect.width() - width).min(rect.height() - height);
@@ -33,18 +38,18 @@ impl Room {
         Some(place)
     }
 
-    /// Whether nothing is in a rectangle.
+    /// Whether a rectangle is free.
     pub fn has(&self, rect: Rect) -> bool {
         self.free.iter().any(|own| holds(*own, rect))
     }
 
-    /// The largest free place that a rectangle lies in.
+    /// The largest free rectangle that contains a rectangle.
     pub fn around(&self, rect: Rect) -> Option<Rect> {
         let places = self.free.iter().filter(|own| holds(**own, rect)).copied();
         places.max_by(|a, b| a.area().total_cmp(&b.area()))
     }
 
-    /// Takes a rectangle away.
+    /// Removes a rectangle from the free paper.
     pub fn take(&mut self, taken: Rect) {
         let mut left = Vec::new();
         for rect in std::mem::take(&mut self.free) {

@@ -1,4 +1,4 @@
-//! Titles of views, and notes.
+//! Titles of views, and the notes of a sheet.
 
 use kurbo::{Circle, Point, Rect, Shape as _};
 
@@ -13,7 +13,7 @@ use crate::page::sheet::view::scale_series;
 use crate::page::sheet::view::sheet_view::Sight;
 use crate::text::Font;
 
-/// The title of a view: what it shows, and its scale where that is another one.
+/// The title of a view: its own title, and its scale if that differs from the sheet's.
 pub(crate) fn title(plan: &Plan, view: usize, scale: f64) -> Option<String> {
     let placed = &plan.views[view];
     let own = placed.sight.unit / plan.unit_mm();
@@ -27,27 +27,28 @@ pub(crate) fn title(plan: &Plan, view: usize, scale: f64) -> Option<String> {
     }
 }
 
-/// The view in which the line of a cutting plane is drawn: the first one in which it is seen edge-on.
+/// The view with the line of a section: the first one that sees the plane edge-on.
 pub(crate) fn crossed(plan: &Plan, cut: &CutLine) -> Option<usize> {
     let edge_on = |sight: &Sight| cut.plane.normal().dot(sight.axes()[2]).abs() < 1e-9;
     plan.views.iter().position(|placed| edge_on(&placed.sight) && placed.sight.title.is_none())
 }
 
-/// The circle of a detail.
+/// The circle around a detail view.
 pub(crate) fn circle_of(shown: &Sight) -> Circle {
     Circle::new(shown.rect().center(), shown.rect().width() / 2.0)
 }
 
-/// Height of notes, how wide they are at most, and from the frame to them, mm.
+/// Letter height of notes, maximum width, and margins to the frame, mm.
 const HIGH: f64 = 3.5;
 const WIDE: f64 = 90.0;
 const LEFT: f64 = 16.0;
 const BELOW: f64 = 6.0;
 
-/// The notes of a sheet, in the lower left corner or above the tables there, and the paper that they take.
+/// Sets the notes of a sheet in the lower left corner, or above the tables there. Returns their marks and the
+/// paper they occupy.
 ///
 /// # Errors
-/// If a letter is in no font, or they are too high for the sheet.
+/// Returns an error if no font has a glyph, or the notes are too high for the sheet.
 pub(crate) fn written(
     sheet: &SheetPage,
     (space, tables): (Rect, &[Rect]),
@@ -64,7 +65,7 @@ pub(crate) fn written(
         .map_err(|error| source.about_text(&sheet.notes, error.within("the notes")))?;
     let wide = ink.marks.iter().map(|mark| mark.path.bounding_box().x1).fold(0.0, f64::max);
     let left = space.x0 + LEFT;
-    // As low as nothing else is in the way.
+    // The lowest position that does not overlap a table.
     let mut place = Rect::new(left, space.y1 - BELOW - high, left + wide, space.y1 - BELOW);
     let mut tables: Vec<&Rect> = tables.iter().collect();
     tables.sort_by(|a, b| b.y0.total_cmp(&a.y0));
@@ -82,7 +83,7 @@ pub(crate) fn written(
     Ok((ink, Some(place)))
 }
 
-/// A warning about texts that have a character which could not be read, if there are any.
+/// A warning if a text contains a character that could not be read.
 pub(crate) fn unreadable(composition: &Composition) -> Option<String> {
     let marks = composition.items.iter().flat_map(|item| &item.drawing.layers).flat_map(|layer| &layer.marks);
     let texts = marks.filter_map(|mark| Some(&mark.provenance.text.as_ref()?.words));

@@ -1,6 +1,11 @@
-//! [`arrange`]: which view stands where on a sheet, and at which scale.
+//! [`arrange`]: the position of each view on a sheet, and the scale of the sheet.
 //!
-//! Source: ISO 128-3:2020 and ISO 5456-2:1996: places of views in first- and third-angle projection.
+//! 1. Views in projection stand in rows and columns around the front view, in the upper left corner.
+//! 2. The other views go to free rectangles, in the order that makes them largest.
+//! 3. Scales of the standard series are tried from the largest. Of the two largest that fit, the one with the
+//!    larger views is taken.
+//!
+//! Source: ISO 128-3:2020 and ISO 5456-2:1996 (positions of views in first- and third-angle projection).
 
 use kurbo::{Point, Rect};
 
@@ -12,45 +17,48 @@ use crate::page::sheet::view::scale_series::SERIES;
 use crate::page::sheet::view::sheet_view::Sight;
 use crate::scene::NamedView;
 
-/// Least room around a view, mm.
+/// Minimum margin around a view, mm.
 pub(crate) const AROUND: f64 = 7.0;
 
-/// How far views start from the border of the room where centring marks are in their way, mm.
+/// Offset of the views from the edge of the free paper where centring marks are in the way, mm.
 const PAST_MARKS: f64 = 9.0;
 
-/// From what is written on a view to the border of its place, mm.
+/// Distance from the annotations of a view to the edge of its rectangle, mm.
 pub(crate) const ELEMENTS_CLEAR: f64 = 3.0;
 
-/// Views without a scale are up to so many times as large as the others, and are made smaller by this factor until they fit.
+/// Views without a scale are at most `LARGEST` times as large as the others. They shrink by `FREE_STEP` until
+/// they fit, at most `FREE_STEPS` times.
 const LARGEST: f64 = 4.0;
 const FREE_STEP: f64 = 0.94;
 const FREE_STEPS: i32 = 72;
 
-/// Views that stand alone may be smaller than the others by so many steps of the series.
+/// Separate views may be smaller than the others by up to this number of steps of the series.
 const SMALLER: usize = 3;
 
-/// A view that is to be put somewhere.
+/// A view and its position on the sheet.
 #[derive(Debug)]
 pub(crate) struct Placed {
     pub sight: Sight,
     pub stands: Stands,
-    /// Room that it needs for what is written on it, more than its margin, on the left, above, on the right and below, mm: at the lengths
-    /// on paper of a unit at which that is known.
+    /// Extra margin for annotations: left, above, right, below, mm. One entry for each length on paper of a
+    /// model unit that was tried.
     pub rooms: Vec<(f64, [f64; 4])>,
-    /// The place that it has with all that, on the page.
+    /// The rectangle of the view with all its margins, page mm.
     place: Rect,
 }
 
 impl Placed {
-    /// A view that needs no room but its own.
+    /// A view without annotations.
     pub fn new(sight: Sight, stands: Stands) -> Self {
         Self { sight, stands, rooms: Vec::new(), place: Rect::ZERO }
     }
 }
 
 impl Placed {
-    /// The room around it at a length on paper of a unit of the model. At a scale at which it is not known there is none yet; of pictorial
-    /// views, which have any scale, it is that found last.
+    /// Extra margins if a model unit is `unit` mm long on paper: left, above, right, below.
+    ///
+    /// They are 0 at a scale where they are not known. Pictorial and free views have any scale, so they take
+    /// the margins found last.
     pub fn around_at(&self, unit: f64) -> [f64; 4] {
         let known = self.rooms.iter().find(|(known, _)| (known / unit - 1.0).abs() < 1e-9);
         if let Some((_, around)) = known {
@@ -60,7 +68,7 @@ impl Placed {
         last.map_or([0.0; 4], |(_, around)| *around)
     }
 
-    /// Notes that at its present scale it needs that much room.
+    /// Widens the margins at the present scale to at least `needed`.
     pub fn make_room(&mut self, needed: [f64; 4]) {
         let unit = self.sight.unit;
         let own = self.around_at(unit);
@@ -68,14 +76,14 @@ impl Placed {
         self.rooms.push((unit, [0, 1, 2, 3].map(|side| own[side].max(needed[side]))));
     }
 
-    /// Makes it larger or smaller around its middle.
+    /// Changes the scale from `from` to `to` and keeps the centre of the view.
     pub fn enlarge(&mut self, from: f64, to: f64) {
         let ([w, h], [wide, high]) = (self.sight.size(from), self.sight.size(to));
         self.sight.unit = to;
         self.sight.corner += kurbo::Vec2::new((w - wide) / 2.0, (h - high) / 2.0);
     }
 
-    /// Whether it, and what is written on it, lie within its place.
+    /// Whether the view and all its annotations fit into its rectangle.
     pub fn has_room_for(&self, board: &Board) -> bool {
         let rect = self.sight.rect();
         let extents = board.extents().map_or(rect, |extents| extents.union(rect));
@@ -84,25 +92,26 @@ impl Placed {
     }
 }
 
-/// Where a view may stand.
+/// Position and scale that a view may have.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Stands {
-    /// In the row and column of the front view.
+    /// In the row and column of the front view that its projection requires.
     Beside(NamedView),
-    /// Anywhere, at the scale of the sheet, or at a smaller one.
+    /// Anywhere, at the scale of the sheet or a smaller one.
     Alone,
-    /// Anywhere, at the scale of the sheet, or as large as it may be there: nobody measures in it.
+    /// Anywhere, at the scale of the sheet or a smaller one; it may be enlarged later, because it is not to
+    /// scale.
     Pictorial,
-    /// Anywhere, as large as it may be there.
+    /// Anywhere, as large as possible.
     Free,
-    /// Anywhere, at a scale so many times that of the sheet.
+    /// Anywhere, at this multiple of the scale of the sheet.
     Enlarged(f64),
-    /// Anywhere, at that scale.
+    /// Anywhere, at this scale.
     At(f64),
 }
 
 impl Stands {
-    /// The largest length on paper of a unit that it may have in views that are not measured.
+    /// The maximum length on paper of a model unit; `None` for views that are to scale.
     pub fn largest(self, unit: f64) -> Option<f64> {
         match self {
             Self::Pictorial | Self::Free => Some(unit * LARGEST),
@@ -111,12 +120,12 @@ impl Stands {
     }
 }
 
-/// A scale, and those of the series that are a little smaller.
+/// A scale, and the next smaller ones of the series.
 fn smaller(scale: f64, place: usize) -> Vec<f64> {
     [scale].into_iter().chain(SERIES.iter().skip(place + 1).copied().take(SMALLER)).collect()
 }
 
-/// The column and the row of a view.
+/// Column and row of a view; the front view is at 0, 0.
 fn field(view: NamedView, method: Method) -> [i32; 2] {
     let towards = if method == Method::First { 1 } else { -1 };
     match view {
@@ -129,8 +138,10 @@ fn field(view: NamedView, method: Method) -> [i32; 2] {
     }
 }
 
-/// Puts all views in a space, of which some is taken; `unit_mm` is what a unit of the model is. Gives the scale: of the two largest at which
-/// everything fits the one at which views together are larger.
+/// Places all views on the free part of a sheet and returns the scale; `None` if they do not fit.
+///
+/// `unit_mm` is the length of a model unit in mm, `told` a scale from the page file. Of the two largest
+/// scales that fit, the one with the larger product of view sizes wins.
 pub(crate) fn arrange(
     views: &mut [Placed],
     (space, taken): (Rect, &[Rect]),
@@ -169,7 +180,7 @@ pub(crate) fn arrange(
     Some(scale)
 }
 
-/// Moves views that stand alone to the middle of the room that others leave around them.
+/// Moves each separate view to the middle of the free rectangle around it.
 fn settle(views: &mut [Placed], free: &Room, order: &[usize]) {
     for k in order {
         let mut room = free.clone();
@@ -184,7 +195,8 @@ fn settle(views: &mut [Placed], free: &Room, order: &[usize]) {
     }
 }
 
-/// The orders in which views may be put in places; that in which they are told first, and no others where there are many.
+/// All possible orders of placing views, the given one first. More than `MOST` views are placed in the given
+/// order only.
 fn orders(views: &[usize]) -> Vec<Vec<usize>> {
     const MOST: usize = 5;
     let Some((first, rest)) = views.split_first().filter(|_| views.len() <= MOST) else {
@@ -218,7 +230,7 @@ fn try_scale(
     };
     let beside = group(views);
     if !beside.is_empty() {
-        // How far views reach from the middle of the model, in each column and row.
+        // Extent of the views before and after the model's centre, for a column (line 0) or a row (line 1).
         let reach = |line: usize, at: i32| {
             let own = beside.iter().filter(|(_, field)| field[line] == at);
             own.fold(None, |reach: Option<[f64; 2]>, (k, _)| {
@@ -243,7 +255,7 @@ fn try_scale(
                 }
             }
         }
-        // The place of a view with all that is written on it, and the corner of the view.
+        // The rectangle of a view with its margins, and the corner of the view itself.
         let place = |placed: &Placed, field: [i32; 2], start: [f64; 2]| {
             let middle = |line: usize| {
                 let found = middles[line].iter().find(|(at, _)| *at == field[line]);
@@ -259,7 +271,7 @@ fn try_scale(
             let (x1, y1) = (corner.x + w + right, corner.y + h + below);
             (Rect { x0: corner.x - left, y0: corner.y - above, x1, y1 }, corner)
         };
-        // They stand in the upper left corner, within the centring marks or past them; what lies in the angle between them is free.
+        // The group stands in the upper left corner, either between the centring marks or clear of them.
         let starts = [[0.0, 0.0], [0.0, PAST_MARKS], [PAST_MARKS, 0.0], [PAST_MARKS, PAST_MARKS]];
         let fits =
             |start: &[f64; 2]| beside.iter().all(|(k, field)| room.has(place(&views[*k], *field, *start).0));

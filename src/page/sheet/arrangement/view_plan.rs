@@ -1,4 +1,9 @@
 //! [`Plan`]: the views of a sheet, and the scenes they show.
+//!
+//! 1. The model is read once; it is the scene of the regular views.
+//! 2. Each section cuts a copy of the model and becomes a view in projection if its direction allows that.
+//! 3. If hidden lines are drawn, pictorial views get a copy of the scene without them.
+//! 4. The exploded model is another scene; details reuse the scene of their view.
 
 use std::sync::Arc;
 
@@ -25,25 +30,25 @@ use crate::scene::{Camera, NamedView, Scene};
 use crate::style::Style;
 use crate::surface::Cylinder;
 
-/// A scene, and the style it is drawn in.
+/// A scene with its style.
 pub(crate) struct Set {
     pub scene: Scene,
     pub style: Style,
 }
 
-/// A plane that a section goes through, and the letter at both its ends.
+/// A section plane with its letter.
 pub(crate) struct CutLine {
     pub label: String,
     pub plane: Plane,
-    /// The view that shows what it leaves, and parts that are not cut.
+    /// The view that shows the section, and the parts that are not cut.
     pub shown: usize,
     pub uncut: Vec<Glob>,
 }
 
-/// A circle around what is shown larger, in a view.
+/// The circle around a detail.
 pub(crate) struct Circled {
     pub label: String,
-    /// The view it is in, and the one that shows it.
+    /// The view that contains the circle, and the view that shows the detail.
     pub of: usize,
     pub shown: usize,
     pub at: DVec3,
@@ -51,7 +56,7 @@ pub(crate) struct Circled {
 }
 
 impl Circled {
-    /// Whether the circle reaches into a view; one that does not is not drawn there.
+    /// Whether the circle reaches into a view; otherwise it is not drawn.
     pub fn meets(&self, sight: &Sight) -> bool {
         let radius = self.radius * sight.unit;
         sight.rect().inflate(radius, radius).contains(sight.page(self.at))
@@ -60,33 +65,33 @@ impl Circled {
 
 /// The views of a sheet, and the scenes they show.
 pub(crate) struct Plan {
-    /// The whole model first.
+    /// The scenes; the whole model is first.
     pub sets: Vec<Arc<Set>>,
     pub views: Vec<Placed>,
-    /// For each view its set.
+    /// The index of each view's scene in `sets`.
     pub set_of: Vec<usize>,
     pub cuts: Vec<CutLine>,
     pub circled: Vec<Circled>,
     /// How lengths are written.
     pub values: Values,
-    /// The middle of the model.
+    /// Centre of the model, world.
     pub middle: DVec3,
     /// The view with balloons, if any.
     pub balloons: Option<usize>,
 }
 
-/// Places nearer than this share of a radius are the same: what single precision leaves of cylinders.
+/// Positions of a cylinder are equal within this share of its radius, because of single precision.
 const SAME: f64 = 5e-3;
 
-/// Views in which a section is taken from, by preference.
+/// The views that a section may be seen from, preferred first.
 const SIDES: [NamedView; 6] =
     [NamedView::Front, NamedView::Left, NamedView::Top, NamedView::Right, NamedView::Bottom, NamedView::Back];
 
 impl Plan {
-    /// Reads the model, cuts it and takes it apart.
+    /// Reads the model and plans its views: views, sections, exploded view, details.
     ///
     /// # Errors
-    /// Points to the key that is wrong.
+    /// Returns an error at the key that is wrong.
     pub fn new(sheet: &SheetPage, source: &Source) -> Result<Self, Error> {
         let name = sheet.style.clone().unwrap_or_else(|| Spanned::new(0..0, "technical".to_owned()));
         let mut style = figure::style(&name, &sheet.set, source)?.to_scale();
@@ -234,7 +239,7 @@ impl Plan {
         let at = DVec3::from_array(keys.at);
         let mut sight = self.views[of].sight.around(&format!("detail-{label}"), at, radius);
         sight.title = Some(label.clone());
-        // Twice or two and a half times as large for each step of the series; two of them are about five times.
+        // A step of the series enlarges by 2 or 2.5; two steps by about 5.
         let stands = match &keys.scale {
             None => Stands::Enlarged(5.0),
             Some(told) => Stands::At(read_scale(told, source)?),
@@ -245,12 +250,12 @@ impl Plan {
         Ok(())
     }
 
-    /// Millimetres in a unit of the model.
+    /// Millimetres per model unit.
     pub fn unit_mm(&self) -> f64 {
         self.values.unit_mm()
     }
 
-    /// How lengths in a view relate to those of the model.
+    /// How lengths in a view relate to lengths of the model.
     pub fn foreshortening(&self, view: usize) -> Foreshortening {
         let shown = self.circled.iter().find(|circled| circled.shown == view);
         match (shown, self.views[view].stands) {
@@ -261,7 +266,7 @@ impl Plan {
         }
     }
 
-    /// What a section leaves of a cylinder; all of it where there is none.
+    /// The part of a cylinder that remains in a section; the whole cylinder without a section.
     pub fn left_of(&self, cylinder: &Cylinder, section: Option<&CutLine>) -> Option<Cylinder> {
         let Some(section) = section else { return Some(*cylinder) };
         let scene = &self.sets[0].scene;
@@ -276,19 +281,19 @@ impl Plan {
         if (away[0] - away[1]).abs() <= near {
             return (away[0] <= near).then_some(*cylinder);
         }
-        // The end that lies in front of the plane comes to lie in it.
+        // The end in front of the plane is moved into the plane.
         let share = away[0] / (away[0] - away[1]);
         let at = cylinder.ends[0] + share * (cylinder.ends[1] - cylinder.ends[0]);
         let ends = [0, 1].map(|k| if away[k] > 0.0 { at } else { cylinder.ends[k] });
         ((ends[1] - ends[0]).abs() > near).then_some(Cylinder { ends, ..*cylinder })
     }
 
-    /// The plane of a section that a view shows.
+    /// The section plane of a section view.
     pub fn cut_of(&self, view: usize) -> Option<&CutLine> {
         self.cuts.iter().find(|cut| cut.shown == view)
     }
 
-    /// The number of a view by its name.
+    /// The index of a view, by its name.
     pub fn view(&self, name: &Spanned<String>, source: &Source) -> Result<usize, Error> {
         let names: Vec<&str> = self.views.iter().map(|view| view.sight.name.as_str()).collect();
         names
@@ -298,7 +303,7 @@ impl Plan {
     }
 }
 
-/// Reads a scale.
+/// Parses a scale.
 pub(crate) fn read_scale(told: &Spanned<String>, source: &Source) -> Result<f64, Error> {
     scale_series::read(told.get_ref())
         .ok_or_else(|| source.fault(&told.span(), "this is not a scale", "write such as 1:5 or 2:1"))
@@ -309,13 +314,13 @@ fn named(name: &Spanned<String>, source: &Source) -> Result<NamedView, Error> {
     NamedView::parse(name.get_ref()).ok_or_else(|| source.unknown(name, "view", &known))
 }
 
-/// A, B, C and so on.
+/// The letter of a section or detail: A, B, C and so on, without I, O and Q.
 fn letter(number: usize) -> String {
     let letters: Vec<char> = ('A'..='Z').filter(|c| !matches!(c, 'I' | 'O' | 'Q')).collect();
     letters.get(number).map_or_else(|| format!("S{number}"), char::to_string)
 }
 
-/// A camera that looks at a plane from the front.
+/// A camera that faces a plane, from the side of its normal.
 fn looking_at(plane: &Plane, scene: &Scene) -> Camera {
     let up = Camera::named(NamedView::Front, scene.up).up;
     let normal = plane.normal();

@@ -1,10 +1,14 @@
-//! [`Occupancy`]: the paper that is taken by what is drawn.
+//! [`Occupancy`]: the paper that is occupied by drawn shapes.
 //!
-//! Everything is a convex shape with a margin: a disc is a point, a line a segment, a text a box. Long lines are cut into pieces. A grid
-//! of square cells lists the shapes that reach into each cell, so that a query looks at the shapes near it alone. Two shapes are as far
-//! apart as the nearest two of their sides; shapes of which one holds the other touch.
+//! Every shape is convex with a margin: a disc is a point, a line is a segment, a text is a box. Long lines
+//! are cut into pieces. A grid of square cells lists the shapes in each cell, so a query tests only shapes
+//! nearby.
 //!
-//! Each shape is of a [`Kind`]. Texts and balloons need clear paper; lines may cross lines, but nothing solid.
+//! The distance of two shapes is the smallest distance between their sides. A shape inside another one
+//! touches it.
+//!
+//! Each shape has a [`Kind`]. Texts and balloons need free paper. Lines may cross lines, but no texts, arrows
+//! or balloons.
 
 use kurbo::{Point, Rect, Vec2};
 use rustc_hash::FxHashMap;
@@ -12,38 +16,38 @@ use rustc_hash::FxHashMap;
 use crate::geometry::plane::planar_distance::distance2;
 use crate::page::sheet::part_balloons::leader_assignment::cross;
 
-/// Side of a cell of the grid, mm.
+/// Side of a grid cell, mm.
 const CELL: f64 = 5.0;
 
-/// What takes paper.
+/// Kind of a shape that occupies paper.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Kind {
     /// Lines and areas of a view: edges, hatching, centre lines.
     Geometry,
-    /// Lines that are written on a view: of dimensions, of cutting planes, around details.
+    /// Annotation lines: dimension lines, section lines, circles of details.
     Line,
-    /// Lines that lead to a text or a balloon.
+    /// Leaders of texts and balloons.
     Leader,
-    /// Heads of arrows.
+    /// Arrow heads.
     Arrow,
-    /// Texts and balloons: nothing may touch them.
+    /// Texts and balloons; nothing may touch them.
     Solid,
 }
 
-/// What a shape must keep clear of.
+/// The kinds that a new shape must not touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Clear {
-    /// Everything: texts, arrows, balloons.
+    /// All kinds; for texts, arrows and balloons.
     All,
-    /// Texts, balloons and arrows: lines.
+    /// Texts, balloons and arrow heads; for lines.
     Solids,
-    /// Texts and balloons: lines that have no other place.
+    /// Texts and balloons; for lines without another place.
     Texts,
-    /// Texts, balloons, arrows and leaders: leaders.
+    /// Texts, balloons, arrow heads and leaders; for leaders.
     Leaders,
 }
 
-/// A convex shape on the page and a margin around it, mm.
+/// A convex shape on the page with a margin around it, mm.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Shape {
     corners: [Point; 4],
@@ -57,18 +61,18 @@ impl Shape {
         Self { corners: [centre; 4], count: 1, margin: radius }
     }
 
-    /// A line of a width.
+    /// A line with a width.
     pub fn line(a: Point, b: Point, width: f64) -> Self {
         Self { corners: [a, b, b, b], count: 2, margin: width / 2.0 }
     }
 
-    /// A rectangle.
+    /// An axis-parallel rectangle.
     #[cfg(test)]
     fn rect(rect: Rect) -> Self {
         Self::turned(rect.center(), Vec2::new(rect.width() / 2.0, 0.0), Vec2::new(0.0, rect.height() / 2.0))
     }
 
-    /// A rectangle around a point, from there to the middles of its sides.
+    /// A rectangle around a point; `along` and `across` lead to the middles of two sides.
     pub fn turned(middle: Point, along: Vec2, across: Vec2) -> Self {
         let corners = [-along - across, along - across, along + across, across - along].map(|v| middle + v);
         Self { corners, count: 4, margin: 0.0 }
@@ -79,12 +83,12 @@ impl Shape {
         Self { corners: [a, b, c, c], count: 3, margin: 0.0 }
     }
 
-    /// The same with a wider margin.
+    /// The same shape with a wider margin.
     pub fn wider(self, by: f64) -> Self {
         Self { margin: self.margin + by, ..self }
     }
 
-    /// The box around it.
+    /// Bounding box, including the margin.
     pub fn bounds(&self) -> Rect {
         let corners = &self.corners[..self.count];
         let first = Rect::from_points(corners[0], corners[0]);
@@ -102,7 +106,7 @@ impl Shape {
             && (self.sides().all(|side| turn(side) >= 0.0) || self.sides().all(|side| turn(side) <= 0.0))
     }
 
-    /// Whether two shapes are nearer than their margins.
+    /// Whether two shapes are closer than their margins, or one contains the other.
     pub fn touches(&self, other: &Self) -> bool {
         let near = self.margin + other.margin;
         self.holds(other.corners[0])
@@ -113,19 +117,19 @@ impl Shape {
     }
 }
 
-/// Whether two segments cross; points cross nothing.
+/// Whether two segments cross. A degenerate segment crosses nothing.
 fn is_crossed(one: [Point; 2], other: [Point; 2]) -> bool {
     one[0] != one[1] && other[0] != other[1] && cross(one, other)
 }
 
-/// The square of the distance between two segments that do not cross.
+/// Squared distance of two segments that do not cross.
 fn squared_distance(one: [Point; 2], other: [Point; 2]) -> f64 {
     let from = |p: Point, [a, b]: [Point; 2]| distance2(p, a, b);
     let ends = [from(one[0], other), from(one[1], other), from(other[0], one), from(other[1], one)];
     ends.into_iter().fold(f64::INFINITY, f64::min)
 }
 
-/// Shapes by the cells of the grid that they reach into.
+/// Shapes in a grid of square cells.
 #[derive(Debug, Clone, Default)]
 struct Cells {
     shapes: Vec<(Shape, Rect, Kind)>,
@@ -159,17 +163,17 @@ impl Cells {
     }
 }
 
-/// The paper that is taken.
+/// The occupied paper of a view.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Occupancy {
-    /// The lines of the view, which are many.
+    /// Lines of the view itself. They are many, and only texts must avoid them.
     geometry: Cells,
-    /// What is written on it.
+    /// Annotations.
     written: Cells,
 }
 
 impl Occupancy {
-    /// Takes the paper of a shape.
+    /// Marks the paper of a shape as occupied.
     pub fn take(&mut self, shape: Shape, kind: Kind) {
         let own = if kind == Kind::Geometry { &mut self.geometry } else { &mut self.written };
         for piece in pieces(shape) {
@@ -177,7 +181,7 @@ impl Occupancy {
         }
     }
 
-    /// Whether a shape may lie where it does.
+    /// Whether a shape touches none of the kinds that `clear` excludes.
     pub fn is_free(&self, shape: &Shape, clear: Clear) -> bool {
         let matters = |kind: Kind| match clear {
             Clear::All => true,
@@ -191,7 +195,7 @@ impl Occupancy {
     }
 }
 
-/// A line as pieces that reach into few cells; other shapes whole.
+/// A line cut into pieces that touch few cells; other shapes unchanged.
 fn pieces(shape: Shape) -> impl Iterator<Item = Shape> {
     let [a, b] = [shape.corners[0], shape.corners[1]];
     let count = if shape.count == 2 {
@@ -205,7 +209,7 @@ fn pieces(shape: Shape) -> impl Iterator<Item = Shape> {
     })
 }
 
-/// The cells that a box reaches into.
+/// The grid cells that a box touches.
 fn cells(bounds: Rect) -> impl Iterator<Item = [i32; 2]> {
     const FAR: f64 = 1e4;
     let cell = |x: f64| (x.clamp(-FAR, FAR) / CELL).floor() as i32;

@@ -1,4 +1,7 @@
-//! [`Ink`]: lines and letters of a sheet, in mm.
+//! [`Ink`]: collects lines and words of a sheet as marks, in mm.
+//!
+//! All marks are black. Words are single lines set by `crate::text`; texts for tables are wrapped and shrunk
+//! to fit.
 
 use kurbo::{BezPath, Circle, Point, Rect, Shape, Vec2};
 
@@ -9,26 +12,26 @@ use crate::drawing::{
 use crate::error::Error;
 use crate::text::{Align, Block, Font, Setting};
 
-/// Widths of lines, mm (ISO 128-2, group 0.5): wide and narrow ones.
+/// Widths of wide and narrow lines, mm (ISO 128-2, group 0.5).
 pub(crate) const WIDE: f64 = 0.5;
 pub(crate) const NARROW: f64 = 0.25;
 
-/// A long dash, a gap, a short dash, a gap, in mm, for narrow lines (ISO 128-2, line type 04.1).
+/// Dash pattern of narrow chain lines: long dash, gap, short dash, gap, mm (ISO 128-2, line type 04.1).
 pub(crate) const CHAIN: [f64; 4] = [6.0, 0.75, 0.13, 0.75];
 
-/// Texts in tables are no longer than this, bytes.
+/// Maximum length of a text in a table, bytes.
 const LONGEST: usize = 2000;
 
-/// Where a word stands at its point.
+/// Horizontal anchor of a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Stand {
-    /// Begins there.
+    /// The word starts at the point.
     Left,
-    /// Has its middle there.
+    /// The word is centred at the point.
     Middle,
 }
 
-/// Lines and letters of a sheet, in mm.
+/// Lines and words of a sheet as marks, in mm.
 #[derive(Debug, Clone)]
 pub(crate) struct Ink {
     font: Font,
@@ -37,12 +40,12 @@ pub(crate) struct Ink {
 }
 
 impl Ink {
-    /// Nothing yet; what is drawn has a class.
+    /// An empty canvas; `class` becomes the class of all lines.
     pub fn new(font: &Font, class: &'static str) -> Self {
         Self { font: font.clone(), class, marks: Vec::new() }
     }
 
-    /// Nothing yet, in the same font and class.
+    /// An empty canvas with the same font and class.
     pub fn emptied(&self) -> Self {
         Self { font: self.font.clone(), class: self.class, marks: Vec::new() }
     }
@@ -51,12 +54,12 @@ impl Ink {
         Provenance { classes: vec![self.class], ..Provenance::default() }
     }
 
-    /// A path of one width; no dashes is solid.
+    /// Adds a stroked path; an empty dash pattern means a solid line.
     pub fn path(&mut self, path: BezPath, width: f64, dash: &[f64]) {
         self.dashed(path, width, dash, 0.0);
     }
 
-    /// The same with dashes that begin so far in.
+    /// Adds a stroked path whose dash pattern starts at an offset.
     pub fn dashed(&mut self, path: BezPath, width: f64, dash: &[f64], dash_offset: f64) {
         let paint = Paint::Stroke(StrokePaint {
             width,
@@ -69,40 +72,41 @@ impl Ink {
         self.marks.push(Mark { path, paint, provenance: self.provenance() });
     }
 
-    /// A straight line.
+    /// Adds a straight line.
     pub fn line(&mut self, a: Point, b: Point, width: f64) {
         self.path(way(&[a, b]), width, &[]);
     }
 
-    /// A rectangle.
+    /// Adds the outline of a rectangle.
     pub fn rect(&mut self, rect: Rect, width: f64) {
         self.path(rect.to_path(TOLERANCE), width, &[]);
     }
 
-    /// A circle.
+    /// Adds a circle.
     pub fn circle(&mut self, centre: Point, radius: f64, width: f64) {
         self.path(Circle::new(centre, radius).to_path(TOLERANCE), width, &[]);
     }
 
-    /// A filled path.
+    /// Adds a filled path.
     pub fn fill(&mut self, path: BezPath) {
         self.marks.push(Mark { path, paint: Paint::Fill(Colour::BLACK), provenance: self.provenance() });
     }
 
-    /// A filled arrow of that length, with its tip at a point, that points in a direction.
+    /// Adds a filled arrow head with its tip at a point.
     pub fn arrow(&mut self, tip: Point, towards: Vec2, length: f64) {
         let back = -towards * (length / towards.hypot2().sqrt());
-        // 30 degrees wide (ISO 129-1).
+        // 30 degrees opening angle (ISO 129-1): 0.268 = tan 15°.
         let side = Vec2::new(-back.y, back.x) * 0.268;
         let mut path = way(&[tip, tip + back + side, tip + back - side]);
         path.close_path();
         self.fill(path);
     }
 
-    /// A word, whose capitals are so high, on a line of writing; smaller where it would be wider than `most`. Gives how wide it is.
+    /// Adds a word with its baseline at a point and returns its width. `high` is the height of capitals. The
+    /// word shrinks if it would be wider than `most`; 0 sets no limit.
     ///
     /// # Errors
-    /// If no font has one of its letters.
+    /// Returns an error if no font has a glyph.
     pub fn word(&mut self, words: &str, at: Point, high: f64, stand: Stand, most: f64) -> Result<f64, Error> {
         let Some((mut block, mut setting)) = self.set(words, high)? else { return Ok(0.0) };
         if block.width > most && most > 0.0 {
@@ -118,10 +122,11 @@ impl Ink {
         Ok(block.width)
     }
 
-    /// A text in lines no wider than so much, from its upper left corner. Gives how high it is.
+    /// Adds a text broken into lines of at most `width` and returns its height. `corner` is the upper left
+    /// corner.
     ///
     /// # Errors
-    /// If no font has one of its letters, or a word is too wide.
+    /// Returns an error if no font has a glyph, or a word is too wide.
     pub fn lines(&mut self, words: &str, corner: Point, high: f64, width: f64) -> Result<f64, Error> {
         let Some((_, setting)) = self.set(words, high)? else { return Ok(0.0) };
         let block = Block::in_width(words, &setting, width)?;
@@ -129,10 +134,10 @@ impl Ink {
         Ok(block.height)
     }
 
-    /// Lines of a text within a width: broken between words where that is enough, else between letters.
+    /// Breaks a text into lines of at most `width`, between words if possible, otherwise inside words.
     ///
     /// # Errors
-    /// If no font has one of its letters.
+    /// Returns an error if no font has a glyph.
     pub fn wrapped(&self, words: &str, high: f64, width: f64) -> Result<Vec<String>, Error> {
         let mut lines: Vec<String> = Vec::new();
         for paragraph in words.lines() {
@@ -144,7 +149,7 @@ impl Ink {
                     continue;
                 }
                 lines.extend(Some(std::mem::take(&mut line)).filter(|line| !line.is_empty()));
-                // A word that is wider than the line.
+                // The word alone is wider than the line, so it is broken between letters.
                 for c in word.chars() {
                     let longer = format!("{line}{c}");
                     if !line.is_empty() && self.width(&longer, high)? > width {
@@ -159,11 +164,11 @@ impl Ink {
         Ok(lines)
     }
 
-    /// The largest of some heights of letters, which fall, at which the lines of a text fit, and these lines; the smallest where they fit
-    /// at none.
+    /// The first of the given letter heights that lets a text fit, with its lines; the last height if none
+    /// fits. `heights` falls.
     ///
     /// # Errors
-    /// If no font has one of its letters, or the text is too long for any table.
+    /// Returns an error if no font has a glyph, or the text is too long for any table.
     pub fn fitted(
         &self,
         words: &str,
@@ -185,10 +190,10 @@ impl Ink {
         Ok(found)
     }
 
-    /// How wide a word is.
+    /// The width of a word, mm.
     ///
     /// # Errors
-    /// If no font has one of its letters.
+    /// Returns an error if no font has a glyph.
     pub fn width(&self, words: &str, high: f64) -> Result<f64, Error> {
         Ok(self.set(words, high)?.map_or(0.0, |(block, _)| block.width))
     }
@@ -201,7 +206,7 @@ impl Ink {
         Ok(Some((Block::unbroken(words, &setting)?, setting)))
     }
 
-    /// All of it as a drawing of that size.
+    /// All marks as a drawing of the given size.
     pub fn drawing(self, title: &str, width: f64, height: f64) -> Drawing {
         let page = Page { width, height, unit: Unit::Mm, background: None };
         let layer = Layer { kind: LayerKind::Callouts, pen: None, ordered: true, marks: self.marks };
@@ -209,10 +214,10 @@ impl Ink {
     }
 }
 
-/// How near curves are to circles, mm.
+/// Tolerance of circles and rectangles as Bézier paths, mm.
 const TOLERANCE: f64 = 1e-3;
 
-/// The way through points.
+/// The polyline through some points.
 pub(crate) fn way(points: &[Point]) -> BezPath {
     let mut path = BezPath::new();
     for (k, p) in points.iter().enumerate() {

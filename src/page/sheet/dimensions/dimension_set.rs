@@ -1,4 +1,7 @@
-//! [`Measures`]: the lengths and diameters that views tell.
+//! [`Measures`]: the dimensions of all views: lengths, diameters and radii with their texts.
+//!
+//! Automatic dimensions are the overall size, the diameters of whole cylinders, and the positions of holes.
+//! Each of them is shown in one view only.
 
 use glam::DVec3;
 use kurbo::{Point, Vec2};
@@ -10,33 +13,35 @@ use crate::page::sheet::arrangement::view_plan::Plan;
 use crate::page::sheet::lengths::length_precision::{Measured, Precision};
 use crate::page::sheet::view::view_side::{Side, Told};
 
-/// Positions nearer than this to the side, on paper, have no dimension, mm. No side has more dimensions of positions.
+/// Minimum distance of a dimensioned position from the side, on paper, mm; maximum number of positions per
+/// side.
 const SAME: f64 = 0.05;
 const MOST: usize = 6;
 
-/// A diameter or a radius with a line that leads to it.
+/// A diameter or radius with a leader.
 #[derive(Debug, Clone)]
 pub(crate) struct Led {
     pub centre: Point,
-    /// On the page, mm.
+    /// Radius on paper, mm.
     pub radius: f64,
     pub text: String,
-    /// The circle that several stand on.
+    /// Centre and radius of the pitch circle of several holes, page mm.
     pub pitch: Option<(Point, f64)>,
 }
 
-/// A length between two points along any direction, or on a line at a given place.
+/// A length that is not in a row: in any direction, or at a given distance.
 #[derive(Debug, Clone)]
 pub(crate) struct Slanted {
     pub ends: [Point; 2],
-    /// Its direction, of unit length.
+    /// Unit vector of the length.
     pub along: Vec2,
-    /// How far from the points its line is, mm, to the right or below if above 0. Default: where it finds place.
+    /// Distance of the dimension line from its points in mm, to the right or below if positive. Default: the
+    /// first free place.
     pub offset: Option<f64>,
     pub text: String,
 }
 
-/// What the views tell.
+/// The dimensions of all views, each with the number of its view.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Measures {
     pub lengths: Vec<(usize, Told)>,
@@ -50,13 +55,14 @@ impl Measures {
         self.lengths.push((view, Told { ends, side, text }));
     }
 
-    /// Adds the length, the height and the depth of the whole: below and on the left of the first view, and at one from another side.
+    /// Adds the overall length, height and depth: below and to the left of the first side view, the third one
+    /// in another side view.
     pub fn add_overall(&mut self, plan: &Plan) {
         let points = Measured::of_parts(&plan.sets[0].scene, |_| true);
         let mut told: Vec<DVec3> = Vec::new();
         let is_side = |k: &usize| matches!(plan.views[*k].stands, Stands::Beside(_));
         let mut sides: Vec<usize> = (0..plan.views.len()).filter(is_side).collect();
-        // Lines of cutting planes stand in the way.
+        // Views without section marks come first, because the marks take the space of dimensions.
         sides.sort_by_key(|k| plan.cuts.iter().any(|cut| crossed(plan, cut) == Some(*k)));
         for view in sides {
             let sight = &plan.views[view].sight;
@@ -66,7 +72,7 @@ impl Measures {
                     continue;
                 }
                 told.push(axis);
-                // From the outermost points that are nearest to the line.
+                // From the outermost points, take those nearest to the dimension line.
                 let key = |p: &Measured| {
                     let page = sight.page(p.at);
                     if side.is_across() { (page.x, -page.y) } else { (page.y, page.x) }
@@ -89,7 +95,7 @@ impl Measures {
         }
     }
 
-    /// Adds diameters, and the places of their axes from the left and from below.
+    /// Adds diameters, and the positions of holes from the left and lower edges of the view.
     pub fn add_rounds(&mut self, plan: &Plan, rounds: &[Round]) {
         for round in rounds {
             let sight = &plan.views[round.view].sight;
@@ -101,7 +107,7 @@ impl Measures {
             });
             let text = format!("{count}⌀{}{on}", plan.values.written(2.0 * round.radius, round.precision));
             let centres: Vec<Point> = round.centres.iter().map(|at| sight.page(*at)).collect();
-            // The one that is nearest to the upper right corner.
+            // The leader belongs to the circle nearest to the upper right corner.
             let high = |p: &Point| p.x - p.y;
             let Some(centre) = centres.iter().copied().max_by(|a, b| high(a).total_cmp(&high(b))) else {
                 continue;
@@ -116,7 +122,8 @@ impl Measures {
             let sight = &plan.views[view].sight;
             let rect = sight.rect();
             let own: Vec<&Round> = rounds.iter().filter(|round| round.view == view).collect();
-            // Axes of holes, but of those in the middle of something round, which stand where it does.
+            // Positions of holes, except holes that are concentric with something round, which is positioned
+            // already.
             let outer: Vec<Point> = own
                 .iter()
                 .filter(|round| !round.hollow)
@@ -133,7 +140,7 @@ impl Measures {
             for (side, axis) in [(Side::Below, right), (Side::Left, up)] {
                 let mut done: Vec<String> = Vec::new();
                 let mut sorted = places.clone();
-                // Of several in line the one that is nearest to the side.
+                // Of several holes in line, the nearest to the side comes first.
                 sorted.sort_by(|(a, _), (b, _)| {
                     let along = |p: &DVec3| (p.dot(axis), p.dot(right + up - axis));
                     let ((a, c), (b, d)) = (along(a), along(b));

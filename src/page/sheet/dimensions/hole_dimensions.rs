@@ -1,4 +1,9 @@
-//! [`rounds`]: the diameters that views tell by themselves: of whole cylinders that are seen along their axes, with nothing before them.
+//! [`rounds`]: automatic diameters of whole cylinders that a view sees end-on and unobstructed.
+//!
+//! 1. Whole cylinders of the mesh are found by their arc.
+//! 2. A face-id buffer of each side view shows whether the front rim of a cylinder is visible.
+//! 3. Visible cylinders with the same written diameter form one dimension, such as `4× ⌀5`.
+//! 4. Three or more equally spaced axes form a pitch circle.
 
 use glam::DVec3;
 
@@ -11,31 +16,31 @@ use crate::surface::{Cylinder, cylinders};
 use crate::view::View;
 use crate::view::raster::{FaceBuffer, Screen};
 
-/// Cylinders of one radius along one axis in a view.
+/// Cylinders of one radius in a view that are dimensioned together.
 #[derive(Debug, Clone)]
 pub(crate) struct Round {
-    /// The view they are told in.
+    /// Number of the view.
     pub view: usize,
     pub radius: f64,
-    /// What the input carries of the radius and of the places.
+    /// Precision of the radius and the positions.
     pub precision: Precision,
     pub hollow: bool,
-    /// Places of their axes.
+    /// Points on the axes, projected along the viewing direction, world.
     pub centres: Vec<DVec3>,
-    /// The middle and the radius of the circle they stand on, if they are three or more that do.
+    /// Centre and radius of the pitch circle of three or more equally spaced axes.
     pub pitch: Option<(DVec3, f64)>,
 }
 
-/// So much of a turn is a whole cylinder, radians.
+/// Minimum arc of a whole cylinder, radians.
 const WHOLE: f64 = 5.8;
 
-/// Places that differ by less than this share of the radius are the same.
+/// Positions are equal within this share of the radius.
 const SAME: f64 = 5e-3;
 
-/// Pixels along the longer side of a view in which is asked what stands before what.
+/// Pixels along the longer side of the view for the visibility test.
 const PIXELS: f64 = 900.0;
 
-/// More of them are told in no view.
+/// Maximum number of different diameters per view.
 const MOST: usize = 8;
 
 /// The whole cylinders of a mesh.
@@ -43,7 +48,7 @@ pub(crate) fn whole(mesh: &Mesh) -> Vec<Cylinder> {
     cylinders(mesh).into_iter().filter(|cylinder| cylinder.arc > WHOLE).collect()
 }
 
-/// The rounds of all views from the sides, each in the first view that shows it, the largest first.
+/// The diameters of all side views, each in the first view that shows it, largest first.
 pub(crate) fn rounds(plan: &Plan) -> Vec<Round> {
     let mesh = Mesh::build(plan.sets[0].scene.to_soup());
     let mut left = whole(&mesh);
@@ -92,7 +97,7 @@ pub(crate) fn rounds(plan: &Plan) -> Vec<Round> {
     found
 }
 
-/// The circle on which points stand at even angles, if they are three or more that do.
+/// The circle through equally spaced points, if there are at least three.
 fn pitch(centres: &[DVec3]) -> Option<(DVec3, f64)> {
     let count = centres.len();
     if count < 3 {
@@ -111,7 +116,8 @@ fn pitch(centres: &[DVec3]) -> Option<(DVec3, f64)> {
     (radius > 0.0 && centres.iter().all(stands)).then_some((middle, radius))
 }
 
-/// Parts cylinders along the line of sight into those before which nothing stands, and others.
+/// Splits cylinders along the viewing direction into visible and hidden ones, by sampling 8 points of their
+/// front rims.
 fn seen(mesh: &Mesh, sight: &Sight, cylinders: Vec<Cylinder>) -> (Vec<Cylinder>, Vec<Cylinder>) {
     if cylinders.is_empty() {
         return (Vec::new(), Vec::new());

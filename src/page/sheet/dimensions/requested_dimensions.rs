@@ -1,4 +1,10 @@
-//! [`add_told`]: the lengths and diameters that a page file asks for, between points, and sides and middles of parts.
+//! [`add_told`]: the dimensions that a page file requests, between points, sides and centres of parts.
+//!
+//! 1. Keys name points: coordinates, named points, or a side of a part, which is its outermost drawn point in
+//!    the view.
+//! 2. A diameter or radius uses the nearest cylinder that is seen end-on.
+//! 3. A length is measured by `true_length`. It goes to a row, or gets its own line if it is slanted or has
+//!    an offset.
 
 use glam::DVec3;
 use kurbo::{Point, Vec2};
@@ -18,10 +24,10 @@ use crate::page::sheet::view::view_side::Side;
 use crate::scene::Scene;
 use crate::surface::{Cylinder, cylinders};
 
-/// What names of places end with.
+/// The sides that the name of a place may end with.
 const ENDS: [&str; 5] = ["left", "right", "top", "bottom", "centre"];
 
-/// Adds what is asked for.
+/// Adds the requested dimensions.
 pub(crate) fn add_told(
     sheet: &SheetPage,
     plan: &Plan,
@@ -69,7 +75,7 @@ pub(crate) fn add_told(
     Ok(())
 }
 
-/// The place on the model that is told.
+/// The point on the model that a key names.
 fn point(
     told: &Spanned<PlaceKeys>,
     sheet: &SheetPage,
@@ -119,14 +125,14 @@ fn point(
     Ok(found.unwrap_or(Measured::exact(DVec3::ZERO)))
 }
 
-/// The middle of the box around points, with the coarsest of their steps.
+/// The centre of the bounding box of some points, with their coarsest step.
 fn centre(points: &[Measured]) -> Measured {
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
     let (low, high) = points.iter().fold(nothing, |(l, h), p| (l.min(p.at), h.max(p.at)));
     Measured { at: (low + high) / 2.0, step: points.iter().map(|p| p.step).fold(0.0, f64::max) }
 }
 
-/// The cylinder, seen along its axis, whose surface is nearest to a point.
+/// The leader of the cylinder that is seen end-on and whose surface is nearest to a point.
 fn of_cylinder(
     found: &[Cylinder],
     at: DVec3,
@@ -153,7 +159,7 @@ fn of_cylinder(
     Some(Led { centre, radius, text, pitch: None })
 }
 
-/// Adds a length.
+/// Adds a length, in a row if it is horizontal or vertical and has no offset.
 fn add_length(
     ends: [Point; 2],
     (measure, text): (Measure, String),

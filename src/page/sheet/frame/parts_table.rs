@@ -1,9 +1,12 @@
-//! [`ItemTable`]: the parts list as a table above the title block.
+//! [`ItemTable`]: the parts list as a table above the title block (ISO 7573).
 //!
-//! It has one column of rows or several, each with all headings: as few as keep it below a third of the sheet, else those that take least
-//! paper. Columns are as wide as the title block or half of that, or a third where all texts fit; more of them go on to the left. A text
-//! that is too long for its cell gets smaller letters, then several lines, and its row becomes higher. One column is read from below, as
-//! new items are added above (ISO 7573), several from above.
+//! Layouts with one to several columns of rows are tried, each column with all headings. The first one lower
+//! than 30 % of the sheet is taken, otherwise the one with the smallest area.
+//!
+//! - A column is as wide as the title block, half of it, or a third of it if all texts fit. More columns
+//!   continue to the left.
+//! - A text that is too long for its cell gets smaller letters, then several lines, and its row grows.
+//! - Rows start at the bottom, above the title block.
 
 use kurbo::{Point, Rect};
 
@@ -12,48 +15,48 @@ use crate::page::sheet::canvas::sheet_canvas::{Ink, NARROW, Stand, WIDE};
 use crate::page::sheet::parts_list::parts_list_items::Item;
 use crate::text::Font;
 
-/// Height of a row of one line, and of more lines, mm.
+/// Height of a row with one line, and of each further line, mm.
 const ROW: f64 = 6.0;
 const LINE: f64 = 2.9;
 
-/// Height of letters in the list, mm: as they are, and smallest.
+/// Letter heights in the table, preferred first, mm.
 const LETTERS: [f64; 4] = [2.5, 2.2, 2.0, 1.8];
 
-/// Height of the words of headings, and clear paper at both sides of a cell, mm.
+/// Letter height of headings, and padding at both sides of a cell, mm.
 const HEADING: f64 = 1.8;
 const ASIDE: f64 = 1.0;
 
-/// Width of the columns for numbers and counts, as narrow as they may be, mm.
+/// Minimum width of the columns for numbers and counts, mm.
 const NUMBER: f64 = 9.0;
 
-/// Width of a column that holds its heading, mm.
+/// Minimum width of a column with a heading, mm.
 const HEADED: f64 = 13.0;
 
-/// Shares of the height of the sheet that the list takes if it can, and at most.
+/// Preferred and maximum height of the table, as shares of the sheet's height.
 const LOW: f64 = 0.3;
 const HIGHEST: f64 = 0.6;
 
 const HEADINGS: [&str; 5] = ["Item", "Qty", "Name", "Material", "Remark"];
 
-/// A row: the lines of each cell, the height of their letters, and its own height.
+/// A row: letter height and lines of each cell, and the height of the row.
 struct Row {
     cells: [(f64, Vec<String>); 5],
     height: f64,
 }
 
-/// A parts list whose place is known.
+/// A parts table with its place.
 pub(crate) struct ItemTable {
     pub place: Rect,
-    /// Where cells end in a column.
+    /// The x coordinates of the cell borders in a column, from the left.
     ends: [f64; 6],
     columns: Vec<Vec<Row>>,
 }
 
 impl ItemTable {
-    /// The list of items above a title block; none where there are none.
+    /// Sets the table of some items above a title block; `None` without items.
     ///
     /// # Errors
-    /// If a letter is in no font, or the list does not fit.
+    /// Returns an error if no font has a glyph, or the table does not fit.
     pub fn new(items: &[Item], block: Rect, space: Rect, font: &Font) -> Result<Option<Self>, Error> {
         if items.is_empty() {
             return Ok(None);
@@ -72,7 +75,7 @@ impl ItemTable {
         let across = (space.width() / (whole / 2.0)).floor().max(1.0) as usize;
         let mut ways = vec![(1, whole)];
         ways.extend((2..=across).map(|count| (count, whole / 2.0)));
-        // Thirds where everything fits.
+        // Thirds are possible if all texts fit at full size.
         let third = whole / 3.0;
         let natural: f64 = widest.iter().skip(2).map(|wide| (wide + 2.0 * ASIDE).max(HEADED)).sum();
         let narrow = natural + 2.0 * NUMBER <= third
@@ -111,10 +114,10 @@ impl ItemTable {
         })
     }
 
-    /// Draws it.
+    /// Draws the table.
     ///
     /// # Errors
-    /// If a letter is in no font.
+    /// Returns an error if no font has a glyph.
     pub fn draw(&self, ink: &mut Ink) -> Result<(), Error> {
         let width = self.ends[5];
         for (k, column) in self.columns.iter().enumerate() {
@@ -149,13 +152,13 @@ fn texts(item: &Item) -> [String; 5] {
     [item.number.clone(), count, item.name.clone(), item.material.clone(), item.remark.clone()]
 }
 
-/// Where the cells of a column of some width end.
+/// Cell borders of a column with a given width.
 fn ends(width: f64, widest: &[f64; 5], natural: bool) -> [f64; 6] {
     let own = |k: usize| widest[k] + 2.0 * ASIDE;
     let [item, count] = [0, 1].map(|k| NUMBER.max(own(k)).min(0.2 * width));
     let is_remarked = widest[4] > 0.0;
     let [material, remark] = if natural {
-        // What is left over belongs to the name.
+        // The name column takes the rest of the width.
         [own(3).max(HEADED), if is_remarked { own(4).max(HEADED) } else { 0.0 }]
     } else if is_remarked {
         [0.22 * width; 2]
@@ -165,7 +168,7 @@ fn ends(width: f64, widest: &[f64; 5], natural: bool) -> [f64; 6] {
     [0.0, item, item + count, width - material - remark, width - remark, width]
 }
 
-/// A row whose texts are set in its cells.
+/// Sets the texts of a row into its cells.
 fn row(texts: &[String; 5], ends: &[f64; 6], ink: &Ink) -> Result<Row, Error> {
     let mut height = ROW;
     let mut cells = [const { (0.0, Vec::new()) }; 5];
@@ -179,7 +182,7 @@ fn row(texts: &[String; 5], ends: &[f64; 6], ink: &Ink) -> Result<Row, Error> {
     Ok(Row { cells, height })
 }
 
-/// Rows parted into columns that are as low as they can be, at most so many.
+/// Splits rows into at most `count` columns, with the tallest column as low as possible.
 fn parted(rows: Vec<Row>, count: usize) -> Vec<Vec<Row>> {
     let total: f64 = rows.iter().map(|row| row.height).sum();
     let highest = rows.iter().map(|row| row.height).fold(0.0, f64::max);

@@ -1,7 +1,7 @@
-//! The title block, and beside it scale, tolerances and the symbol of the method of projection.
+//! The title block, with a strip for scale, size, unit, tolerances and the projection symbol above it.
 //!
-//! Source: ISO 7200:2004, Data fields in title blocks and document headers: width, names and lengths of fields. ISO 5456-2:1996, 5: the
-//! symbol, a cut cone.
+//! Source: ISO 7200:2004 (width of the block, names and lengths of fields); ISO 5456-2:1996, 5 (the
+//! projection symbol, a truncated cone).
 
 use kurbo::{Point, Rect};
 use serde::Deserialize;
@@ -15,28 +15,28 @@ use crate::text::Font;
 /// Width of the title block, mm.
 pub const WIDTH: f64 = 180.0;
 
-/// Height of a row, and of the strip above the block.
+/// Height of a row, and of the strip above the block, mm.
 const ROW: f64 = 9.0;
 const STRIP: f64 = 10.0;
 
-/// Heights of letters in a row and in fields of two rows, from the usual ones to the smallest (ISO 3098), mm.
+/// Letter heights in one-row fields (`LOW`) and two-row fields (`TALL`), preferred first, mm (ISO 3098).
 const LOW: [f64; 4] = [2.5, 2.2, 2.0, SMALLEST];
 const TALL: [f64; 6] = [3.5, 3.0, 2.5, 2.2, 2.0, SMALLEST];
 const SMALLEST: f64 = 1.8;
 
-/// From line to line, and what reaches below a line, in heights of letters.
+/// Line pitch and descent, as multiples of the letter height.
 const PITCH: f64 = 1.5;
 const DESCENT: f64 = 0.35;
 
-/// Room for the name of a field, below its text, and at its sides, mm.
+/// Space for the name of a field, below its text, and at its sides, mm.
 const NAMES: f64 = 3.4;
 const UNDER: f64 = 0.6;
 const ASIDE: f64 = 1.0;
 
-/// The share of the height of the sheet that the block takes at most.
+/// Maximum height of the block as a share of the sheet's height.
 const HIGHEST: f64 = 0.4;
 
-/// What a title block says.
+/// The texts of a title block.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct TitleKeys {
@@ -54,7 +54,7 @@ pub struct TitleKeys {
     pub date: String,
     /// Language code.
     pub language: String,
-    /// Number of the sheet and of sheets: `1/3`.
+    /// Sheet number and number of sheets: `1/3`.
     pub sheet: String,
     /// Responsible department.
     pub department: String,
@@ -72,10 +72,10 @@ pub struct TitleKeys {
     pub tolerances: String,
 }
 
-/// A field of the block: its name, the key of its text, and where it is: from column to column, mm, and from row to row.
+/// A field of the block: its name, the key of its text, its columns from and to (mm), its rows from and to.
 type Field<'a> = (&'a str, &'a str, [f64; 2], [usize; 2]);
 
-/// The fields of texts from the page file.
+/// The fields with texts from the page file.
 fn fields(keys: &TitleKeys) -> [(Field<'static>, &String); 14] {
     [
         (("General tolerances", "tolerances", [0.0, 80.0], [0, 1]), &keys.tolerances),
@@ -95,28 +95,28 @@ fn fields(keys: &TitleKeys) -> [(Field<'static>, &String); 14] {
     ]
 }
 
-/// Lines of a text, and the height of their letters, mm.
+/// Letter height in mm, and the lines of a text.
 type Lines = (f64, Vec<String>);
 
-/// How high lines are, with what reaches below the last one.
+/// Height of some lines, including the descent of the last one.
 fn height((high, lines): &Lines) -> f64 {
     if lines.is_empty() { 0.0 } else { high * (PITCH * (lines.len() - 1) as f64 + 1.0 + DESCENT) }
 }
 
-/// A title block whose place is known: rows are as high as their texts need.
+/// A title block with its place; rows are high enough for their texts.
 pub(crate) struct TitleBlock {
     pub place: Rect,
-    /// Where rows begin and end.
+    /// The y coordinates of the row borders.
     rows: [f64; 5],
-    /// For each field its text, and below it the supplementary title.
+    /// For each field its text, and the supplementary title below it.
     texts: Vec<(Field<'static>, Lines, Lines)>,
 }
 
 impl TitleBlock {
-    /// The title block in the lower right corner of a drawing space.
+    /// Sets the title block in the lower right corner of a drawing space.
     ///
     /// # Errors
-    /// If a letter is in no font, or a text is too long for the sheet.
+    /// Returns an error if no font has a glyph, or a text is too long for the sheet.
     pub fn new(keys: &TitleKeys, space: Rect, font: &Font, source: &Source) -> Result<Self, Error> {
         let ink = Ink::new(font, "title-block");
         let mut rows = [STRIP, ROW, ROW, ROW];
@@ -142,7 +142,7 @@ impl TitleBlock {
             let left = room - if below.1.is_empty() { 0.0 } else { height(&below) + UNDER };
             let fits = |high: f64, lines: usize| height(&(high, vec![String::new(); lines])) <= left + 1e-9;
             let own = ink.fitted(text, heights, width, fits).map_err(about(key, text))?;
-            // Rows become higher where the smallest letters do not fit.
+            // The last row of the field grows if the smallest letters do not fit.
             let needed = height(&own) - left;
             if needed > 0.0 {
                 rows[to - 1] += needed;
@@ -170,10 +170,11 @@ impl TitleBlock {
         Rect::new(self.place.x0 + x0, self.rows[from], self.place.x0 + x1, self.rows[to])
     }
 
-    /// Draws it, with the scale, the method of projection, the name of the size and the unit of dimensions.
+    /// Draws the block with the scale, the projection symbol, the name of the size and the unit of
+    /// dimensions.
     ///
     /// # Errors
-    /// If a letter is in no font.
+    /// Returns an error if no font has a glyph.
     pub fn draw(
         &self,
         (scale, method, size, unit): (&str, Method, &str, &str),
@@ -193,7 +194,7 @@ impl TitleBlock {
             ink.rect(cell, NARROW);
             let left = cell.x0 + ASIDE;
             ink.word(name, Point::new(left, cell.y0 + 2.7), SMALLEST, Stand::Left, 0.0)?;
-            // Texts of one line stand at one height above the bottom of their row.
+            // Texts of one line share a baseline above the bottom of their row.
             let is_low = rows[1] - rows[0] == 1;
             let mut y = if is_low && text.1.len() < 2 {
                 cell.y1 - 1.6
@@ -219,16 +220,16 @@ impl TitleBlock {
     }
 }
 
-/// The symbol of first- or third-angle projection around a point: a cut cone from the side, and along its axis.
+/// Draws the projection symbol around a point: a truncated cone from the side and along its axis.
 fn symbol(middle: Point, method: Method, ink: &mut Ink) {
-    // Diameters of its ends, and its length: in the proportions of the standard, for letters of 2.5 mm.
+    // Diameters of the ends and length, in the proportions of the standard for letters of 2.5 mm.
     let (small, large, length) = (2.5, 5.0, 5.0);
     let (cone, rings) = match method {
         Method::First => (middle.x - 5.0, middle.x + 5.0),
         Method::Third => (middle.x + 5.0, middle.x - 5.0),
     };
     let [left, right] = [cone - length / 2.0, cone + length / 2.0];
-    // The rings show it from the left, where it is thin.
+    // The circles show the cone from the left, from its small end.
     let [(x0, d0), (x1, d1)] = [(left, small), (right, large)];
     let at = |x: f64, y: f64| Point::new(x, middle.y + y);
     let mut outline = way(&[at(x0, -d0 / 2.0), at(x1, -d1 / 2.0), at(x1, d1 / 2.0), at(x0, d0 / 2.0)]);

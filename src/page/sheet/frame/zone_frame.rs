@@ -1,4 +1,4 @@
-//! The frame of a sheet with its zones, centring marks and trimming marks.
+//! The frame of a sheet with zones, centring marks and trimming marks.
 //!
 //! Source: ISO 5457:1999, Technical product documentation, Sizes and layout of drawing sheets, 4.
 
@@ -8,26 +8,27 @@ use crate::error::Error;
 use crate::page::page_size::Size;
 use crate::page::sheet::canvas::sheet_canvas::{Ink, Stand};
 
-/// From the edge of the trimmed sheet to the frame: on the left, where it is filed, and elsewhere; mm.
+/// Distance from the edge of the trimmed sheet to the frame: the filing margin on the left, and the others,
+/// mm.
 const LEFT: f64 = 20.0;
 const OTHER: f64 = 10.0;
 
-/// Width of the frame and of centring marks, and of the border of the zones.
+/// Line width of the frame and the centring marks, and of the zone borders, mm.
 const FRAME_WIDTH: f64 = 0.7;
 const ZONE_WIDTH: f64 = 0.35;
 
-/// From the frame to the border of the zones, the length of a zone, and the height of its letters.
+/// Width of the zone band around the frame, length of a zone, and height of its letters, mm.
 const BAND: f64 = 5.0;
 const ZONE: f64 = 50.0;
 const LETTERS: f64 = 3.5;
 
-/// What is left of a row of zones and shorter than this belongs to the last one.
+/// A shorter rest at the end of a row of zones is merged into the last zone, mm.
 const SHORT: f64 = 20.0;
 
-/// How far centring marks reach into the drawing space.
+/// Length of centring marks inside the frame, mm.
 const CENTRING: f64 = 10.0;
 
-/// Trimming marks: two rectangles of these sides at each corner.
+/// Sides of the two rectangles of a trimming mark, mm.
 const TRIMMING: [f64; 2] = [10.0, 5.0];
 
 /// The drawing space of a sheet, mm.
@@ -36,8 +37,9 @@ pub fn space(size: Size) -> Rect {
     Rect::new(LEFT, OTHER, size.width - OTHER, size.height - OTHER)
 }
 
-/// Where zones end along a side from `low` to `high` of the frame, both ends included: they are 50 mm long from the middle of the sheet
-/// on, and take up what is left at the ends.
+/// Zone borders along a side of the frame from `low` to `high`, both ends included.
+///
+/// Zones are 50 mm long, counted from the middle of the sheet. The end zones take up the rest.
 #[must_use]
 pub fn zones(low: f64, high: f64, middle: f64) -> Vec<f64> {
     let count = |length: f64| {
@@ -49,7 +51,7 @@ pub fn zones(low: f64, high: f64, middle: f64) -> Vec<f64> {
     [low].into_iter().chain(inner).chain([high]).collect()
 }
 
-/// The centring marks of a sheet, from the border of the zones into the drawing space, but not into tables.
+/// The centring marks of a sheet. They reach into the drawing space, except where a table is.
 pub(crate) fn centring_marks(size: Size, tables: &[Rect]) -> [[Point; 2]; 4] {
     let frame = space(size);
     let (middle, outer) = (Point::new(size.width / 2.0, size.height / 2.0), frame.inflate(BAND, BAND));
@@ -67,13 +69,13 @@ pub(crate) fn centring_marks(size: Size, tables: &[Rect]) -> [[Point; 2]; 4] {
     })
 }
 
-/// Draws all of it.
+/// Draws the frame, the zones and the marks.
 pub(crate) fn draw(size: Size, marks: &[[Point; 2]], ink: &mut Ink) -> Result<(), Error> {
     let frame = space(size);
     let (middle, outer) = (Point::new(size.width / 2.0, size.height / 2.0), frame.inflate(BAND, BAND));
     ink.rect(frame, FRAME_WIDTH);
     ink.rect(outer, ZONE_WIDTH);
-    // A4 has letters and numbers above and on the right alone.
+    // A4 has zone letters and numbers only at the top and on the right.
     let small = size.width.max(size.height) <= 297.0;
     let columns = zones(frame.x0, frame.x1, middle.x);
     for (k, pair) in columns.windows(2).enumerate() {
@@ -88,7 +90,7 @@ pub(crate) fn draw(size: Size, marks: &[[Point; 2]], ink: &mut Ink) -> Result<()
             }
         }
     }
-    // I and O are left out.
+    // I and O are not used, as the standard requires.
     let letters: Vec<char> = ('A'..='Z').filter(|c| !matches!(c, 'I' | 'O')).collect();
     for (k, pair) in zones(frame.y0, frame.y1, middle.y).windows(2).enumerate() {
         let letter = letters[k % letters.len()].to_string();

@@ -1,4 +1,4 @@
-//! The settings of a sheet's exploded view.
+//! The settings of a sheet's exploded view, checked and converted.
 
 use glam::DVec3;
 use toml::Spanned;
@@ -9,11 +9,11 @@ use crate::error::Error;
 use crate::page::page_source::Source;
 use crate::scene::Scene;
 
-/// How the keys have a scene come apart.
+/// Converts the keys to the settings of an explosion.
 ///
 /// # Errors
 ///
-/// If an axis or a direction is none, a number is out of range, or no part has a name.
+/// Returns an error if an axis or direction is invalid, a number is out of range, or no part has a name.
 pub(crate) fn explosion(keys: &ExplodedKeys, scene: &Scene, source: &Source) -> Result<Explosion, Error> {
     let axis = keys.axis.as_ref().map(|axis| direction_of(axis, "axis", source)).transpose()?;
     let factor = keys.factor.as_ref().map_or(1.0, |factor| *factor.get_ref());

@@ -12,184 +12,196 @@ use crate::page::sheet::frame::title_block::TitleKeys;
 use crate::page::sheet::view::projection_method::Method;
 use crate::page::sheet::view::view_side::Side;
 
-/// What a page file tells of a technical sheet.
+/// A technical sheet in a page file.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct SheetPage {
-    /// Its size. Sheets larger than A4 lie on their longer side. Default: A3.
+    /// Size of the sheet. Sheets larger than A4 are in landscape format. Default: A3.
     pub size: Option<Size>,
-    /// The model, or several.
+    /// One or more models.
     pub model: Models,
-    /// What a unit of the model is: `mm`, `cm`, `m`, `in` or `ft`. Default: m in glTF, mm elsewhere.
+    /// Unit of the model: `mm`, `cm`, `m`, `in` or `ft`. Default: m for glTF, mm otherwise.
     pub unit: Option<Spanned<String>>,
-    /// The unit of the dimensions: `mm`, `cm`, `m`, `in` or `ft`. Default: in or ft if the model is in that unit, else mm.
+    /// Unit of the dimensions: `mm`, `cm`, `m`, `in` or `ft`. Default: that of the model if it is in or ft,
+    /// mm otherwise.
     pub dimension_unit: Option<Spanned<String>>,
-    /// How many decimals dimensions have at most, 0 to 9. Default: 2 in mm, 3 in other units.
+    /// Maximum number of decimals in dimensions, 0 to 9. Default: 2 in mm, 3 in other units.
     pub decimals: Option<Spanned<i64>>,
-    /// Whether dimensions have a decimal comma. Default: a point.
+    /// Whether dimensions use a decimal comma. Default: no, a point.
     pub decimal_comma: bool,
-    /// The style of the views. Default: technical.
+    /// Style of the views. Default: technical.
     pub style: Option<Spanned<String>>,
-    /// Changes to the style: `KEY=VALUE` each.
+    /// Changes to the style, each `KEY=VALUE`.
     pub set: Vec<Spanned<String>>,
-    /// The font of all letters. Default: technical.
+    /// Font of all texts. Default: technical.
     pub font: Option<Spanned<String>>,
     /// First- or third-angle projection. Default: first.
     pub projection: Method,
-    /// The scale of the views, such as `1:5`. Default: the largest of the series that fits.
+    /// Scale of the views, such as `1:5`. Default: the largest of the standard series that fits.
     pub scale: Option<Spanned<String>>,
     /// The views. Default: front, top, left and iso.
     pub views: Option<Vec<Spanned<String>>>,
-    /// Whether edges that are hidden are drawn dashed. Default: no.
+    /// Whether hidden edges are drawn dashed. Default: no.
     pub hidden: bool,
-    /// Whether the length, the height and the depth of the whole are told. Default: yes.
+    /// Whether the overall length, height and depth are dimensioned. Default: yes.
     pub overall: Option<bool>,
-    /// Whether axes of whole cylinders are drawn. Default: where the model is a single part.
+    /// Whether centre lines of whole cylinders are drawn. Default: yes if the model is a single part or
+    /// `dimensions` is `auto`.
     #[serde(alias = "center_lines")]
     pub centre_lines: Option<bool>,
-    /// What the title block says.
+    /// Texts of the title block.
     pub title: TitleKeys,
-    /// Views of the model cut open.
+    /// Section views.
     pub section: Vec<SectionKeys>,
-    /// Places shown larger, in circles.
+    /// Detail views: circled areas at a larger scale.
     pub detail: Vec<DetailKeys>,
-    /// The model taken apart.
+    /// The exploded view.
     pub exploded: Option<ExplodedKeys>,
-    /// Whether there is a parts list from the names of parts, or the file (CSV or TOML) with its rows. Default: no.
+    /// Whether there is a parts list made from part names, or the file (CSV or TOML) with its rows. Default:
+    /// no.
     pub parts_list: Option<Spanned<ListKeys>>,
-    /// The view that has the balloons of the parts list. Default: exploded if there is such a view, else iso.
+    /// Name of the view with the balloons of the parts list, or `none`. Default: exploded if there is such a
+    /// view, else iso.
     pub balloons: Option<Spanned<String>>,
-    /// What views tell by themselves: `none`, `overall`, or `auto`: also the diameters of whole cylinders that are seen along their axes,
-    /// and where holes are. Default: overall.
+    /// Automatic dimensions: `none`, `overall` or `auto`. `auto` adds diameters of whole cylinders that are
+    /// seen end-on, and positions of holes. Default: overall.
     pub dimensions: Option<Spanned<String>>,
-    /// Points that dimensions name, in units of the model.
+    /// Named points for dimensions, in model units.
     pub points: BTreeMap<String, [f64; 3]>,
-    /// Lengths and diameters in views.
+    /// Dimensions: lengths, diameters and radii.
     pub dimension: Vec<Spanned<DimensionKeys>>,
     /// Notes.
     pub notes: Vec<String>,
 }
 
-/// Where a parts list comes from.
+/// Source of a parts list.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(
     untagged,
     expecting = "this is not a parts list; write true, false, or the path of a file such as \"parts.csv\""
 )]
 pub enum ListKeys {
-    /// From the names of parts, or none.
+    /// Made from part names if true; no list if false.
     Named(bool),
-    /// From a file.
+    /// The path of a file.
     File(String),
 }
 
-/// A view of the model cut open.
+/// A section view.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SectionKeys {
-    /// The plane: `x`, `y=12.5`, `z=30%`, `normal:1,0,1@5mm`. What its normal points at is taken away, and looked at from there.
+    /// Cutting plane: `x`, `y=12.5`, `z=30%`, `normal:1,0,1@5mm`. The half that the normal points to is
+    /// removed, and the view looks from there.
     pub plane: Spanned<String>,
-    /// Its letter. Default: the next one.
+    /// Letter of the section. Default: the next one.
     pub label: Option<String>,
     /// Parts that are not cut.
     #[serde(default)]
     pub uncut: Vec<String>,
 }
 
-/// A place shown larger.
+/// A detail view.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DetailKeys {
-    /// The view it is in. Default: front.
+    /// Name of the view that contains the detail. Default: the first view.
     pub of: Option<Spanned<String>>,
-    /// The middle of it, in units of the model.
+    /// Centre of the detail, in model units.
     pub at: [f64; 3],
-    /// Its radius in units of the model.
+    /// Radius of the detail, in model units.
     pub radius: Spanned<f64>,
-    /// Its scale. Default: the second larger one of the series.
+    /// Scale of the detail. Default: five times the scale of the sheet.
     pub scale: Option<Spanned<String>>,
-    /// Its letter. Default: the next one.
+    /// Letter of the detail. Default: the next one.
     pub label: Option<String>,
 }
 
-/// The model taken apart.
+/// The exploded view.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ExplodedKeys {
-    /// Along which axis: x, y, z, or three numbers such as 1,0,1. Default: the best one.
+    /// Axis of the explosion: x, y, z, or three numbers such as 1,0,1. Default: chosen automatically.
     pub axis: Option<Spanned<String>>,
-    /// How far. Default: 1.
+    /// Factor of all distances. Default: 1.
     pub factor: Option<Spanned<f64>>,
-    /// From where it is seen. Default: iso.
+    /// Named view that shows the explosion. Default: iso.
     pub view: Option<Spanned<String>>,
-    /// How single parts come apart.
+    /// Settings of single parts.
     pub part: Vec<PartExplosionKeys>,
 }
 
-/// How parts come apart whose name matches. Values that are not set are found.
+/// Explosion settings of the parts whose names match. Values that are not set are computed.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PartExplosionKeys {
-    /// The pattern for their names.
+    /// Pattern for part names.
     pub name: Spanned<Glob>,
-    /// The direction of their way: x, -y, or three numbers such as 1,0,1.
+    /// Direction of movement: x, -y, or three numbers such as 1,0,1.
     pub along: Option<Spanned<String>>,
-    /// How far they move, in units of the model; 0 has them stay.
+    /// Distance in model units; 0 keeps the parts in place.
     pub distance: Option<Spanned<f64>>,
-    /// Their place: of two parts that have one and overlap, that with the greater one comes to stand farther along the axis.
+    /// Order along the axis: of two overlapping parts with an order, the one with the larger number moves
+    /// farther.
     pub order: Option<Spanned<f64>>,
-    /// Parts of one group stay together.
+    /// Name of a group; the parts of a group move together.
     pub group: Option<String>,
 }
 
-/// A length or a diameter in a view.
+/// A dimension: a length, a diameter or a radius in a view.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DimensionKeys {
-    /// The view it is in. Default: front.
+    /// Name of the view. Default: front.
     pub of: Option<Spanned<String>>,
-    /// From here.
+    /// First point of a length.
     pub from: Option<Spanned<PlaceKeys>>,
-    /// To there.
+    /// Second point of a length.
     pub to: Option<Spanned<PlaceKeys>>,
-    /// Where the cylinder is whose diameter or radius is told: the one whose surface is nearest.
+    /// A point near the cylinder whose diameter or radius is shown; the cylinder with the nearest surface is
+    /// used.
     pub at: Option<Spanned<PlaceKeys>>,
-    /// Which length: `horizontal`, `vertical` or `aligned`; or `diameter` or `radius` of a cylinder. Default: aligned.
+    /// What is measured: `horizontal`, `vertical`, `aligned`, `diameter` or `radius`. Default: aligned.
     pub measure: Option<Measure>,
-    /// How far beside the points its line is, mm, to the right or below if above 0. Default: in a row with others, on `side`.
+    /// Distance of the dimension line from its points in mm, to the right or below if positive. Default: in a
+    /// row with others, on `side`.
     pub offset: Option<f64>,
-    /// The side of the view it stands on: `left`, `right`, `above` or `below`. Default: below, or left where it is vertical.
+    /// Side of the view for the dimension: `left`, `right`, `above` or `below`. Default: below, or left for
+    /// vertical lengths.
     pub side: Option<Side>,
-    /// What it says in place of the length.
+    /// Text that replaces the length.
     pub text: Option<String>,
 }
 
-/// A place on the model: a point in its units, or the name of one, or of a side of a part: `housing.left`.
+/// A point on the model: coordinates in model units, the name of a point, or a side of a part such as
+/// `housing.left`.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(
     untagged,
     expecting = "this is not a place; write a point such as [0, 10, 5], or a name such as \"housing.left\""
 )]
 pub enum PlaceKeys {
-    /// A point.
+    /// Coordinates.
     Point([f64; 3]),
-    /// A point of `[page.points]`; or `left`, `right`, `top`, `bottom` or `centre` of what is seen, or of parts whose name stands before it.
+    /// The name of a point in `[page.points]`; or `left`, `right`, `top`, `bottom` or `centre` of the model,
+    /// or of the parts named before the dot.
     Named(String),
 }
 
-/// What is told of a model in a view.
+/// The quantity that a dimension measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Measure {
-    /// Across the page.
+    /// Horizontal distance on the page.
     Horizontal,
-    /// Down the page.
+    /// Vertical distance on the page.
     Vertical,
-    /// From point to point: in the plane of the view, or along an axis of the model in a pictorial view.
+    /// Distance between two points: in the plane of the view, or along an axis of the model in a pictorial
+    /// view.
     #[default]
     Aligned,
-    /// How thick a cylinder is.
+    /// Diameter of a cylinder.
     Diameter,
-    /// Half of that.
+    /// Radius of a cylinder.
     Radius,
 }

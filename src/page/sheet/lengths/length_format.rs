@@ -1,10 +1,10 @@
-//! [`Values`]: lengths as dimensions write them.
+//! [`Values`]: formats lengths for dimensions.
 //!
-//! 1. A length is rounded to the precision of the input, a power of ten in units of the model. So a length of 53.975 that a file
-//!    in single precision holds as 53.974998 is 53.975 again.
+//! 1. A length is rounded to the precision of the input, a power of ten in model units. For example,
+//!    53.974998 in single precision becomes 53.975 again.
 //! 2. It is converted from the unit of the model to the unit of the dimensions.
-//! 3. It is rounded to the number of decimals. Ties go away from zero. A length that is not 0 keeps its first digit.
-//! 4. Zeros at the end of the decimals are left out (ISO 129-1).
+//! 3. It is rounded to the number of decimals, ties away from zero. A length above 0 keeps its first digit.
+//! 4. Trailing zeros are removed (ISO 129-1).
 
 use toml::Spanned;
 
@@ -13,7 +13,7 @@ use crate::error::Error;
 use crate::page::page_source::Source;
 use crate::page::sheet::keys::sheet_keys::SheetPage;
 
-/// The units of length that a page file may name, with their millimetres.
+/// The units that a page file may name.
 const UNITS: [Unit; 5] = [
     Unit { name: "mm", mm: 1.0 },
     Unit { name: "cm", mm: 10.0 },
@@ -22,44 +22,45 @@ const UNITS: [Unit; 5] = [
     Unit { name: "ft", mm: 304.8 },
 ];
 
-/// Most decimals by default, in millimetres and in other units.
+/// Default maximum of decimals, in millimetres and in other units.
 const DECIMALS: [u8; 2] = [2, 3];
 
-/// Most decimals that a page file may ask for.
+/// Largest number of decimals in a page file.
 const MAX_DECIMALS: u8 = 9;
 
-/// Decimals that the smallest numbers have a digit in.
+/// Decimals that are enough for the smallest double.
 const ALL_DECIMALS: usize = 330;
 
-/// A product of few factors in double precision is off by no more than this share. A value so near below a tie is one.
+/// Maximum relative error of a product of few factors in double precision. A value this close below a tie
+/// counts as a tie.
 const TIE: f64 = 8.0 * f64::EPSILON;
 
-/// Whole numbers from here on have no neighbours between them.
+/// Doubles are integers from here on (2^53).
 const WHOLE: f64 = 9_007_199_254_740_992.0;
 
 /// A unit of length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Unit {
     pub name: &'static str,
-    /// Millimetres in it.
+    /// Millimetres per unit.
     pub mm: f64,
 }
 
 impl Unit {
-    /// The unit that a key names.
+    /// Parses the unit in a key.
     ///
     /// # Errors
-    /// If there is no such unit.
+    /// Returns an error if there is no such unit.
     pub fn read(told: &Spanned<String>, source: &Source) -> Result<Self, Error> {
         let found = UNITS.into_iter().find(|unit| unit.name == told.get_ref());
         found.ok_or_else(|| source.unknown(told, "unit", &UNITS.map(|unit| unit.name)))
     }
 }
 
-/// How a sheet writes lengths.
+/// The format of lengths on a sheet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Values {
-    /// The unit of the model, and that of the dimensions.
+    /// Unit of the model, and unit of the dimensions.
     model: Unit,
     pub unit: Unit,
     decimals: u8,
@@ -67,10 +68,10 @@ pub(crate) struct Values {
 }
 
 impl Values {
-    /// As the keys of a sheet have it; `is_gltf` if the model's own unit is the metre.
+    /// Reads the format from the keys of a sheet. `is_gltf` makes the metre the default unit of the model.
     ///
     /// # Errors
-    /// If a unit is not known, or there are too many decimals.
+    /// Returns an error if a unit is unknown, or there are too many decimals.
     pub fn new(sheet: &SheetPage, is_gltf: bool, source: &Source) -> Result<Self, Error> {
         let [mm, _, metre, inch, foot] = UNITS;
         let model = match &sheet.unit {
@@ -95,12 +96,12 @@ impl Values {
         Ok(Self { model, unit, decimals, has_comma: sheet.decimal_comma })
     }
 
-    /// Millimetres in a unit of the model.
+    /// Millimetres per model unit.
     pub fn unit_mm(&self) -> f64 {
         self.model.mm
     }
 
-    /// A length in units of the model, as it is written.
+    /// Formats a length in model units.
     pub fn written(&self, length: f64, precision: Precision) -> String {
         let carried = precision.rounded(length.abs());
         let value = if self.model == self.unit { carried } else { carried * self.model.mm / self.unit.mm };
@@ -109,7 +110,7 @@ impl Values {
     }
 }
 
-/// A number that is not negative, with at most so many decimals, or more where it would be 0.
+/// Formats a non-negative number with at most `decimals` decimals, or more if it would be written as 0.
 fn decimal(value: f64, decimals: usize) -> String {
     let rounded = |decimals: usize| {
         let power = power_of_ten(decimals);

@@ -1,13 +1,20 @@
-//! [`Precision`]: the decimal that the input carries of a length.
+//! [`Precision`]: how many decimals the input carries of a length.
 //!
-//! Each point of the model has the step of its coordinates: the unit of the last decimal in a text, the distance of neighbouring numbers in
-//! single precision, the step of a lattice in quantised files; 0 in double precision. A point that a page file spells out has no step.
+//! Each point of the model has a step, the resolution of its coordinates:
 //!
-//! - Decimals of a text are kept as they are.
-//! - Each coordinate of single precision or of a lattice is off by up to half a step. A length is rounded to the finest power of
-//!   ten whose half is at least the error of both ends together: then a length with few decimals is found again.
-//! - Circles are fitted to many corners. The distance of the corners from the circle is measured; the radius is rounded to the next
-//!   power of ten.
+//! - the unit of the last decimal in a text file,
+//! - the distance between neighbouring numbers in single precision,
+//! - the step of the lattice in a quantised file,
+//! - 0 in double precision and for points that a page file spells out.
+//!
+//! Rules:
+//!
+//! - A length from decimals keeps those decimals.
+//! - A coordinate in single precision or on a lattice is off by up to half a step. A length is rounded to the
+//!   finest power of ten whose half is at least the error of both ends. That restores lengths with few
+//!   decimals.
+//! - A circle is fitted to many corners. The error is the distance of the corners from the circle; the radius
+//!   is rounded to the next power of ten.
 
 use glam::DVec3;
 
@@ -17,12 +24,12 @@ use crate::scene::triangle_soup::longest_axis;
 use crate::scene::{Geometry, Part, Scene};
 use crate::surface::Cylinder;
 
-/// A point of the model, or of a page file.
+/// A point of the model or of a page file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Measured {
-    /// Where it is, world.
+    /// Position, world.
     pub at: DVec3,
-    /// The step of its coordinates, world; 0 for double precision.
+    /// Step of its coordinates, world; 0 in double precision.
     pub step: f64,
 }
 
@@ -32,12 +39,12 @@ impl Measured {
         Self { at, step: 0.0 }
     }
 
-    /// The coarsest step of the parts of a scene.
+    /// The coarsest step of all parts of a scene.
     pub fn coarsest(scene: &Scene) -> f64 {
         scene.parts.iter().map(|part| step_of(scene, part)).fold(0.0, f64::max)
     }
 
-    /// The drawn points of some of the parts of a scene.
+    /// The drawn points of selected parts.
     pub fn of_parts(scene: &Scene, is_wanted: impl Fn(&Part) -> bool) -> Vec<Self> {
         let drawn = DrawnPoints::of_parts(scene, is_wanted);
         let mut found = Vec::with_capacity(drawn.points.len());
@@ -50,27 +57,27 @@ impl Measured {
     }
 }
 
-/// The step of the coordinates of a part, world.
+/// The step of a part's coordinates, world.
 fn step_of(scene: &Scene, part: &Part) -> f64 {
     let own = scene.geometry_of(part).map_or(0.0, Geometry::finest_step);
     own * longest_axis(&part.world_from_part)
 }
 
-/// The decimal that the input carries of a length.
+/// The number of decimals that the input carries of a length.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Precision {
-    /// The power of ten to which a length is rounded: minus its exponent.
+    /// Minus the exponent of the power of ten used for rounding.
     decimals: i32,
-    /// Lengths up to this are 0, as far as the input tells.
+    /// Lengths up to this value cannot be distinguished from 0.
     noise: f64,
 }
 
 impl Precision {
-    /// That of a length between points along a direction.
+    /// Precision of a length between two points along a direction.
     pub fn between(ends: [Measured; 2], along: DVec3) -> Self {
         let [a, b] = ends.map(|end| end.step);
         let rounding = ROUNDED_OF_COORDINATE * largest(ends.map(|end| end.at));
-        // The sum of half a step at both ends, in all three coordinates.
+        // Half a step at both ends, summed over the three coordinates.
         let error = (a + b) / 2.0 * along.abs().element_sum() + rounding;
         let step = a.max(b);
         let is_decimal = step > rounding && power_above(1.000_001 * step) > power_above(step);
@@ -78,19 +85,19 @@ impl Precision {
         Self { decimals, noise: if is_decimal { rounding } else { error } }
     }
 
-    /// That of a radius, a diameter or the place of an axis, which are fitted to the corners of a cylinder.
+    /// Precision of a fitted radius, diameter or axis position.
     pub fn of_cylinder(cylinder: &Cylinder) -> Self {
         let largest = cylinder.point.abs().max_element().max(cylinder.radius);
         let error = cylinder.spread.max(FITTED_OF_COORDINATE * largest);
         Self { decimals: -power_above(error), noise: error }
     }
 
-    /// The coarser of two.
+    /// The coarser of two precisions.
     pub fn coarser(self, other: Self) -> Self {
         Self { decimals: self.decimals.min(other.decimals), noise: self.noise.max(other.noise) }
     }
 
-    /// A length above 0, rounded to what the input carries.
+    /// Rounds a positive length to the decimals of the input.
     pub fn rounded(self, length: f64) -> f64 {
         let power = power_of_ten(self.decimals.unsigned_abs() as usize);
         let rounded = if self.decimals >= 0 {
@@ -106,7 +113,7 @@ fn largest(points: [DVec3; 2]) -> f64 {
     points.into_iter().map(|p| p.abs().max_element()).fold(f64::MIN_POSITIVE, f64::max)
 }
 
-/// The exponent of the least power of ten that is not below a number, which may be off by a share of 1e-9.
+/// The exponent of the smallest power of ten that is at least `number`, with a relative tolerance of 1e-9.
 fn power_above(number: f64) -> i32 {
     let text = format!("{number:.9e}");
     let (mantissa, exponent) = text.split_once('e').unwrap_or(("1", "0"));
@@ -116,7 +123,7 @@ fn power_above(number: f64) -> i32 {
     if is_power { exponent } else { exponent + 1 }
 }
 
-/// A power of ten: exact up to the 22nd, infinite from the 309th on.
+/// A power of ten: exact up to 10^22, infinite from 10^309.
 pub(crate) fn power_of_ten(exponent: usize) -> f64 {
     (0..exponent).fold(1.0, |power, _| power * 10.0)
 }
@@ -134,7 +141,7 @@ mod tests {
     fn lengths_are_rounded_to_what_the_input_carries() {
         for length in [53.975, 9.525, 20.125, 0.1, 1234.565, 7.0] {
             for from in [0.0, 3.7, -812.35] {
-                // Single precision, decimals, and double precision.
+                // The three lines test single precision, double precision, and decimals.
                 let (a, b) = (from as f32, (from + length) as f32);
                 let step = f64::from(a.abs().max(b.abs()).next_up()) - f64::from(a.abs().max(b.abs()));
                 assert_eq!(rounded(f64::from(b) - f64::from(a), f64::from(a), step), length, "{from}");
@@ -152,7 +159,8 @@ mod tests {
         assert_eq!(rounded(1e-17, 0.3, 0.0), 0.0);
         assert_eq!(rounded(0.004, 0.0, 0.0), 0.004);
         assert_eq!(rounded(1e-6, 900.0, 1e-6), 1e-6);
-        // Neighbours in single precision may be one number, those farther apart are not.
+        // Neighbouring numbers in single precision may stand for the same value; numbers farther apart do
+        // not.
         let step = 1.0 / 16384.0;
         assert_eq!(rounded(step, 900.0, step), 0.0);
         assert_eq!(rounded(1.5 * step, 0.0, step), 1.5 * step);

@@ -1,8 +1,9 @@
-//! [`true_length`]: the length of the model that a dimension between two points measures.
+//! [`true_length`]: the length of the model that a dimension measures between two points.
 //!
-//! - A view from a side, a section and a detail of these show lengths in their plane as they are.
-//! - A pictorial view foreshortens. A dimension between points along an axis of the model shows their distance; others are refused.
-//! - In an exploded view parts are not where they are in the model: dimensions are refused.
+//! - Side views, sections and their details show lengths in their plane at true size.
+//! - A pictorial view foreshortens. A dimension along an axis of the model shows the true distance; others
+//!   are refused.
+//! - An exploded view moves parts, so it has no dimensions.
 
 use glam::DVec3;
 
@@ -13,15 +14,15 @@ use crate::page::sheet::view::sheet_view::Sight;
 /// How lengths in a view relate to those of the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Foreshortening {
-    /// They are the same in the plane of the view.
+    /// Lengths in the plane of the view are true.
     None,
-    /// They are shorter, by the direction.
+    /// Lengths are foreshortened, depending on their direction.
     Pictorial,
-    /// The view shows parts that are moved.
+    /// The view shows moved parts.
     Moved,
 }
 
-/// Why a dimension is refused, and what to do.
+/// The reason why a dimension is refused, and what to do.
 pub(crate) type Refusal = [&'static str; 2];
 
 pub(crate) const IN_EXPLODED: Refusal =
@@ -35,10 +36,10 @@ const NOT_ALONG_AXIS: Refusal = [
 const BEHIND: Refusal =
     ["these two points lie behind each other in this view", "name another point, or another view with `of`"];
 
-/// How far two points may be from a line along an axis, as a share of their distance.
+/// Maximum distance of two points from a line along an axis, as a share of their distance.
 const ALONG: f64 = 1e-9;
 
-/// The length between two points that a dimension measures in a view, units of the model, with its precision.
+/// The length that a dimension measures between two points in a view, in model units, with its precision.
 pub(crate) fn true_length(
     ends: [Measured; 2],
     measure: Measure,
@@ -59,7 +60,7 @@ pub(crate) fn true_length(
     Ok((between.dot(along).abs(), Precision::between(ends, along)))
 }
 
-/// The axis of the model along which points differ, if the dimension runs along it on the page.
+/// The axis of the model along which two points differ, if the dimension runs along it on the page.
 fn along_axis(ends: [Measured; 2], measure: Measure, [right, up]: [DVec3; 2]) -> Option<DVec3> {
     let between = ends[1].at - ends[0].at;
     let axis = DVec3::AXES[between.abs().max_position()];

@@ -1,4 +1,7 @@
-//! [`anchors`]: a point of each item where it is seen in a view.
+//! [`anchors`]: for each item of the parts list, a point where it is visible in a view.
+//!
+//! The view is rasterised with a face id per pixel. A two-pass city-block distance transform gives the depth
+//! of each pixel inside the visible area of its part. The deepest pixel is the anchor.
 
 use kurbo::Point;
 
@@ -9,10 +12,11 @@ use crate::scene::Scene;
 use crate::view::View;
 use crate::view::raster::{FaceBuffer, Screen};
 
-/// Pixels along the longer side of a view in which items are sought.
+/// Pixels along the longer side of the rasterised view.
 const PIXELS: f64 = 700.0;
 
-/// For each item a point on the page well within what is seen of one of its parts, the one of which most is seen; `None` where none is.
+/// For each item a point on the page, well inside the visible area of its most visible part; `None` if no
+/// part is visible.
 pub(crate) fn anchors(sight: &Sight, scene: &Scene, items: &[Item]) -> Vec<Option<Point>> {
     let mesh = Mesh::build(scene.to_soup());
     let camera = sight.taken();
@@ -22,7 +26,7 @@ pub(crate) fn anchors(sight: &Sight, scene: &Scene, items: &[Item]) -> Vec<Optio
     let (columns, rows) = (screen.columns, screen.rows);
     let part = |pixel: usize| buffer.front(pixel).map(|face| mesh.face_part[face as usize].index());
     let seen: Vec<Option<usize>> = (0..columns * rows).map(part).collect();
-    // How far each pixel is from the border of what is seen of its part, in steps to the side, up or down.
+    // City-block distance of each pixel to the border of the visible area of its part.
     let mut depth = vec![0_u32; seen.len()];
     let beside = |k: usize, back: bool| {
         let (x, y) = (k % columns, k / columns);

@@ -1,28 +1,34 @@
-//! [`leaders`]: which balloon around a view each item gets, so that no two leaders cross.
+//! [`leaders`]: assigns items to balloon slots around a view so that no two leaders cross.
 //!
-//! Leaders are straight. Exchanging the balloons of two leaders that cross makes both together shorter (triangle inequality), so that
-//! doing it as long as it can be done ends with none that cross. Those that then run through the circle of another balloon go to other
-//! places.
+//! 1. Each anchor takes the nearest free slot.
+//! 2. Two leaders that cross are exchanged. By the triangle inequality this shortens both together, so the
+//!    process ends without crossings.
+//! 3. Tabu search removes the other conflicts, such as a leader through the circle of another balloon.
+//!
+//! Source of step 3: F. Glover, "Tabu search, part I", ORSA Journal on Computing 1(3), 1989.
 
 use kurbo::{Point, Rect, Vec2};
 use robust::{Coord, orient2d};
 
-/// Radius of a balloon, and what leaders keep clear around it, mm.
+/// Radius of a balloon, and the clearance of leaders around it, mm.
 pub const RADIUS: f64 = 4.0;
 const CLEAR: f64 = 0.6;
 
-/// More places than this are on no border.
+/// Maximum number of slots on a border.
 const MOST_SLOTS: usize = 2000;
 
-/// Steps without a better arrangement after which no other is sought, and for how many a leader does not go back.
+/// The search stops after `PATIENCE` steps without a gain. A leader may not return to a slot for `BARRED`
+/// steps.
 const PATIENCE: usize = 60;
 const BARRED: usize = 8;
 
-/// Exchanges are made in sweeps over all pairs; more sweeps than this are needed by no sheet.
+/// Maximum number of sweeps over all pairs of leaders.
 const MOST_SWEEPS: usize = 1000;
 
-/// Places for balloons on the border of a rectangle, clockwise from a part of a place behind its upper left corner, each with so much
-/// room along the border.
+/// Slots for balloons on the border of a rectangle, clockwise from its upper left corner.
+///
+/// `room` is the minimum length of border per slot, `begin` the offset of the first slot as a fraction of a
+/// slot.
 #[must_use]
 pub fn slots(border: Rect, room: f64, begin: f64) -> Vec<Point> {
     let around = 2.0 * (border.width() + border.height());
@@ -40,8 +46,10 @@ pub fn slots(border: Rect, room: f64, begin: f64) -> Vec<Point> {
     (0..number).map(|k| at((k as f64 + begin) * step)).collect()
 }
 
-/// For each anchor the number of its slot: no two leaders cross or touch, but where more than two points lie on one line. Leaders that are
-/// blocked from an anchor to a slot are avoided where others are free.
+/// The slot of each anchor.
+///
+/// Leaders do not cross or touch unless more than two points are collinear. Blocked pairs of anchor and slot
+/// are avoided if possible.
 #[must_use]
 pub fn leaders(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool) -> Vec<usize> {
     let length = |anchor: usize, slot: usize| (anchors[anchor] - slots[slot]).hypot2().sqrt();
@@ -59,8 +67,10 @@ pub fn leaders(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, us
     of
 }
 
-/// The same, of which the leaders go out like the spokes of a wheel: for places in several rings, of which the outer ones are reached
-/// between the inner ones. There are as many slots as anchors, or more.
+/// The slot of each anchor, with leaders that spread radially, for slots in several rings.
+///
+/// Anchors and slots are matched in angular order around the centre of the anchors. The rotation with the
+/// shortest leaders wins. There must be at least as many slots as anchors.
 #[must_use]
 pub fn spokes(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool) -> Vec<usize> {
     let count = anchors.len();
@@ -88,7 +98,7 @@ pub fn spokes(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usi
     of
 }
 
-/// Exchanges slots as long as leaders cross or both become shorter, and moves those that are left with faults.
+/// Exchanges slots while that shortens leaders, then resolves the conflicts that remain.
 fn untangle(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool, of: &mut [usize]) {
     let length = |anchor: usize, slot: usize| (anchors[anchor] - slots[slot]).hypot2().sqrt();
     for _ in 0..MOST_SWEEPS {
@@ -110,8 +120,8 @@ fn untangle(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize
     clear(anchors, slots, is_blocked, of);
 }
 
-/// Moves balloons whose leaders cross others or run through their circles, or others through theirs, to places where fewer do: one after
-/// the other, also where that leaves more for a while; no leader goes back to where it was before long.
+/// Moves leaders to other slots until no conflicts remain or the search stalls. A step may increase the
+/// number of conflicts; a tabu list prevents cycles.
 ///
 /// Source: F. Glover, "Tabu search, part I", ORSA Journal on Computing 1(3), 1989.
 fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -> bool, of: &mut [usize]) {
@@ -121,7 +131,7 @@ fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -
     for (k, slot) in of.iter().enumerate() {
         holder[*slot] = Some(k);
     }
-    // For each anchor and slot the faults that a leader between them has with those of others.
+    // For each anchor and slot, the conflicts of that leader with all others.
     let faults_at = |k: usize, slot: usize, of: &[usize]| {
         let others = (0..of.len()).filter(|other| *other != k);
         others.map(|other| between(line(k, slot), line(other, of[other]))).sum::<usize>()
@@ -133,12 +143,12 @@ fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -
         of.iter().enumerate().map(|(k, slot)| faults[k][*slot]).sum::<usize>()
     };
     let mut best = (total(&faults, of), of.to_vec());
-    // Until which step a leader does not go back to a slot.
+    // The step until which an anchor may not return to a slot.
     let mut barred = vec![vec![0_usize; slots.len()]; of.len()];
     let (mut step, mut found) = (0, 0);
     while best.0 > 0 && step < found + PATIENCE {
         step += 1;
-        // The change that leaves fewest, of those the one by which leaders grow least.
+        // The move that leaves the fewest conflicts; ties go to the smaller increase in length.
         let mut next: Option<(usize, usize, f64, usize, usize)> = None;
         for k in (0..of.len()).filter(|k| faults[*k][of[*k]] > 0) {
             let from = of[k];
@@ -186,7 +196,8 @@ fn clear(anchors: &[Point], slots: &[Point], is_blocked: &dyn Fn(usize, usize) -
     of.copy_from_slice(&best.1);
 }
 
-/// How many faults two leaders have with each other.
+/// The number of conflicts between two leaders: a crossing, and each leader that passes through the other
+/// balloon.
 fn between([a, b]: [Point; 2], [c, d]: [Point; 2]) -> usize {
     const NEAR: f64 = RADIUS + CLEAR;
     let is_apart = a.x.max(b.x) + NEAR < c.x.min(d.x)
@@ -201,7 +212,7 @@ fn between([a, b]: [Point; 2], [c, d]: [Point; 2]) -> usize {
         + usize::from(runs_through([c, d], b))
 }
 
-/// Whether a leader runs through the circle of a balloon that it does not lead to.
+/// Whether a leader passes through the circle of a balloon at `centre`, with clearance.
 #[must_use]
 pub fn runs_through([a, b]: [Point; 2], centre: Point) -> bool {
     let way = b - a;
@@ -209,7 +220,7 @@ pub fn runs_through([a, b]: [Point; 2], centre: Point) -> bool {
     (a + way * share - centre).hypot2().sqrt() < RADIUS + CLEAR
 }
 
-/// Whether two segments have a point in common, exactly.
+/// Whether two segments have a common point, by exact predicates.
 #[must_use]
 pub fn cross([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
     let side = |p: Point, q: Point, r: Point| orient2d(coord(p), coord(q), coord(r));

@@ -1,12 +1,17 @@
-//! [`Shape`]: the shape of a part, to be compared with those of others up to a rigid motion.
+//! [`Shape`]: the shape of a part, compared with others up to a rotation and a translation.
 //!
-//! Two shapes are equal if a rotation and a shift bring each corner of one to a corner of the other, and the faces between them cover the
-//! same surface. The candidates for the motion follow from two corners: the mean of all corners stays the mean, so the first corner may
-//! only come to one that is as far from the mean, and the second one to one that is also as far from the first. The first corner is chosen
-//! from the distance that the fewest corners have, so that there are few candidates. Faces may be parted along other diagonals: faces that
-//! are not between the same corners must lie in each other's.
+//! Two shapes are congruent if a rigid motion maps each corner of one to a corner of the other, and the
+//! mapped faces cover the same surface.
 //!
-//! Distances are equal within what the file rounded its coordinates to.
+//! 1. The motion maps the mean of all corners to the mean. So the first corner maps to one at the same
+//!    distance from the mean.
+//! 2. The second corner maps to one that also has the same distance from the first. Two corners fix the
+//!    motion.
+//! 3. The first corner is chosen from the rarest distance, so there are few candidates.
+//! 4. Each candidate is checked on all corners, then on the faces. Faces may be split along other diagonals:
+//!    a face without a counterpart must be covered by the unmatched faces of the other shape.
+//!
+//! Distances are equal within the rounding of the file.
 
 use glam::{DAffine3, DMat3, DVec3};
 use rustc_hash::FxHashMap;
@@ -14,36 +19,38 @@ use rustc_hash::FxHashMap;
 use crate::geometry::numbers::tolerance::{F32_STEP, ROUNDING_OF_LATTICE, ROUNDING_OF_SINGLE};
 use crate::scene::{Geometry, Part, Scene};
 
-/// Rounding in double precision, as a share of the largest coordinate: of a transformed corner, and of a mean of many.
+/// Rounding error in double precision of a transformed corner and of a mean, as a share of the largest
+/// coordinate.
 const ROUNDING_OF_DOUBLE: f64 = 1e-12;
 
-/// The first corner is at least this share of the farthest one away from the mean.
+/// Minimum distance of the first corner from the mean, as a share of the largest distance.
 const SHORT: f64 = 0.5;
 
-/// Corners that are compared at most, of all candidates together; shapes that need more count as different.
+/// Maximum number of corner comparisons for all candidates; shapes that need more count as different.
 const MOST_CHECKS: usize = 20_000_000;
 
-/// Faces that may be parted along other diagonals, at most.
+/// Maximum number of faces that are split along other diagonals.
 const MOST_FLIPPED: usize = 4000;
 
 /// The shape of a part.
 pub(crate) struct Shape {
-    /// Its geometry, and the lengths and angles of its axes: parts that share both, and are not mirrored, have one shape.
+    /// Geometry, and the Gram matrix of the axes. Parts that share both, and are mirrored alike, have the
+    /// same shape.
     instance: (usize, DMat3),
     is_mirrored: bool,
-    /// Distinct corners, and faces between them.
+    /// Distinct corners, and faces as indices into them.
     corners: Vec<DVec3>,
     faces: Vec<[u32; 3]>,
     mean: DVec3,
-    /// How far each corner is from the mean, and these numbers in rising order.
+    /// Distance of each corner from the mean, and the same values in rising order.
     far: Vec<f64>,
     sorted: Vec<f64>,
-    /// How far rounding moves a corner.
+    /// Maximum shift of a corner by rounding.
     rounding: f64,
 }
 
 impl Shape {
-    /// The shape of a part; `None` where it has no faces.
+    /// The shape of a part; `None` without faces.
     pub fn of(scene: &Scene, part: &Part) -> Option<Self> {
         let geometry = scene.geometry_of(part).filter(|geometry| !geometry.triangles.is_empty())?;
         let place = part.world_from_part;
@@ -77,14 +84,14 @@ impl Shape {
         })
     }
 
-    /// Whether a rigid motion brings one to the other.
+    /// Whether two shapes are congruent.
     pub fn equals(&self, other: &Self) -> bool {
         let scale = self.instance.1.to_cols_array().iter().fold(0.0_f64, |most, x| most.max(x.abs()));
         let same_axes = self.instance.1.abs_diff_eq(other.instance.1, F32_STEP * scale);
         if self.instance.0 == other.instance.0 && self.is_mirrored == other.is_mirrored && same_axes {
             return true;
         }
-        // A corner and the mean of each may be moved.
+        // Rounding moves a corner and the mean in both shapes.
         let near = 2.0 * (self.rounding + other.rounding);
         let alike = || self.sorted.iter().zip(&other.sorted).all(|(a, b)| (a - b).abs() <= near);
         if self.corners.len() != other.corners.len() || !alike() {
@@ -96,7 +103,7 @@ impl Shape {
         let second = self.corners.iter().enumerate().max_by(|a, b| aside(a.1).total_cmp(&aside(b.1)));
         let Some((second, p)) = second else { return true };
         if aside(p) <= near {
-            // All corners on a line have no faces.
+            // All corners are on a line, so there are no faces.
             return true;
         }
         let mut grid = Grid::new(16.0 * near);
@@ -104,7 +111,7 @@ impl Shape {
             grid.add(*p);
         });
         let apart = self.corners[first].distance(self.corners[second]);
-        // Corners farther away are turned farther by what rounding does to the first one.
+        // The error of the first corner turns the shape and grows with the distance from the mean.
         let near_there = near * (2.0 + self.sorted.last().map_or(0.0, |most| most / self.far[first]));
         let mut left = MOST_CHECKS;
         for p in (0..other.corners.len()).filter(|p| (other.far[*p] - self.far[first]).abs() <= near) {
@@ -132,7 +139,7 @@ impl Shape {
         false
     }
 
-    /// The corner, not too near to the mean, whose distance fewest others have.
+    /// A corner of the rarest distance from the mean, not too close to it.
     fn rarest(&self, near: f64) -> Option<usize> {
         let most = self.sorted.last().copied().filter(|most| *most > near)?;
         let far = &self.far;
@@ -143,7 +150,7 @@ impl Shape {
     }
 }
 
-/// For each of some points the corner that it lies on, each on another one; `None` where one lies on none.
+/// The corner at each point, all distinct; `None` if a point is on no free corner.
 fn onto(points: impl Iterator<Item = DVec3>, grid: &Grid, near: f64, left: &mut usize) -> Option<Vec<u32>> {
     let mut taken = vec![false; grid.corners.len()];
     points
@@ -156,7 +163,7 @@ fn onto(points: impl Iterator<Item = DVec3>, grid: &Grid, near: f64, left: &mut 
         .collect()
 }
 
-/// How far the file has moved corners of a geometry by rounding, world units.
+/// Maximum shift of corners by the rounding of the file, world units.
 fn rounding(geometry: &Geometry, place: &DAffine3) -> f64 {
     let largest = geometry.positions.iter().fold(0.0_f64, |most, p| most.max(p.abs().max_element()));
     let single = if geometry.single_precision { F32_STEP * largest * ROUNDING_OF_SINGLE } else { 0.0 };
@@ -167,14 +174,14 @@ fn rounding(geometry: &Geometry, place: &DAffine3) -> f64 {
     single.max(lattice) * stretch + ROUNDING_OF_DOUBLE * world
 }
 
-/// Axes along one direction and in the plane of another one.
+/// An orthonormal frame: x along the first vector, z normal to both.
 fn frame(first: DVec3, second: DVec3) -> DMat3 {
     let x = first.normalize_or_zero();
     let z = x.cross(second).normalize_or_zero();
     DMat3::from_cols(x, z.cross(x), z)
 }
 
-/// Whether faces between corners that were brought to others cover the surface of those.
+/// Whether the mapped faces of one shape cover the same surface as those of the other.
 fn same_faces(one: &Shape, other: &Shape, to: &[u32], near: f64) -> bool {
     let key = |mut face: [u32; 3]| {
         face.sort_unstable();
@@ -213,7 +220,7 @@ fn same_faces(one: &Shape, other: &Shape, to: &[u32], near: f64) -> bool {
     covered(&mine, &its) && covered(&its, &mine)
 }
 
-/// Whether a point lies in a triangle.
+/// Whether a point lies in a triangle, within a tolerance.
 fn lies_in(p: DVec3, [a, b, c]: [DVec3; 3], near: f64) -> bool {
     let normal = (b - a).cross(c - a);
     let long = normal.length();
@@ -225,7 +232,7 @@ fn lies_in(p: DVec3, [a, b, c]: [DVec3; 3], near: f64) -> bool {
         .all(|[a, b]| (b - a).cross(p - a).dot(normal) >= -near * (b - a).length() * long)
 }
 
-/// Corners by the cells of a grid.
+/// Corners in a grid of cubic cells.
 struct Grid {
     corners: Vec<DVec3>,
     cell: f64,
@@ -248,7 +255,7 @@ impl Grid {
         number
     }
 
-    /// The nearest corner that is allowed, within a distance of at most half a cell.
+    /// The nearest allowed corner within a distance of at most half a cell.
     fn nearest(&self, p: DVec3, near: f64, allowed: impl Fn(u32) -> bool) -> Option<u32> {
         let [low, high] = [p - near, p + near].map(|p| self.cell_of(p));
         let mut best: Option<(f64, u32)> = None;
@@ -274,7 +281,8 @@ mod tests {
 
     use super::*;
 
-    /// A part of a wedge with a step, its corners moved, rounded to a number of decimals; faces may lie along other diagonals.
+    /// A stepped wedge with moved corners, rounded to a number of decimals. `flipped` splits its faces along
+    /// the other diagonals.
     fn part(scene: &mut Scene, size: [f64; 3], place: DAffine3, decimals: i32, flipped: bool) -> Shape {
         let [x, y, z] = size;
         let round = |p: f64| {
@@ -325,7 +333,7 @@ mod tests {
             };
             assert!(equals(size, DAffine3::IDENTITY, false) && equals(size, turn, false), "{decimals}");
             assert!(equals(size, turn, true), "{decimals}: along other diagonals");
-            // It has a plane of symmetry, so that its mirror image is the same shape.
+            // The wedge has a plane of symmetry, so its mirror image is the same shape.
             assert!(equals(size, turn * mirror, false), "{decimals}");
             assert!(!equals([30.0, 20.0, 11.05], turn, false), "{decimals}");
             assert!(!equals(size, turn * skew, false), "{decimals}");

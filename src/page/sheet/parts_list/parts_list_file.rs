@@ -1,4 +1,7 @@
-//! [`read`]: a parts list from a file: CSV with a line of headings, or TOML with `[[item]]` tables.
+//! [`read`]: a parts list from a file, CSV with a header line or TOML with `[[item]]` tables.
+//!
+//! Each row takes the parts whose names match its pattern and that no row before took. Quantity and material
+//! are taken from these parts if the row has none.
 
 use std::path::Path;
 
@@ -10,17 +13,17 @@ use crate::geometry::names::glob::Glob;
 use crate::scene::Scene;
 use crate::style::{sheet_errors, toml_reader};
 
-/// What a row tells.
+/// A row of the file.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 struct Row {
-    /// Its number. Default: the next one.
+    /// Item number. Default: the next one.
     number: Option<String>,
-    /// Which parts of the model it is: a pattern for their names. Default: those called so.
+    /// Pattern for the names of its parts. Default: the name.
     part: Option<String>,
-    /// What it is called.
+    /// Name of the item.
     name: String,
-    /// How many there are. Default: as many as there are parts.
+    /// Quantity. Default: the number of parts.
     quantity: Option<usize>,
     material: Option<String>,
     remark: String,
@@ -32,7 +35,7 @@ struct Rows {
     item: Vec<toml::Spanned<Row>>,
 }
 
-/// Headings of CSV files: what they may be called, the key first.
+/// Column headings of CSV files with their synonyms; the key is first.
 const HEADINGS: [&[&str]; 6] = [
     &["number", "item", "no", "pos"],
     &["part", "parts", "node"],
@@ -42,10 +45,11 @@ const HEADINGS: [&[&str]; 6] = [
     &["remark", "remarks", "note", "notes"],
 ];
 
-/// Reads the items of a scene from a file; and the names of parts that are in none of them.
+/// Reads the items of a scene from a file. Also returns the names of parts that belong to no item.
 ///
 /// # Errors
-/// If the file cannot be read, a key or heading is unknown, or a row without a quantity fits no part.
+/// Returns an error if the file cannot be read, a key or heading is unknown, or a row without a quantity
+/// matches no part.
 pub(crate) fn read(path: &Path, scene: &Scene, own: &[Item]) -> Result<(Vec<Item>, Vec<String>), Error> {
     let text = std::fs::read_to_string(path).map_err(|error| {
         Error::new(format!("cannot be read: {error}")).in_file(path).remedy("check the path")
@@ -140,7 +144,7 @@ fn of_csv(text: &str) -> Result<Vec<(String, Row)>, Error> {
     Ok(rows)
 }
 
-/// The records of a CSV text with the lines they begin in; cells may stand in quotes.
+/// The records of a CSV text with their first lines; cells may be quoted.
 fn records(text: &str, separator: char) -> Vec<(usize, Vec<String>)> {
     let mut all = Vec::new();
     let (mut line, mut start) = (1, 1);

@@ -1,4 +1,7 @@
-//! [`items`]: the parts list of a scene: what it is made of, by name, with counts.
+//! [`items`]: the parts list of a scene, with equal parts counted as one item.
+//!
+//! Parts are compared only with items of the same geometry or the same name, so the exact comparison of
+//! shapes is rare.
 
 use std::collections::BTreeMap;
 
@@ -8,26 +11,28 @@ use crate::scene::Scene;
 /// An item of a parts list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Item {
-    /// Its number.
+    /// Item number.
     pub number: String,
-    /// How many there are.
+    /// Quantity.
     pub count: usize,
-    /// What it is called.
+    /// Name of the item.
     pub name: String,
-    /// What its parts are made of, by the name of the material of the first of them.
+    /// Material name of its first part.
     pub material: String,
-    /// What else there is to say.
+    /// Remark; empty unless the list comes from a file.
     pub remark: String,
-    /// Its parts, indices into [`Scene::parts`].
+    /// Parts of the item, as indices into [`Scene::parts`].
     pub parts: Vec<usize>,
 }
 
-/// The items of a scene, in the order in which their first parts are in it: parts of equal shape and one material are one item if they
-/// show one geometry, or if their names are the same but for a number at the end (`bolt.001`, `bolt-2`, `bolt 3`). Shapes are equal if a
-/// rotation and a shift bring one to the other, in the precision of the file; mirror images are not.
+/// The items of a scene, in the order of their first parts.
+///
+/// Parts are one item if their shapes are congruent, their materials are equal, and they share a geometry or
+/// a name. Names may differ by a number at the end (`bolt.001`, `bolt-2`, `bolt 3`). Mirror images are
+/// different items.
 #[must_use]
 pub fn items(scene: &Scene) -> Vec<Item> {
-    // The items of each geometry and of each name, and the shapes of their first parts.
+    // Items of each geometry and each name, and the shape of each item's first part.
     let mut of_geometry: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     let mut of_name: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     let mut shapes: Vec<Shape> = Vec::new();
@@ -70,7 +75,7 @@ pub fn items(scene: &Scene) -> Vec<Item> {
     items
 }
 
-/// What several parts are called: without numbers at the end, and without those in between by which alone they differ.
+/// The common name of several parts: without numbers at the end, and without the numbers that differ.
 fn common<'a>(mut names: impl Iterator<Item = &'a str> + Clone) -> String {
     let first = names.clone().next().unwrap_or_default();
     if names.clone().all(|name| stem(name) == stem(first)) {
@@ -80,14 +85,14 @@ fn common<'a>(mut names: impl Iterator<Item = &'a str> + Clone) -> String {
     if names.all(|name| without_numbers(name) == bare) { bare } else { stem(first).to_owned() }
 }
 
-/// A name without its words that are numbers.
+/// A name without its numeric words.
 fn without_numbers(name: &str) -> String {
     let is_number = |word: &&str| !word.is_empty() && word.chars().all(|c| c.is_ascii_digit());
     let words: Vec<&str> = name.split('_').filter(|word| !is_number(word)).collect();
     words.join("_")
 }
 
-/// A name without a number at its end and what parts that from it.
+/// A name without a number at its end and the separator before it.
 fn stem(name: &str) -> &str {
     let bare = name.trim_end_matches(|c: char| c.is_ascii_digit());
     let stem = bare.trim_end_matches(['.', '-', '_', ' ', '#']);

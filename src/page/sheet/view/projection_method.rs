@@ -1,14 +1,14 @@
-//! [`Method`]: first- or third-angle projection.
+//! [`Method`]: the projection method, first- or third-angle.
 
 use serde::Deserialize;
 
-/// Which side of a view shows what lies beside it.
+/// The projection method: on which side of the front view the other views stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Method {
-    /// A view from the left is on the right of the front view.
+    /// First angle: the view from the left is on the right of the front view.
     #[default]
     First,
-    /// A view from the left is on the left of the front view.
+    /// Third angle: the view from the left is on the left of the front view.
     Third,
 }

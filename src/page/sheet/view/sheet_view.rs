@@ -1,4 +1,7 @@
-//! [`Sight`]: a view on a sheet: from where, of what, how large, and where on the sheet.
+//! [`Sight`]: a view on a sheet, with its direction, extent, scale and position.
+//!
+//! A view is orthographic. Its extent is the bounding box of the model's points along the axes of the camera.
+//! Scale and position are set by the arrangement.
 
 use glam::{DVec2, DVec3};
 use kurbo::{Affine, Point, Rect};
@@ -8,30 +11,30 @@ use crate::error::Error;
 use crate::pipeline::Prepared;
 use crate::scene::{Camera, Projection};
 
-/// Room round a view for the width of its lines, mm.
+/// Margin around a view for the width of its lines, mm.
 pub(crate) const RIM: f64 = 1.5;
 
 /// A view on a sheet.
 #[derive(Debug, Clone)]
 pub(crate) struct Sight {
-    /// What it is called.
+    /// Name of the view.
     pub name: String,
-    /// What stands above it.
+    /// Title above the view.
     pub title: Option<String>,
-    /// From where: a direction.
+    /// Camera; only its axes are used.
     camera: Camera,
-    /// Where the model's middle is seen, and the box around what is seen, in units of the model to the right and up from there.
+    /// Centre of the model, and the extent of the view relative to it, in model units to the right and up.
     middle: DVec3,
     pub low: DVec2,
     pub high: DVec2,
-    /// Length on paper of a unit of the model, mm.
+    /// Length on paper of a model unit, mm.
     pub unit: f64,
-    /// The upper left corner of that box on the page.
+    /// Upper left corner of the extent on the page, mm.
     pub corner: Point,
 }
 
 impl Sight {
-    /// A view of points in the direction of a camera.
+    /// A view of some points along the direction of a camera.
     pub fn new(name: &str, camera: Camera, middle: DVec3, points: &[DVec3]) -> Self {
         let [right, up, _] = camera.axes();
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
@@ -45,7 +48,7 @@ impl Sight {
         Self { name: name.to_owned(), title: None, camera, middle, low, high, unit: 1.0, corner: Point::ZERO }
     }
 
-    /// The same view of a place around a point.
+    /// The same view, limited to a square around a point.
     pub fn around(&self, name: &str, at: DVec3, radius: f64) -> Self {
         let [right, up, _] = self.camera.axes();
         let p = DVec2::new((at - self.middle).dot(right), (at - self.middle).dot(up));
@@ -53,24 +56,24 @@ impl Sight {
         Self { name: name.to_owned(), title: None, low, high, ..self.clone() }
     }
 
-    /// Right, up and forward, world.
+    /// Unit vectors to the right, up and forward, world.
     pub fn axes(&self) -> [DVec3; 3] {
         self.camera.axes()
     }
 
-    /// Its width and height on paper, at a length on paper of a unit.
+    /// Width and height on paper if a model unit is `unit` mm long.
     pub fn size(&self, unit: f64) -> [f64; 2] {
         let size = (self.high - self.low) * unit;
         [size.x, size.y]
     }
 
-    /// The box around it on the page.
+    /// The rectangle of the view on the page, mm.
     pub fn rect(&self) -> Rect {
         let [w, h] = self.size(self.unit);
         Rect::from_origin_size(self.corner, (w, h))
     }
 
-    /// Where a point of the model is on the page.
+    /// Maps a point of the model to the page, mm.
     pub fn page(&self, p: DVec3) -> Point {
         let [right, up, _] = self.axes();
         let p = p - self.middle;
@@ -78,7 +81,7 @@ impl Sight {
         self.corner + kurbo::Vec2::new(x * self.unit, y * self.unit)
     }
 
-    /// The camera that takes it, with a frame on paper.
+    /// The camera of the view. Its frame is the view on paper with a margin, in mm.
     pub fn taken(&self) -> Camera {
         let [right, up, forward] = self.axes();
         let centre = (self.low + self.high) / 2.0;
@@ -95,15 +98,15 @@ impl Sight {
         }
     }
 
-    /// From the frame of the camera to the page.
+    /// Maps the camera's frame to the page.
     pub fn place(&self) -> Affine {
         Affine::translate((self.corner.x - RIM, self.corner.y - RIM))
     }
 
-    /// Draws it.
+    /// Draws the view and returns it with its warnings.
     ///
     /// # Errors
-    /// If there is nothing in it.
+    /// Returns an error if there is nothing to draw.
     pub fn item(&self, prepared: &Prepared) -> Result<(Item, Vec<String>), Error> {
         let camera = self.taken();
         let page = Page { width: camera.width, height: camera.height, unit: Unit::Mm, background: None };

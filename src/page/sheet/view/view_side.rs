@@ -2,17 +2,17 @@
 
 use kurbo::{Point, Vec2};
 
-/// The side of a view on which a length stands.
+/// A side of a view.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Side {
-    /// On its left.
+    /// The left side.
     Left,
-    /// Above it.
+    /// Above the view.
     Above,
-    /// On its right.
+    /// The right side.
     Right,
-    /// Below it.
+    /// Below the view.
     Below,
 }
 
@@ -20,13 +20,13 @@ impl Side {
     /// All sides.
     pub const ALL: [Self; 4] = [Self::Left, Self::Above, Self::Right, Self::Below];
 
-    /// Whether lengths on this side run across the page.
+    /// Whether lengths on this side are horizontal.
     #[must_use]
     pub fn is_across(self) -> bool {
         matches!(self, Self::Above | Self::Below)
     }
 
-    /// Away from the view on the page.
+    /// Unit vector away from the view, y down.
     #[must_use]
     pub fn outward(self) -> Vec2 {
         match self {
@@ -38,19 +38,19 @@ impl Side {
     }
 }
 
-/// A length that is to be told on a side of a view.
+/// A length along a side of a view.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Told {
-    /// Between these points of the page.
+    /// Its two points, page mm.
     pub ends: [Point; 2],
-    /// Its side.
+    /// The side of the view.
     pub side: Side,
-    /// What it says.
+    /// The text of the dimension.
     pub text: String,
 }
 
 impl Told {
-    /// From where to where it goes along its side, as it grows to the right or downwards.
+    /// Its extent along the side, in rising order: x on horizontal sides, y on vertical ones.
     #[must_use]
     pub fn span(&self) -> [f64; 2] {
         let at = |p: Point| if self.side.is_across() { p.x } else { p.y };

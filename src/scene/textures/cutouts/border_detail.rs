@@ -1,4 +1,4 @@
-//! How closely the borders of a mask are followed: as a drawing shows them.
+//! Simplification of mask borders to the detail that a large drawing shows.
 
 use super::mask_borders::trace;
 use super::opacity_mask::Mask;
@@ -6,28 +6,28 @@ use super::texels_of;
 use crate::scene::Scene;
 use crate::scene::textures::texel_plane::texel_borders::Outline;
 
-/// A drawing that is this many px across shows borders within [`FINE_PX`] of where they are.
+/// Width of the assumed drawing in px, and the tolerance of borders in it.
 const ACROSS_PX: f64 = 4096.0;
 const FINE_PX: f64 = 0.2;
 
-/// Where there is much of them, as on trees with thousands of leaves, within so many px; and where there is very much, as in a
+/// Larger tolerances for many borders, as on trees with thousands of leaves, and for very many, as in a
 /// street with such trees.
 const SLIGHT_PX: f64 = 1.0;
 const COARSE_PX: f64 = 4.0;
 
-/// More pieces of border in all are much, and more than these are very much.
+/// Maximum number of border segments, instances counted, at the default tolerance and at the medium one.
 const MUCH: f64 = 3e5;
 const VERY_MUCH: f64 = 1.5e6;
 
-/// No more pieces are cut out of a material in all, and no more are looked at.
+/// Maximum number of border segments that are cut out of a material, and that are tested against triangles.
 const MOST_PIECES: f64 = 3e7;
 const MOST_LOOKS: f64 = 1e9;
 
-/// How far beside its place a border may lie at least and at most, texels.
+/// Minimum and maximum tolerance, texels.
 const TOLERANCES: [f64; 2] = [0.005, 2.0];
 
-/// The borders of a material's mask, as closely as a large drawing of the whole scene shows them; none if there are too many
-/// to cut along.
+/// Borders of a material's mask, simplified to the detail that a large drawing of the whole scene shows;
+/// `None` if there are too many to cut along.
 pub(crate) fn outline(scene: &Scene, material: usize, mask: &Mask) -> Option<Outline> {
     let (mut in_space, mut in_texels, mut in_boxes) = (0.0_f64, 0.0_f64, 0.0_f64);
     for part in &scene.parts {

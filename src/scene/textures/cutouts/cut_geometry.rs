@@ -1,4 +1,4 @@
-//! [`Rebuilt`]: a geometry put together again from whole triangles and pieces of cut ones.
+//! [`Rebuilt`]: assembles a geometry from whole triangles and pieces of cut ones.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -9,18 +9,18 @@ use crate::scene::Geometry;
 
 const NONE: u32 = u32::MAX;
 
-/// A geometry in the making.
+/// A geometry under construction.
 pub(crate) struct Rebuilt<'a> {
     from: &'a Geometry,
     to: Geometry,
-    /// The triangle that each of the new ones was, or was a piece of.
+    /// Original triangle of each new one.
     origins: Vec<u32>,
-    /// Vertices at crossings, by the corners of their side and the bits of the part of it.
+    /// Vertices at crossings, keyed by the ends of the side and the bits of the position along it.
     on_sides: FxHashMap<([u32; 2], u64), u32>,
 }
 
 impl<'a> Rebuilt<'a> {
-    /// The vertices and wires of a geometry, without its triangles.
+    /// Starts with the vertices and wires of a geometry, without triangles.
     pub fn of(from: &'a Geometry) -> Self {
         let to = Geometry {
             positions: from.positions.clone(),
@@ -36,7 +36,7 @@ impl<'a> Rebuilt<'a> {
         Self { from, to, origins: Vec::new(), on_sides: FxHashMap::default() }
     }
 
-    /// Adds a triangle as it was.
+    /// Adds a triangle unchanged.
     pub fn keep(&mut self, triangle: usize) {
         self.origins.push(triangle as u32);
         self.to.triangles.push(self.from.triangles[triangle]);
@@ -46,8 +46,8 @@ impl<'a> Rebuilt<'a> {
         self.to.edge_marks.extend(self.from.edge_marks.get(triangle));
     }
 
-    /// Adds the pieces of a triangle; with each side its crossings (the bits of the parts of it), and whether its first corner
-    /// comes first in space.
+    /// Adds the pieces of a triangle. Each side comes with its crossings (bits of the positions along it) and
+    /// its direction.
     pub fn add(&mut self, triangle: usize, pieces: &Pieces, sides: [(&Vec<u64>, bool); 3]) {
         let from = self.from;
         let corners = from.triangles[triangle];
@@ -67,7 +67,7 @@ impl<'a> Rebuilt<'a> {
                     if let Some(known) = self.on_sides.get(&(ends, part.to_bits())) {
                         return *known;
                     }
-                    // From its ends alone, so that the neighbour has the same.
+                    // Computed from the ends of the side only, so that the neighbour gets the same vertex.
                     let new = self.vertex([ends[0], ends[1], ends[0]], [1.0 - part, part, 0.0]);
                     self.on_sides.insert((ends, part.to_bits()), new);
                     new
@@ -108,7 +108,7 @@ impl<'a> Rebuilt<'a> {
         }
     }
 
-    /// A new vertex between three others.
+    /// Adds a vertex interpolated between three others.
     fn vertex(&mut self, corners: [u32; 3], shares: [f64; 3]) -> u32 {
         let [a, b, c] = corners.map(|corner| self.from.positions[corner as usize]);
         self.to.positions.push(a * shares[0] + b * shares[1] + c * shares[2]);
@@ -123,7 +123,8 @@ impl<'a> Rebuilt<'a> {
         self.to.positions.len() as u32 - 1
     }
 
-    /// What corners have, at each place: the numbers of what is blended of it, or none where a corner has none.
+    /// Interpolates an attribute of the corners at each place and returns its indices; none if a corner has
+    /// no attribute.
     fn blended(
         &mut self,
         places: &[Place],
@@ -142,13 +143,13 @@ impl<'a> Rebuilt<'a> {
         places.iter().zip(shares).map(of_place).collect()
     }
 
-    /// The geometry, and for each of its triangles which it was, or was a piece of.
+    /// The geometry, and the original triangle of each new one.
     pub fn done(self) -> (Geometry, Vec<u32>) {
         (self.to, self.origins)
     }
 }
 
-/// How much of each corner a place has.
+/// Barycentric coordinates of a place.
 fn shares_of(place: Place, sides: [(&Vec<u64>, bool); 3]) -> [f64; 3] {
     let mut shares = [0.0; 3];
     match place {
@@ -165,7 +166,7 @@ fn shares_of(place: Place, sides: [(&Vec<u64>, bool); 3]) -> [f64; 3] {
     shares
 }
 
-/// Whether a place lies on the side after a corner.
+/// Whether a place is on the side after a corner.
 fn lies_on(place: Place, side: usize) -> bool {
     match place {
         Place::Corner(k) => usize::from(k) == side || usize::from(k) == (side + 1) % 3,

@@ -1,16 +1,17 @@
-//! [`trace`]: the borders between what is opaque in a mask and what is clear, in the plane of its texels.
+//! [`trace`]: traces the borders between opaque and transparent texels of a mask, in the texel plane.
 
 use super::opacity_mask::Mask;
 use crate::geometry::plane::marching_squares::level_lines;
 use crate::scene::textures::texel_plane::Traced;
 
-/// How far the pieces of a border lie beside it, texels.
+/// Maximum deviation of a segment from the curved border, as a fraction of its length.
 const STRAIGHT: f64 = 1e-3;
 
-/// A picture whose texels part opaque from clear more often than this has no borders.
+/// Maximum number of opaque to transparent transitions between texels.
 const MOST_CROSSINGS: usize = 1 << 22;
 
-/// Traces the borders of a mask, with what is opaque on their left (x to the right, y upwards); none if there are too many.
+/// Traces the borders of a mask, with opaque on their left (x to the right, y upwards); `None` if there are
+/// too many.
 pub(crate) fn trace(mask: &Mask) -> Option<Traced> {
     let (reach, periods) = (mask.texels.reach(), mask.texels.periods());
     let lines = level_lines(&|i, j| mask.texel(i, j), reach, STRAIGHT, MOST_CROSSINGS)?;
@@ -47,7 +48,7 @@ mod tests {
             // Opaque is outside.
             assert!((*b - *a).perp_dot(middle - *a) < 0.0);
         }
-        // Three periods on, the same.
+        // Identical three periods further.
         let far = outline.near(DVec2::splat(192.0), DVec2::splat(256.0)).unwrap();
         assert_eq!(far.len(), outline.segments.len());
     }

@@ -30,17 +30,17 @@ use crate::scene::textures::texel_plane::side_crossings::{TexelSide, in_order, t
 use crate::scene::textures::texel_plane::texel_borders::{Outline, Segment};
 use crate::scene::{Geometry, Scene, Warnings};
 
-/// A scene without what the pictures of its materials leave clear.
+/// A scene without the transparent parts of its materials.
 pub struct Cut<'a> {
-    /// What is left; borrowed where all is.
+    /// The remaining scene; borrowed if nothing is cut away.
     pub scene: Cow<'a, Scene>,
-    /// For each geometry that was cut, which triangle each of its new ones was, or was a piece of.
+    /// For each geometry that was cut, the original triangle of each new one.
     pub origins: Vec<Option<Vec<u32>>>,
-    /// What could not be cut.
+    /// Pictures and triangles that could not be cut.
     pub warnings: Warnings,
 }
 
-/// Takes out of a scene what the pictures of its materials leave clear.
+/// Removes the transparent parts of materials from a scene.
 #[must_use]
 pub fn cut(scene: &Scene) -> Cut<'_> {
     let mut warnings = Warnings::default();
@@ -82,29 +82,29 @@ pub fn cut(scene: &Scene) -> Cut<'_> {
     Cut { scene: Cow::Owned(cut), origins, warnings }
 }
 
-/// What is left of the triangles of a material.
+/// Treatment of a material's triangles: kept, removed, or cut along the borders of a mask.
 enum Stencil {
     Whole,
     Clear,
     Cut(Box<(Mask, Outline)>),
 }
 
-/// The corners of a triangle in the plane of the texels; none where it shows nothing of the picture.
+/// Corners of a triangle in the texel plane; `None` if it has no valid texture coordinates.
 fn texels_of(geometry: &Geometry, triangle: usize, mask: &Mask) -> Option<[DVec2; 3]> {
     let [a, b, c] =
         geometry.corner_uvs.get(triangle)?.map(|uv| mask.texels.place(*geometry.uvs.get(uv as usize)?));
     Some([a?, b?, c?])
 }
 
-/// A side of a triangle, by the places of its ends in space.
+/// A side of a triangle, identified by the positions of its ends.
 type SideKey = [[u64; 3]; 2];
 
-/// What is known of a triangle before its neighbours are.
+/// Classification of a triangle against the mask, independent of its neighbours.
 enum Look<'a> {
     Whole,
     Gone,
     Crossed(Box<Crossed<'a>>),
-    /// More borders than are cut along.
+    /// Too many borders to cut along.
     TooMany,
 }
 
@@ -114,12 +114,12 @@ struct Crossed<'a> {
     corners: [DVec2; 3],
     sides: [TexelSide; 3],
     borders: Vec<Segment>,
-    /// Where they cross its sides.
+    /// Positions of the crossings on each side, 0 to 1.
     parts: [Vec<f64>; 3],
 }
 
-/// A geometry without what is clear and where its triangles are from, unless nothing is; and how many triangles had to be left
-/// whole.
+/// Cuts a geometry. Returns the new geometry with the original triangle of each new one, or `None` if nothing
+/// is cut away; and the number of triangles that could not be cut.
 fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<(Geometry, Vec<u32>)>, usize) {
     let stencil = |triangle: usize| {
         let material = geometry.material_of(triangle).and_then(|id| stencils.get(id as usize));
@@ -130,7 +130,8 @@ fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<(Geometry,
     if !is_sound || (0..count).all(|triangle| matches!(stencil(triangle), Stencil::Whole)) {
         return (None, 0);
     }
-    // Triangles that show the same of a picture, as the leaves of a tree do, are looked at and cut once.
+    // Triangles that show the same part of a picture, such as the leaves of a tree, are classified and cut
+    // once.
     let shows = alike((0..count).map(|triangle| shown(geometry, triangle, stencil(triangle))));
     let looks: Vec<Look> = shows
         .firsts
@@ -164,7 +165,7 @@ fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<(Geometry,
                     TexelTriangle { corners: *corners, sides: *sides, crossings }.cut(borders, Some(mask))
                 }
                 _ if crossings.iter().all(|crossings| crossings.is_empty()) => None,
-                // A neighbour is cut along a side: there the triangle gets its points, so that both still meet.
+                // A neighbour is cut along a common side. Adding the same points here keeps both connected.
                 _ => {
                     let corners = [DVec2::ZERO, DVec2::X, DVec2::Y];
                     let sides = sides(corners, of_sides.map(|side| side.1));
@@ -189,11 +190,11 @@ fn cut_geometry(geometry: &Geometry, stencils: &[Stencil]) -> (Option<(Geometry,
     (Some(rebuilt.done()), too_many)
 }
 
-/// What a triangle shows of a picture: nothing of any, or its material, its corners there, and which ends of its sides
-/// come first in space.
+/// Key of the part of a picture that a triangle shows: material, texture coordinates, and the direction of
+/// its sides. `None` if it does not depend on a picture.
 type Shown = Option<(u32, [[u32; 2]; 3], [bool; 3])>;
 
-/// What a triangle shows of its material's picture; of what is clear all over, none.
+/// Key of a triangle, and whether any of it may remain.
 fn shown(geometry: &Geometry, triangle: usize, stencil: &Stencil) -> (bool, Shown) {
     let corners = geometry.corner_uvs.get(triangle).map(|corners| {
         corners.map(|uv| geometry.uvs.get(uv as usize).map_or([u32::MAX; 2], |uv| uv.map(f32::to_bits)))
@@ -209,11 +210,11 @@ fn shown(geometry: &Geometry, triangle: usize, stencil: &Stencil) -> (bool, Show
     }
 }
 
-/// Which of many things are alike.
+/// Groups of equal items.
 struct Alike {
-    /// The kind of each.
+    /// Group of each item.
     kind: Vec<u32>,
-    /// The first of each kind.
+    /// First item of each group.
     firsts: Vec<usize>,
 }
 
@@ -231,7 +232,7 @@ fn alike<T: Eq + Hash>(all: impl Iterator<Item = T>) -> Alike {
     alike
 }
 
-/// What a mask leaves of a triangle, seen alone.
+/// Classifies a triangle against a mask.
 fn look<'a>(geometry: &Geometry, triangle: usize, mask: &'a Mask, outline: &Outline) -> Look<'a> {
     let Some(corners) = texels_of(geometry, triangle, mask) else { return Look::Whole };
     let [a, b, c] = corners;
@@ -254,7 +255,7 @@ fn look<'a>(geometry: &Geometry, triangle: usize, mask: &'a Mask, outline: &Outl
     Look::Crossed(Box::new(Crossed { mask, corners, sides, borders, parts }))
 }
 
-/// The sides of a triangle in the plane of the texels, each from the end that comes first in space.
+/// Sides of a triangle in the texel plane, each directed from the end that comes first in space.
 fn sides(corners: [DVec2; 3], is_forward: [bool; 3]) -> [TexelSide; 3] {
     [0, 1, 2].map(|k| {
         let (a, b) = (corners[k], corners[(k + 1) % 3]);
@@ -263,7 +264,7 @@ fn sides(corners: [DVec2; 3], is_forward: [bool; 3]) -> [TexelSide; 3] {
     })
 }
 
-/// The sides of a triangle by the places of their ends, and whether each begins with the end that comes first in space.
+/// Keys of a triangle's sides, and whether each side begins with the end that comes first in space.
 fn side_keys(geometry: &Geometry, triangle: usize) -> [(SideKey, bool); 3] {
     let ends = geometry.triangles[triangle].map(|corner| geometry.positions[corner as usize]);
     [0, 1, 2].map(|k| {
@@ -274,7 +275,8 @@ fn side_keys(geometry: &Geometry, triangle: usize) -> [(SideKey, bool); 3] {
     })
 }
 
-/// Where the sides of all triangles are crossed, from whichever of the triangles beside them: the bits of the parts.
+/// Crossings of borders with all sides, from both adjacent triangles: sorted positions along the side, as
+/// bits.
 fn crossings<'a>(geometry: &Geometry, look: impl Fn(usize) -> &'a Look<'a>) -> FxHashMap<SideKey, Vec<u64>> {
     let mut all: FxHashMap<SideKey, Vec<f64>> = FxHashMap::default();
     for triangle in 0..geometry.triangles.len() {

@@ -1,4 +1,4 @@
-//! [`Mask`]: where the picture of a material leaves it clear.
+//! [`Mask`]: which parts of a material's picture are transparent.
 
 use glam::DVec2;
 
@@ -8,28 +8,28 @@ use crate::scene::textures;
 use crate::scene::textures::texel_plane::Texels;
 use crate::scene::{Material, Scene};
 
-/// How opaque a picture is, texel by texel, and from what on it counts as opaque.
+/// Opacity of each texel of a picture, and the minimum opacity that counts as opaque.
 ///
-/// Between the middles of four texels opacity is bilinear, as when a texture is magnified.
+/// Opacity is bilinear between the centres of four texels, as in a magnified texture.
 pub(crate) struct Mask {
     pub texels: Texels,
     opacity: Vec<u8>,
-    /// Between two whole numbers, so that no texel lies upon it.
+    /// Halfway between two whole numbers, so that no texel is exactly on it.
     level: f64,
 }
 
-/// What a material is without a look at each of its triangles.
+/// The transparent parts of a material.
 pub(crate) enum Masked {
-    /// Nothing of it is cut away.
+    /// Nothing is cut away.
     Nowhere,
-    /// All of it is.
+    /// Everything is cut away.
     Everywhere,
-    /// Its picture says where.
+    /// The mask decides.
     Where(Mask),
 }
 
 impl Masked {
-    /// What a material leaves clear; an error if its picture is needed and cannot be read.
+    /// Finds the transparent parts of a material; an error if its picture is needed and cannot be read.
     pub fn of(scene: &Scene, material: &Material) -> Result<Self, String> {
         let constant = f64::from(material.colour.a) / 255.0;
         let (picture, is_own) = match (&material.opacity_map, &material.alpha) {
@@ -43,8 +43,8 @@ impl Masked {
         let (least, most) = opacity.iter().fold((255, 0), |(a, b), o| (a.min(*o), b.max(*o)));
         let level = match material.alpha {
             Alpha::Mask { cutoff } => f64::from(cutoff) * 255.0,
-            // A picture that is wholly clear nowhere is glass with dirt on it. The edge of another one is where it is half as
-            // opaque as it gets.
+            // A picture without fully transparent texels is dirty glass, not a cut-out. Otherwise the edge is
+            // at half the maximum opacity.
             Alpha::Blend if least > 0 => return Ok(Self::Nowhere),
             Alpha::Blend => f64::from(most) / 2.0,
             Alpha::Opaque => 127.5,
@@ -60,7 +60,7 @@ impl Masked {
     }
 }
 
-/// How opaque each texel is: its alpha; of a picture made for opacity that has none, how light it is.
+/// Opacity of each texel: its alpha, or the lightness in an opacity map without alpha.
 fn opacities(picture: &Picture, is_own: bool) -> Vec<u8> {
     let pixels = &picture.pixels;
     if is_own && pixels.iter().all(|c| c.a == 255) {
@@ -73,13 +73,13 @@ fn opacities(picture: &Picture, is_own: bool) -> Vec<u8> {
 }
 
 impl Mask {
-    /// By how much the texel at a whole number of steps is more opaque than it must be; never 0.
+    /// Opacity of a texel minus the level, never 0. Column and row may be outside the picture.
     pub fn texel(&self, column: i64, row: i64) -> f64 {
         let opacity = self.opacity.get(self.texels.index(column, row));
         opacity.map_or(-1.0, |o| f64::from(*o) - self.level)
     }
 
-    /// Whether a point of the plane is opaque.
+    /// Whether a point of the texel plane is opaque.
     pub fn is_opaque(&self, p: DVec2) -> bool {
         let (low, part) = (p.floor(), p - p.floor());
         let (i, j) = (low.x as i64, low.y as i64);
@@ -94,7 +94,7 @@ impl Mask {
 
 #[cfg(test)]
 impl Mask {
-    /// A mask of given opacities that repeats, cut at half.
+    /// Mask of given opacities, cut at half.
     pub fn of_opacities(width: usize, opacity: Vec<u8>, wrap: crate::scene::material::Wrap) -> Self {
         let texels = Texels {
             size: [width, opacity.len() / width],

@@ -6,7 +6,7 @@ use super::*;
 use crate::mesh::Mesh;
 use crate::scene::{Alpha, Material, Part, Wrap};
 
-/// Chance for tests.
+/// Random numbers for tests.
 struct Dice(u64);
 
 impl Dice {
@@ -16,7 +16,7 @@ impl Dice {
     }
 }
 
-/// A PNG of white pixels with these opacities.
+/// PNG of white pixels with given opacities.
 fn png(width: usize, opacity: &[u8]) -> Arc<[u8]> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width as u32, (opacity.len() / width) as u32);
@@ -26,10 +26,10 @@ fn png(width: usize, opacity: &[u8]) -> Arc<[u8]> {
     Arc::from(bytes)
 }
 
-/// The corners of a triangle, what they show, and its material.
+/// Corners of a triangle, their texture coordinates, and its material.
 type Shown = ([u32; 3], [[f32; 2]; 3], u32);
 
-/// A scene of triangles in the plane z = 0, with a cut-out material (0) and a whole one (1).
+/// Scene of triangles in the plane z = 0, with a cut-out material (0) and an opaque one (1).
 fn scene(positions: &[[f64; 2]], triangles: &[Shown], material: Material) -> Scene {
     let geometry = Geometry {
         positions: positions.iter().map(|[x, y]| DVec3::new(*x, *y, 0.0)).collect(),
@@ -57,7 +57,7 @@ fn masked(picture: Arc<[u8]>, wrap: Wrap) -> Material {
 
 const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
 
-/// A square that shows all of a picture.
+/// Square that shows the whole picture once.
 fn square(material: Material) -> Scene {
     let [a, b, c, d] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]];
     scene(&SQUARE, &[([0, 1, 2], [a, b, c], 0), ([0, 2, 3], [a, c, d], 0)], material)
@@ -69,7 +69,7 @@ fn disc(size: usize, radius: f64) -> Vec<u8> {
     (0..size * size).map(|k| (127.5 + 255.0 * off(k)).clamp(0.0, 255.0) as u8).collect()
 }
 
-/// The ends of the edges at which a scene has one face only, and the area of its faces.
+/// Ends of the border edges of a scene, and the area of its faces.
 fn borders(scene: &Scene) -> (Vec<[DVec2; 2]>, f64) {
     let mesh = Mesh::build(scene.to_soup());
     let at = |v: u32| (mesh.origin + mesh.positions[v as usize]).truncate();
@@ -102,7 +102,7 @@ fn a_round_hole_in_a_plate_is_a_circle() {
             round += a.distance(b);
         }
     }
-    // One circle and nothing else: no seam along the diagonal.
+    // One circle only: no seam along the diagonal.
     assert!((round - std::f64::consts::TAU * radius).abs() < 0.02, "{round}");
 }
 
@@ -138,7 +138,7 @@ fn what_is_left_is_what_the_mask_says_point_by_point() {
                 let texel = corners[0] * shares[0] + corners[1] * shares[1] + corners[2] * shares[2];
                 let around = [DVec2::X, DVec2::NEG_X, DVec2::Y, DVec2::NEG_Y]
                     .map(|way| mask.is_opaque(texel + way * 0.03));
-                // Beside the border of the mask, less than it is allowed to be off, nothing is said.
+                // Points closer to the border than the tolerance are not tested.
                 if around == [mask.is_opaque(texel); 4] {
                     assert_eq!(covered(p), mask.is_opaque(texel), "{p} at {texel}, {wrap:?}");
                 }
@@ -150,7 +150,7 @@ fn what_is_left_is_what_the_mask_says_point_by_point() {
 #[test]
 fn neighbours_meet_whatever_they_show() {
     let opacity = disc(64, 30.0);
-    // The second triangle shows the picture turned round, is whole, or shows nothing of it.
+    // The second triangle shows the picture rotated, is opaque, or shows nothing of it.
     for (uvs, material) in [
         ([[1.0, 1.0], [0.0, 0.0], [1.0, 0.0]], 0),
         ([[0.0, 0.0], [1.0, 1.0], [0.0, 1.0]], 1),
@@ -160,7 +160,7 @@ fn neighbours_meet_whatever_they_show() {
         let triangles = [([0, 1, 2], first, 0), ([0, 2, 3], uvs, material)];
         let scene = scene(&SQUARE, &triangles, masked(png(64, &opacity), Wrap::Repeat));
         let Cut { scene: cut, .. } = cut(&scene);
-        // Along the diagonal a border is where one side is clear; there the other side has all of it.
+        // The diagonal is a border where one side is transparent; there the other side is complete.
         let on_diagonal = |[a, b]: &[DVec2; 2]| a.x == a.y && b.x == b.y;
         let (edges, _) = borders(&cut);
         let length: f64 = edges.iter().filter(|e| on_diagonal(e)).map(|[a, b]| a.distance(*b)).sum();
@@ -207,7 +207,7 @@ fn materials_say_what_is_cut() {
     assert_eq!(faces(of(Alpha::Opaque, Some(half()))), (2, 0));
     assert_eq!(faces(of(Alpha::Mask { cutoff: 0.9 }, Some(half()))), (0, 0));
     assert_eq!(faces(of(Alpha::Mask { cutoff: 0.1 }, Some(half()))), (2, 0));
-    // Glass with dirt on it, and a leaf.
+    // Dirty glass, and a leaf.
     assert_eq!(faces(of(Alpha::Blend, Some(png(2, &[120, 20])))), (2, 0));
     assert!(faces(of(Alpha::Blend, Some(png(2, &[120, 0])))).0 > 2);
     let clear = crate::colour::srgb::Colour { a: 0, ..Material::default().colour };
@@ -225,7 +225,7 @@ fn pictures_of_noise_on_very_many_triangles_are_left_alone() {
     let Cut { scene: whole, warnings, .. } = cut(&noisy);
     assert_eq!(whole.geometries[0].triangles.len(), 4);
     assert!(warnings.lines()[0].contains("too much"), "{:?}", warnings.lines());
-    // A scene made by hand may point beyond its vertices.
+    // A hand-made scene may have indices that are out of range.
     let mut scene = square(masked(png(4, &[255, 255, 0, 0].repeat(4)), Wrap::Clamp));
     scene.geometries[0].triangles[1][2] = 99;
     assert_eq!(cut(&scene).scene.geometries[0].triangles.len(), 2);
@@ -237,7 +237,8 @@ fn where_there_is_much_borders_lie_a_px_off_at_most() {
     const RADIUS: f64 = 20.3;
     let hole = disc(64, RADIUS);
     let holes: Vec<u8> = (0..256 * 256).map(|k| hole[k / 256 % 64 * 64 + k % 64]).collect();
-    // How many pieces of border there are when a square shows them so often along each side, and how far off they lie.
+    // Number of border segments and their error, for a square that shows the picture `times` times along each
+    // side.
     let found = |times: f32| {
         let [a, b, c, d] = SQUARE.map(|at| at.map(|x| x as f32 * times));
         let triangles = [([0, 1, 2], [a, b, c], 0), ([0, 2, 3], [a, c, d], 0)];
@@ -254,7 +255,7 @@ fn where_there_is_much_borders_lie_a_px_off_at_most() {
     };
     let (some, fine) = found(20.0);
     assert!(fine < 0.4, "{some} pieces, {fine} px off");
-    // Followed as closely, what is seen three times as small would have 0.58 times as many pieces.
+    // At a constant tolerance, three times smaller texels would need 0.58 times the segments.
     let (less, slight) = found(60.0);
     assert!(f64::from(less as u32) < 0.53 * f64::from(some as u32), "{less} pieces of {some}");
     assert!(slight > fine && slight < 1.1, "{fine} and {slight} px off");

@@ -1,4 +1,4 @@
-//! Cuts one triangle along the borders of a mask.
+//! Cuts one triangle along the borders of a mask, by a constrained Delaunay triangulation in the texel plane.
 
 use glam::DVec2;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
@@ -7,27 +7,27 @@ use super::opacity_mask::Mask;
 use crate::scene::textures::texel_plane::side_crossings::{TexelSide, turn};
 use crate::scene::textures::texel_plane::texel_borders::Segment;
 
-/// Where a corner of a piece lies on the triangle that was cut.
+/// Position of a piece's vertex on the original triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Place {
-    /// At one of its corners.
+    /// At a corner.
     Corner(u8),
-    /// On the side after a corner, at one of the crossings of that side.
+    /// On the side after a corner, at the crossing with this index.
     Side(u8, u32),
-    /// Within it: the shares of its three corners.
+    /// Inside, in barycentric coordinates.
     Inside([f64; 3]),
 }
 
-/// A triangle in the plane of the texels.
+/// A triangle in the texel plane.
 pub(crate) struct TexelTriangle<'a> {
     pub corners: [DVec2; 3],
-    /// The side after each corner.
+    /// Side after each corner.
     pub sides: [TexelSide; 3],
-    /// Where each side is crossed, the crossings of its neighbours among them: parts of the side, ascending.
+    /// Crossings on each side, including those of the neighbours: ascending positions, 0 to 1.
     pub crossings: [&'a [f64]; 3],
 }
 
-/// What is left of a triangle: the places that its pieces use, and the pieces, turned as it is.
+/// Remaining pieces of a triangle: their vertices, and triangles with the orientation of the original.
 #[derive(Debug, Default)]
 pub(crate) struct Pieces {
     pub places: Vec<Place>,
@@ -36,11 +36,11 @@ pub(crate) struct Pieces {
 
 type Faces = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
-/// A triangulation in the making.
+/// A triangulation under construction.
 #[derive(Default)]
 struct Net {
     faces: Faces,
-    /// Where each vertex lies on the triangle.
+    /// Position of each vertex on the triangle.
     places: Vec<Place>,
 }
 
@@ -49,8 +49,8 @@ type VertexHandle = spade::handles::FixedVertexHandle;
 const UNKNOWN: u32 = u32::MAX;
 
 impl TexelTriangle<'_> {
-    /// The parts of the triangle that a mask leaves, or all of it in pieces where there is none. `None` if it cannot be
-    /// cut.
+    /// Cuts the triangle and returns the opaque pieces, or all pieces without a mask. `None` if the
+    /// triangulation fails.
     pub fn cut(&self, borders: &[Segment], mask: Option<&Mask>) -> Option<Pieces> {
         let mut net = Net::default();
         let corners = self.add_sides(&mut net)?;
@@ -81,8 +81,8 @@ impl TexelTriangle<'_> {
         Some(pieces)
     }
 
-    /// Adds the corners and the crossings of the sides, and what joins them round the triangle; returns, side by side, the
-    /// crossings with the ends before and behind them.
+    /// Adds corners and crossings and constrains the outline. Returns the vertices of each side, ends
+    /// included.
     fn add_sides(&self, net: &mut Net) -> Option<[Vec<VertexHandle>; 3]> {
         let mut corners = Vec::with_capacity(3);
         for (k, corner) in self.corners.iter().enumerate() {
@@ -108,7 +108,7 @@ impl TexelTriangle<'_> {
         Some(rows)
     }
 
-    /// Adds what lies of a border within the triangle, and notes it.
+    /// Adds the part of a border inside the triangle as constraints, and records them in `drawn`.
     fn add_border(
         &self,
         net: &mut Net,
@@ -147,7 +147,7 @@ impl TexelTriangle<'_> {
         Some(())
     }
 
-    /// How much of each corner a point has.
+    /// Barycentric coordinates of a point.
     fn shares(&self, p: DVec2) -> [f64; 3] {
         let [a, b, c] = self.corners;
         let shares = [turn(b, c, p), turn(c, a, p), turn(a, b, p)];
@@ -155,8 +155,10 @@ impl TexelTriangle<'_> {
         shares.map(|share| share / whole)
     }
 
-    /// Which faces are left: those on the left of a border, and of its component. Where no border is drawn the mask is asked
-    /// once; where borders contradict each other, face by face.
+    /// Which faces remain: those of components on the opaque (left) side of a border.
+    ///
+    /// Components without a border take the mask's value at the triangle's centre. If borders contradict each
+    /// other, the mask decides for each face.
     fn kept(
         &self,
         net: &Faces,
@@ -192,7 +194,7 @@ impl TexelTriangle<'_> {
 }
 
 impl Net {
-    /// Adds a vertex; where one is already it stays what it was.
+    /// Adds a vertex; an existing vertex at the same position keeps its place.
     fn insert(&mut self, at: DVec2, place: Place) -> Option<VertexHandle> {
         let vertex = self.faces.insert(spade::mitigate_underflow(Point2::new(at.x, at.y))).ok()?;
         if vertex.index() == self.places.len() {
@@ -201,7 +203,7 @@ impl Net {
         Some(vertex)
     }
 
-    /// Joins two vertices unless that would cross what is joined already; whether they are joined now.
+    /// Constrains an edge unless it would cross another constraint; returns whether it is constrained.
     fn join(&mut self, from: VertexHandle, to: VertexHandle) -> bool {
         let can_be = from != to && self.faces.can_add_constraint(from, to);
         if can_be {
@@ -211,12 +213,13 @@ impl Net {
     }
 }
 
-/// Which faces hang together without a joined edge between them, and how many such sets there are; the first is outside.
+/// Components of faces that are connected without crossing a constraint, and their number. Component 0 is
+/// outside.
 fn components(net: &Faces) -> (Vec<u32>, u32) {
     let mut component = vec![UNKNOWN; net.num_all_faces()];
     let mut stack = Vec::new();
     component[net.outer_face().index()] = 0;
-    // From outside: through the sides of the hull that are no side of the triangle.
+    // Start outside, through hull edges that are not sides of the triangle.
     for edge in net.convex_hull() {
         let inner = edge.rev().face();
         let inner = if inner.is_outer() { edge.face() } else { inner };

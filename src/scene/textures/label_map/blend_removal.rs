@@ -1,7 +1,7 @@
-//! [`settle`]: texels that blend the colours of their neighbours are no third colour.
+//! [`settle`]: removes false colours from texels that blend two neighbouring colours.
 //!
-//! Where a picture passes from one colour to another its texels have colours in between, and some of these may be nearest to a
-//! colour that is not there at all: a thin rim of it would be painted round everything.
+//! Between two areas of a picture, texels have intermediate colours. Some of these are closest to an
+//! unrelated palette colour, which would surround every area with a thin rim.
 
 use crate::parallel::prelude::*;
 
@@ -10,10 +10,10 @@ use crate::colour::oklab::{Oklab, distance2};
 use crate::parallel::task_size::GRAIN;
 use crate::scene::textures::texel_plane::Texels;
 
-/// How far from the straight way between two colours a blend of them may lie.
+/// Maximum distance in Oklab between a blended colour and the segment of the two colours that it blends.
 const BESIDE: f32 = 0.07;
 
-/// Gives blends one of the two colours that they blend, with how far they lie on the way to the other.
+/// Assigns blended texels to one of the two colours that they blend, with the position between them.
 pub(crate) fn settle(
     texels: &Texels,
     palette: &[Oklab],
@@ -23,7 +23,7 @@ pub(crate) fn settle(
     let width = texels.size[0];
     let at =
         |texel: usize, i: i64, j: i64| texels.index((texel % width) as i64 + i, (texel / width) as i64 + j);
-    // Whether a texel is of one colour with a square of four.
+    // A core texel has the colour of a 2 x 2 square that contains it.
     let is_core = |texel: usize| {
         let own = guesses[texel].nearest;
         let is_own = |i: i64, j: i64| guesses[at(texel, i, j)].nearest == own;
@@ -63,10 +63,10 @@ pub(crate) fn settle(
     (0..guesses.len()).into_par_iter().with_min_len(GRAIN).map(of).collect()
 }
 
-/// The texels around one.
+/// Offsets of the eight surrounding texels.
 const ROUND: [(i64, i64); 8] = [(-1, -1), (0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0)];
 
-/// How far a colour lies beside the straight way between two, and how far along it.
+/// Distance of a colour from the segment between two others, and the position along it, 0 to 1.
 fn beside(lab: Oklab, a: Oklab, b: Oklab) -> (f32, f32) {
     let along: f32 = (0..3).map(|c| (lab[c] - a[c]) * (b[c] - a[c])).sum();
     let way = (along / distance2(a, b).max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
@@ -99,7 +99,7 @@ mod tests {
         let settled = settle(&texels, &palette, &labs, &guesses);
         assert_eq!((settled[10].nearest, settled[10].second), (1, 0));
         assert!((settled[10].way - 0.4).abs() < 1e-6);
-        // A stripe that is two texels wide is there.
+        // A stripe two texels wide is kept.
         let wide: Vec<Guess> =
             (0..28).map(|k| Guess { nearest: [0, 0, 2, 2, 1, 1, 1][k % 7], second: 0, way: 0.0 }).collect();
         let settled = settle(&texels, &palette, &labs, &wide);

@@ -1,4 +1,4 @@
-//! [`Labels`]: which of a few colours each texel of a picture is painted with, and each point between them.
+//! [`Labels`]: the colour label of each texel of a picture, and of each point between texels.
 
 use crate::parallel::prelude::*;
 use glam::DVec2;
@@ -8,39 +8,40 @@ use super::texel_assignments::{Guesses, MOST_REACH};
 use crate::geometry::numbers::portable_math;
 use crate::scene::textures::texel_plane::Texels;
 
-/// Colours that have a share in a texel, at most.
+/// Maximum number of colours with a share in a texel.
 const SHARES: usize = 4;
 
-/// In [`Labels::mixed`]: all of the texel is of its colour.
+/// Index in `mixed` for a texel without stored shares: its label has all of it.
 const PURE: u32 = u32::MAX;
 
 type Shares = [(u8, f32); SHARES];
 
-/// Which of a few colours each texel of a picture is painted with, and each point between them.
+/// The colour label of each texel of a picture, and of each point between texels.
 ///
-/// Every texel has a share of each colour, blurred a little, and is painted with the one of which it has most. Between two
-/// texels shares are linear; borders go straight from one such place to the next, or to the point where three colours meet.
+/// Every texel has a slightly blurred share of each colour; its label is the colour with the greatest share.
+/// Shares are linear between texels. Borders are straight between their crossings with cell sides, or meet in
+/// a point where three colours do.
 #[derive(Debug, Clone)]
 pub(crate) struct Labels {
     pub texels: Texels,
     winners: Vec<u8>,
-    /// Where the shares of each texel are found.
+    /// Index of each texel's shares, or [`PURE`].
     mixed: Vec<u32>,
     shares: Vec<Shares>,
-    /// Whether texels are blocks.
+    /// Whether texels are drawn as blocks.
     blocks: bool,
 }
 
 impl Labels {
-    /// Which colours texels have that are blocks: those that they are nearest to.
+    /// Labels of a picture drawn as blocks: the nearest palette colour of each texel.
     pub(crate) fn blocks(guesses: &Guesses) -> Self {
         let winners: Vec<u8> = guesses.list.iter().map(|guess| guess.nearest).collect();
         let mixed = vec![PURE; winners.len()];
         Self { texels: guesses.texels, winners, mixed, shares: Vec::new(), blocks: true }
     }
 
-    /// Which of so many colours texels have, from those they are near to, with shares blurred by a normal distribution of this
-    /// deviation, texels.
+    /// Labels from the nearest colours of each texel, blurred by a Gaussian with standard deviation `blur` in
+    /// texels.
     pub(crate) fn of(guesses: &Guesses, blur: f64, colours: usize) -> Self {
         let texels = guesses.texels;
         let width = texels.size[0];
@@ -73,18 +74,18 @@ impl Labels {
         labels
     }
 
-    /// The colour of a texel.
+    /// Label of a texel.
     pub(crate) fn winner(&self, texel: usize) -> u8 {
         self.winners[texel]
     }
 
-    /// Paints a texel with another colour.
+    /// Changes the label of a texel.
     pub(crate) fn repaint(&mut self, texel: usize, colour: u8) {
         self.winners[texel] = colour;
         self.mixed[texel] = PURE;
     }
 
-    /// How much more a texel has of a colour than of another.
+    /// Difference of a texel's shares of two colours.
     pub(crate) fn lead(&self, texel: usize, of: u8, before: u8) -> f64 {
         let share = |colour: u8| match self.mixed[texel] {
             PURE => f64::from(u8::from(self.winners[texel] == colour)),
@@ -96,7 +97,7 @@ impl Labels {
         share(of) - share(before)
     }
 
-    /// The colour at a point of the plane.
+    /// Label at a point of the texel plane.
     pub fn at(&self, p: DVec2) -> u8 {
         let (low, part) = (p.floor(), p - p.floor());
         let cell = Cell::new(self, low.x as i64, low.y as i64);
@@ -104,7 +105,7 @@ impl Labels {
     }
 }
 
-/// The greatest of some sums, by their numbers, as shares of all.
+/// Largest sums and their indices, as shares of the total.
 fn greatest(sums: &[f32]) -> Shares {
     let all: f32 = sums.iter().sum();
     let mut shares: Shares = [(0, 0.0); SHARES];
@@ -119,24 +120,24 @@ fn greatest(sums: &[f32]) -> Shares {
     shares
 }
 
-/// The square between the middles of four texels: round it from the first, to the right and down.
+/// Cell between four texel centres, clockwise from the upper left one.
 pub(crate) struct Cell<'a> {
     labels: &'a Labels,
     texels: [usize; 4],
     pub colours: [u8; 4],
 }
 
-/// How a cell is parted.
+/// Borders within a cell.
 pub(crate) enum Parting {
-    /// It is not.
+    /// None: the cell has one label.
     Not,
-    /// By borders from side to side.
+    /// Borders from side to side.
     Across(Vec<[usize; 2]>),
-    /// By borders from sides to a point where all meet.
+    /// Borders from sides to a common point.
     Meeting(DVec2),
 }
 
-/// Places on sides are rounded to this part of a texel, so that they are the same from both ends of a picture.
+/// Crossings are rounded to 1/`STEPS` of a texel, so that they are equal at both ends of a repeated picture.
 const STEPS: f64 = (1u64 << 20) as f64;
 
 impl<'a> Cell<'a> {
@@ -145,19 +146,19 @@ impl<'a> Cell<'a> {
         Self { labels, texels, colours: texels.map(|texel| labels.winner(texel)) }
     }
 
-    /// Whether all of it has one colour.
+    /// Whether the cell has a single label.
     pub fn is_even(&self) -> bool {
         self.colours == [self.colours[0]; 4]
     }
 
-    /// Where two colours meet on a side, counted from its first corner on, in the unit square.
+    /// Point in the unit square where the label changes on a side; sides are numbered by their first corner.
     pub fn crossing(&self, side: usize) -> Option<DVec2> {
         let next = (side + 1) % 4;
         let [a, b] = [self.colours[side], self.colours[next]];
         if a == b {
             return None;
         }
-        // From the left or the upper end, whichever cell asks.
+        // Always computed from the left or upper end, so that both cells of a side agree.
         let (first, second) = if side < 2 { (side, next) } else { (next, side) };
         let [a, b] = [self.colours[first], self.colours[second]];
         let ahead = self.labels.lead(self.texels[first], a, b);
@@ -168,7 +169,7 @@ impl<'a> Cell<'a> {
         Some(from + (to - from) * part)
     }
 
-    /// How it is parted.
+    /// Borders within the cell.
     pub fn parting(&self) -> Parting {
         if self.is_even() {
             return Parting::Not;
@@ -182,7 +183,7 @@ impl<'a> Cell<'a> {
             [first, second] => Parting::Across(vec![[first, second]]),
             [_, _, _, _] if a == c && b == d => {
                 let [p, q, r, s] = self.texels.map(|texel| self.labels.lead(texel, a, b));
-                // The value where the bilinear lead has its saddle.
+                // Sign of the bilinear difference at its saddle.
                 let joins_a = (p * r - q * s) / (p + r - q - s) >= 0.0;
                 Parting::Across(if joins_a { vec![[0, 1], [2, 3]] } else { vec![[3, 0], [1, 2]] })
             }
@@ -193,12 +194,12 @@ impl<'a> Cell<'a> {
         }
     }
 
-    /// The colour of a point of the unit square.
+    /// Label at a point of the unit square.
     fn at(&self, p: DVec2) -> u8 {
         match self.parting() {
             Parting::Not => self.colours[0],
             Parting::Across(ways) => {
-                // Whether the point lies on the side of the corner behind the first of two sides.
+                // Whether the point is on the side of the corner between two adjacent sides.
                 let is_behind = |[first, second]: &[usize; 2]| {
                     let [Some(from), Some(to)] = [*first, *second].map(|side| self.crossing(side)) else {
                         return false;
@@ -212,7 +213,7 @@ impl<'a> Cell<'a> {
                 }
             }
             Parting::Meeting(middle) => {
-                // From the middle, corners lie between the borders on both their sides.
+                // Seen from the meeting point, each corner is between the borders on its two sides.
                 let on_side = |side: usize| {
                     self.crossing(side).unwrap_or((CORNERS[side] + CORNERS[(side + 1) % 4]) / 2.0) - middle
                 };
@@ -227,6 +228,6 @@ impl<'a> Cell<'a> {
     }
 }
 
-/// The corners of a cell.
+/// Corners of a cell.
 const CORNERS: [DVec2; 4] =
     [DVec2::new(0.0, 0.0), DVec2::new(1.0, 0.0), DVec2::new(1.0, 1.0), DVec2::new(0.0, 1.0)];

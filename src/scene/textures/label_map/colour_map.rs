@@ -1,4 +1,4 @@
-//! [`ColourMap`]: a picture in a few colours, as large as its texels are seen.
+//! [`ColourMap`]: a picture reduced to a few colours, at the resolution of a view.
 
 use std::sync::OnceLock;
 
@@ -6,33 +6,34 @@ use super::colour_labels::Labels;
 use super::label_borders::trace;
 use crate::scene::textures::texel_plane::Traced;
 
-/// A picture in a few colours, as large as its texels are seen: which colour is where, and the borders between them.
+/// A picture reduced to a few colours, at the resolution of a view: the colour of each texel, and the borders
+/// between them.
 #[derive(Debug)]
 pub(crate) struct ColourMap {
     pub labels: Labels,
     borders: OnceLock<Option<Traced>>,
-    /// On how much of the picture specks were lost, as a part of it.
+    /// Share of the picture's texels that were specks.
     pub(crate) lost: f64,
 }
 
-/// What a map depends on but for the picture.
+/// Parameters of a map besides the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MapOf {
     pub sight: Sight,
-    /// The deviation of the blur of borders, texels.
+    /// Standard deviation of the blur of borders, texels.
     pub blur: f64,
-    /// What hangs together on fewer texels is a speck.
+    /// Minimum texels of a connected region; smaller ones are specks.
     pub least: f64,
 }
 
-/// How a picture is looked at.
+/// Resolution and colours of a reduced picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Sight {
-    /// How often its texels are halved along each side.
+    /// Number of times that width and height are halved.
     pub halvings: usize,
-    /// Whether how all of it looks from afar is one of the colours.
+    /// Whether the mean of the picture is one of the colours.
     pub with_mean: bool,
-    /// Whether texels are blocks.
+    /// Whether texels are drawn as blocks.
     pub blocks: bool,
 }
 
@@ -43,13 +44,13 @@ impl ColourMap {
         map
     }
 
-    /// The number of its texels.
+    /// Number of texels.
     pub(crate) fn texels(&self) -> usize {
         let [width, height] = self.labels.texels.size;
         width * height
     }
 
-    /// The borders between colours, traced when they are first asked for; none if there are too many.
+    /// Borders between colours, traced on first use; `None` if there are too many.
     pub fn borders(&self) -> Option<&Traced> {
         self.borders.get_or_init(|| trace(&self.labels)).as_ref()
     }

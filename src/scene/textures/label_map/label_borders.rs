@@ -1,4 +1,4 @@
-//! [`trace`]: the borders between the colours of a picture, in the plane of its texels.
+//! [`trace`]: traces the borders between the colour labels of a picture, in the texel plane.
 
 use glam::DVec2;
 use rustc_hash::FxHashMap;
@@ -6,18 +6,20 @@ use rustc_hash::FxHashMap;
 use super::colour_labels::{Cell, Labels, Parting};
 use crate::scene::textures::texel_plane::Traced;
 
-/// A picture with more pieces of border than this has none.
+/// Maximum number of border pieces in a picture.
 const MOST_PIECES: usize = 1 << 22;
 
-/// Where borders end in a cell: on a side between neighbouring texels (the column and row of the first, and whether the second
-/// lies below it), or in the middle of the cell.
+/// End of a border piece in a cell.
+///
+/// A side is between adjacent texels: column and row of the first, and whether the second is below it.
+/// Otherwise the end is in the middle of the cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 enum Place {
     Side(u32, u32, bool),
     Middle(u32, u32),
 }
 
-/// Traces the borders between colours; none if there are too many.
+/// Traces the borders between labels; `None` if there are too many.
 pub(crate) fn trace(labels: &Labels) -> Option<Traced> {
     let (reach, periods) = (labels.texels.reach(), labels.texels.periods());
     let mut pieces: Vec<Piece> = Vec::new();
@@ -68,14 +70,15 @@ pub(crate) fn trace(labels: &Labels) -> Option<Traced> {
     Some(Traced { lines, parted, reach, periods })
 }
 
-/// A piece of border in a cell.
+/// Piece of a border within a cell.
 struct Piece {
     ends: [(Place, DVec2); 2],
-    /// The two colours that it parts.
+    /// The two colours on its sides.
     parted: [u8; 2],
 }
 
-/// Pieces end to end, from where three meet, or none goes on, to the next such place; and which colours each line parts.
+/// Links pieces to lines that end where three borders meet or where a border ends, with the two colours of
+/// each line.
 fn linked(pieces: &[Piece]) -> (Vec<Vec<DVec2>>, Vec<[u8; 2]>) {
     let mut at: FxHashMap<Place, Vec<u32>> = FxHashMap::default();
     for (number, piece) in pieces.iter().enumerate() {
@@ -108,7 +111,7 @@ fn linked(pieces: &[Piece]) -> (Vec<Vec<DVec2>>, Vec<[u8; 2]>) {
             parted.push(pieces[first].parted);
         }
     };
-    // Lines that end anywhere first, then rings.
+    // Open lines first, then rings.
     for (number, piece) in pieces.iter().enumerate() {
         for (end, (place, _)) in piece.ends.iter().enumerate() {
             if at.get(place).is_some_and(|there| there.len() != 2) {
@@ -144,7 +147,7 @@ mod tests {
         Labels::of(&Guesses::new(texels, guesses), blur, 3)
     }
 
-    /// A disc in the middle of 48 texels, softened over one, as colour 1 on 0.
+    /// Disc of colour 1 on colour 0 in the middle of 48 texels, with an edge one texel soft.
     fn disc(p: DVec2) -> (u8, u8, f32) {
         let share = (p.distance(DVec2::splat(23.5)) - 15.2 + 0.5).clamp(0.0, 1.0) as f32;
         if share < 0.5 { (1, 0, share) } else { (0, 1, 1.0 - share) }
@@ -178,7 +181,7 @@ mod tests {
 
     #[test]
     fn colours_differ_on_both_sides_of_borders_and_nowhere_else() {
-        // Patches without order, of three colours, over the seams too.
+        // Irregular patches of three colours, also across the seams.
         let patch = |p: DVec2| {
             let dice =
                 (p.x as u64 / 3 * 7919 + p.y as u64 / 3 * 104_729).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 33;
@@ -193,7 +196,7 @@ mod tests {
                 [(a + b) / 2.0 + across, (a + b) / 2.0 - across].map(|p| labels.at(p))
             };
             let pieces = || traced.lines.iter().flat_map(|line| line.windows(2));
-            // Every line knows its two colours.
+            // Every line has the two colours that it separates.
             for (line, parted) in traced.lines.iter().zip(&traced.parted) {
                 let long = line.windows(2).find(|pair| pair[0].distance(pair[1]) > 0.05);
                 let mut seen = long.map_or(*parted, |pair| beside(pair[0], pair[1]));
@@ -205,7 +208,7 @@ mod tests {
                 pair[0].distance(pair[1]) > 0.05 && left == right
             });
             assert_eq!(wrong.count(), 0, "{wrap:?}");
-            // Along a line of sight, colours change as often as borders are crossed, or both less often by pairs.
+            // Along a scan line, the parity of colour changes equals that of border crossings.
             for row in 0..170 {
                 let y = f64::from(row) * 0.1 + 0.043;
                 let at = |k: u32| DVec2::new(f64::from(k) * 0.002 + 0.0007, y);

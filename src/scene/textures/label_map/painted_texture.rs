@@ -1,4 +1,4 @@
-//! [`Painted`]: the texture of a material, to be painted in a few colours.
+//! [`Painted`]: the texture of a material, prepared for painting in a few colours.
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -19,65 +19,66 @@ use crate::scene::Filter;
 use crate::scene::textures::result_cache::Kept;
 use crate::scene::textures::texel_plane::Texels;
 
-/// The texture of a material, to be painted in a few colours.
+/// The texture of a material, prepared for painting in a few colours.
 #[derive(Debug, Clone)]
 pub(crate) struct Painted {
     pub(crate) texels: Texels,
     pub(crate) colours: Vec<Colour>,
-    /// On how much of the surface each texel is seen.
+    /// Visible surface area of each texel.
     pub(crate) shown: Vec<f32>,
     /// The few colours.
     pub(crate) palette: Vec<Oklab>,
-    /// How all of it looks from afar; the number of that is the one behind those of the few colours.
+    /// Mean of the picture; its label follows those of the few colours.
     pub(crate) mean: Oklab,
     pub(crate) filter: Filter,
-    /// What was guessed of it, and the maps that were made, in views before.
+    /// Assignments and maps of earlier views.
     pub(crate) guesses: Kept<Sight, Guesses>,
     pub(crate) maps: Kept<MapOf, ColourMap>,
 }
 
-/// What is less wide than this many px is not drawn, and borders are rounded by about as much.
+/// Standard deviation of the blur of borders, px. Narrower details disappear, and borders are rounded by
+/// about as much.
 const BLUR_PX: f64 = 0.7;
 
-/// However large texels are seen, borders are rounded by about this much of one: steps of texels are not drawn.
+/// Minimum standard deviation of the blur, texels. Hides the steps of magnified texels.
 const BLUR_TEXELS: f64 = 0.8;
 
-/// Specks smaller than a square with this side, px, go to a neighbour.
+/// Side of a square, px. Smaller regions are specks and are merged with a neighbour.
 const SPECK_PX: f64 = 3.0;
 
-/// Where more of a picture than this is specks, it has nothing to be drawn.
+/// Maximum share of specks in a picture. With more, the picture has no visible detail at this scale.
 const MOST_LOST: f64 = 0.2;
 
-/// A picture with nothing to be drawn is looked at from so many times farther away.
+/// Reduction factor for such a picture.
 const AFAR: f64 = 8.0;
 
 impl Painted {
-    /// Texels in a row and rows, and how they are repeated.
+    /// Layout of its texels.
     pub fn texels(&self) -> &Texels {
         &self.texels
     }
 
-    /// How the few colours look.
+    /// The few colours, in Oklab.
     pub fn palette(&self) -> &[Oklab] {
         &self.palette
     }
 
-    /// Which of the colours is where, as it can be seen where so many texels lie along a px; where hardly anything is as large
-    /// as what is drawn, what it looks like in the mean.
+    /// Map of the colours at a resolution. If most details are smaller than specks, a coarser map that
+    /// includes the mean colour.
     pub fn map_or_mean(&self, texels_per_px: f64) -> Arc<ColourMap> {
         let map = self.map_in(texels_per_px, false);
         if map.lost <= MOST_LOST { map } else { self.map_in(texels_per_px * AFAR, true) }
     }
 
-    /// Which of the colours is where, as it can be seen where so many texels lie along a px.
+    /// Map of the colours at a resolution, in texels per px.
     pub fn map(&self, texels_per_px: f64) -> Arc<ColourMap> {
         self.map_in(texels_per_px, false)
     }
 
-    /// Which of the colours is where, or of these and the mean.
+    /// Map of the colours, with or without the mean colour.
     fn map_in(&self, texels_per_px: f64, with_mean: bool) -> Arc<ColourMap> {
         let scale = if texels_per_px.is_finite() { texels_per_px.max(1e-3) } else { 1.0 };
-        // As many as leave a px more than 0.7 texels, and less than 1.4.
+        // Halve until a texel is between 0.7 and 1.4 px.
         let halvings = (0..14).take_while(|k| scale / f64::from(1 << k) >= std::f64::consts::SQRT_2).count();
         let blocks = self.filter == Filter::Blocks && scale <= 1.0;
         let sight = Sight { halvings, with_mean, blocks };
@@ -86,7 +87,7 @@ impl Painted {
             return self.maps.get(MapOf { sight, blur: 0.0, least: 0.0 }, made);
         }
         let per_px = scale * self.size(halvings)[0] as f64 / self.texels.size[0] as f64;
-        // Specks have whole numbers of texels.
+        // Rounded up, as specks have whole numbers of texels.
         let least = (SPECK_PX * per_px).powi(2).ceil();
         let of = MapOf { sight, blur: (BLUR_PX * per_px).max(BLUR_TEXELS), least };
         self.maps.get(of, || {
@@ -97,7 +98,7 @@ impl Painted {
         })
     }
 
-    /// The few colours, and how all of it looks from afar where that is one of them.
+    /// The few colours, and the mean if it is one of them.
     fn colours_of(&self, sight: Sight) -> Cow<'_, [Oklab]> {
         if sight.with_mean {
             self.palette.iter().copied().chain([self.mean]).collect()
@@ -106,7 +107,7 @@ impl Painted {
         }
     }
 
-    /// Between which colours each texel lies.
+    /// Assigns each texel of the reduced picture to palette colours.
     fn guesses(&self, sight: Sight) -> Guesses {
         let palette = self.colours_of(sight);
         let (texels, labs) = self.reduced(sight.halvings);
@@ -117,13 +118,13 @@ impl Painted {
         Guesses::new(texels, guesses)
     }
 
-    /// Texels in a row and rows when they are halved so often.
+    /// Size of the picture after halving.
     fn size(&self, halvings: usize) -> [usize; 2] {
         let times = 1 << halvings;
         self.texels.size.map(|count| ((count + times / 2) / times).max(1))
     }
 
-    /// The picture with texels that are halved so often along each side: how they look in the mean where they are seen at all.
+    /// The picture reduced by halving: the mean of visible texels, or `None` if none is visible.
     fn reduced(&self, halvings: usize) -> (Texels, Vec<Option<Oklab>>) {
         let table = linear_table();
         let size = self.size(halvings);
@@ -150,8 +151,7 @@ impl Painted {
     }
 }
 
-/// For each texel the colour it is nearest to, the next nearest, and how far it lies on the way to that, 0 to 1/2. What is
-/// seen nowhere is like what is seen beside it.
+/// The two nearest palette colours of each texel. Invisible texels copy the nearest visible one.
 fn guesses(texels: &Texels, palette: &[Oklab], labs: &[Option<Oklab>]) -> Vec<Guess> {
     let of = |lab: &Option<Oklab>| Some(Guess::of((*lab)?, palette));
     let known: Vec<Option<Guess>> = labs.par_iter().with_min_len(GRAIN).map(of).collect();

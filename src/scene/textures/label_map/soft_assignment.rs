@@ -1,19 +1,19 @@
-//! [`Guess`]: between which colours of a palette that of a texel lies.
+//! [`Guess`]: the two palette colours between which a texel's colour is.
 
 use crate::colour::oklab::{Oklab, distance2};
 use crate::scene::textures::palette::colour_kmeans::closest;
 
-/// Between which colours that of a texel lies.
+/// The nearest and second nearest palette colour of a texel.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Guess {
     pub nearest: u8,
     pub second: u8,
-    /// How far on the way from the nearest to the second.
+    /// Position between the two, 0 (nearest) to 0.5.
     pub way: f32,
 }
 
 impl Guess {
-    /// Between which colours of a palette a colour lies.
+    /// Finds the two nearest palette colours.
     pub fn of(lab: Oklab, palette: &[Oklab]) -> Self {
         let nearest = closest(palette, lab);
         let mut second = (nearest, f32::INFINITY);

@@ -1,22 +1,22 @@
-//! [`merge`]: specks of colour go to what is around them.
+//! [`merge`]: merges small regions of one colour with their neighbours.
 
 use crate::parallel::prelude::*;
 
 use super::colour_labels::Labels;
 use crate::parallel::task_size::GRAIN;
 
-/// Paints what hangs together on fewer texels than this like the neighbour with which it shares most of its border, small ones
-/// first. Gives the number of texels that were specks at first.
+/// Repaints connected regions of fewer than `least` texels like the neighbour with the longest common border,
+/// small ones first. Returns the number of texels in specks before.
 pub(crate) fn merge(labels: &mut Labels, least: f64) -> usize {
     let first = merge_once(labels, least);
-    // Specks may lie within specks.
+    // Merging may reveal specks within specks.
     if first > 0 && merge_once(labels, least) > 0 {
         merge_once(labels, least);
     }
     first
 }
 
-/// Gives the number of texels that were painted anew.
+/// One pass; returns the number of texels repainted.
 fn merge_once(labels: &mut Labels, least: f64) -> usize {
     let texels = labels.texels;
     let mut small = small(labels, least);
@@ -45,9 +45,9 @@ fn merge_once(labels: &mut Labels, least: f64) -> usize {
     changed
 }
 
-/// What hangs together on fewer texels than this, each from its first texel on.
+/// Connected regions of fewer than `least` texels, each in ascending order.
 ///
-/// It is sought from borders, and what has grown as large is left at once, so that most of a picture is never looked at.
+/// The search starts at borders and stops when a region is large enough, so most texels are never visited.
 fn small(labels: &Labels, least: f64) -> Vec<Vec<usize>> {
     let texels = labels.texels;
     let count = texels.size[0] * texels.size[1];
@@ -94,7 +94,7 @@ fn small(labels: &Labels, least: f64) -> Vec<Vec<usize>> {
     small
 }
 
-/// What is known of a texel: nothing, that it is part of what is small, as far as that was followed, or of what is not.
+/// State of a texel in the search: not visited, part of a small region so far, or part of a large one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Known {
     Not,
@@ -112,7 +112,7 @@ mod tests {
 
     #[test]
     fn specks_take_the_colour_around_them_over_seams_too() {
-        // A speck of four on the corners of the picture, which hang together, one of two, and a patch of nine.
+        // A speck of four texels across the corners of the picture, one of two, and a patch of nine.
         let colour = |k: usize| match (k % 12, k / 12) {
             (0 | 11, 0 | 11) => 1,
             (5, 5 | 6) => 2,
@@ -138,7 +138,7 @@ mod tests {
         assert_eq!(merged(10.0), [0, 0, 0]);
     }
 
-    /// What hangs together on fewer texels than this, by following all that hangs together.
+    /// Reference: follows every region completely.
     fn small_by_all(labels: &Labels, least: f64) -> Vec<Vec<usize>> {
         let count = labels.texels.size[0] * labels.texels.size[1];
         let mut is_known = vec![false; count];

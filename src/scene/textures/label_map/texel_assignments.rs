@@ -1,4 +1,4 @@
-//! [`Guesses`]: between which colours of a palette each texel of a picture lies, however large it is seen.
+//! [`Guesses`]: the two nearest palette colours of each texel of a picture.
 
 use crate::parallel::prelude::*;
 
@@ -6,19 +6,19 @@ use super::soft_assignment::Guess;
 use crate::parallel::task_size::GRAIN;
 use crate::scene::textures::texel_plane::Texels;
 
-/// Between which colours of a palette each texel of a picture lies, however large it is seen.
+/// The two nearest palette colours of each texel, with the distance of each texel to a border.
 #[derive(Debug)]
 pub(crate) struct Guesses {
     pub texels: Texels,
     pub list: Vec<Guess>,
-    /// For each texel how many steps to the side, up or down it is to one of another colour, less one; at most [`FAR`].
+    /// For each texel, the number of steps to a texel of another colour, less one; at most [`FAR`].
     to_border: Vec<u8>,
 }
 
-/// Borders are not blurred over more texels than this.
+/// Maximum reach of the blur of borders, texels.
 pub(crate) const MOST_REACH: u8 = 4;
 
-/// Of texels whose border is farther away than it can be blurred.
+/// Value for texels out of reach of any blur.
 const FAR: u8 = MOST_REACH + 1;
 
 impl Guesses {
@@ -41,8 +41,8 @@ impl Guesses {
         Self { texels, list, to_border }
     }
 
-    /// In their order, the texels that a blur reaching over so many others mixes with another colour, or that are mixed by
-    /// themselves where there is none.
+    /// Texels, in order, that a blur of the given reach mixes with another colour. Without a blur, those that
+    /// are mixed already.
     pub fn mixed(&self, reach: u8) -> Vec<usize> {
         let is_mixed =
             |texel: &usize| self.to_border[*texel] <= reach || (reach == 0 && self.list[*texel].way != 0.0);
@@ -57,7 +57,7 @@ mod tests {
 
     #[test]
     fn texels_are_mixed_as_far_from_borders_as_a_blur_reaches() {
-        // Patches of three colours over 23 x 17 texels; some are mixed by themselves.
+        // Patches of three colours over 23 x 17 texels; some texels are mixed already.
         let guess = |k: usize| {
             let dice = (k % 23 / 6 * 7919 + k / 23 / 5 * 104_729).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 33;
             Guess { nearest: (dice % 3) as u8, second: 0, way: if k % 7 == 3 { 0.2 } else { 0.0 } }
@@ -67,7 +67,7 @@ mod tests {
                 Texels { size: [23, 17], wrap: [wrap; 2], upward: false, placing: Placing::default() };
             let list: Vec<Guess> = (0..23 * 17).map(guess).collect();
             let guesses = Guesses::new(texels, list.clone());
-            // The reference grows what differs by one step after the other.
+            // The reference grows the set of border texels step by step.
             let mut near: Vec<bool> = (0..list.len())
                 .map(|k| texels.beside(k).iter().any(|next| list[*next].nearest != list[k].nearest))
                 .collect();

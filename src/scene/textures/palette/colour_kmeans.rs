@@ -1,32 +1,32 @@
-//! [`few`]: a few colours that stand for all of a picture.
+//! [`few`]: a few representative colours of a picture, by k-means clustering in Oklab.
 //!
-//! Source: Arthur and Vassilvitskii, "k-means++", SODA 2007, with the farthest colour in place of a chosen one, and Lloyd,
-//! "Least squares quantization in PCM", 1982.
+//! Source: Lloyd, "Least squares quantization in PCM", 1982. Seeds as in Arthur and Vassilvitskii,
+//! "k-means++", SODA 2007, but the farthest colour replaces the random choice.
 
 use crate::colour::oklab::{self, Oklab, distance2, linear_table};
 use crate::colour::srgb::Colour;
 
-/// Bits of a channel by which colours are told apart at first.
+/// Bits per channel of the initial colour histogram.
 const BITS: u32 = 5;
 
-/// Rounds of moving colours to the middle of what they stand for.
+/// Rounds of Lloyd's algorithm.
 const ROUNDS: usize = 24;
 
-/// Colours nearer to each other than this look alike.
+/// Minimum distance between seeds in Oklab.
 const ALIKE: f32 = 0.035;
 
-/// Colours that all look nearly the same, with how much is seen of them.
+/// Bin of the colour histogram: mean linear light and visible area.
 #[derive(Clone, Copy, Default)]
 struct Bin {
     light: [f64; 3],
     weight: f64,
 }
 
-/// At most `count` colours for those of texels, each of which is seen on so much of the surface; the lightest first.
+/// At most `count` representative colours of texels, weighted by their visible area; the lightest first.
 pub(crate) fn few(colours: &[Colour], shown: &[f32], count: usize) -> Vec<Colour> {
     let bins = bins(colours, shown);
     let labs: Vec<Oklab> = bins.iter().map(|bin| oklab::of_linear(bin.light.map(|c| c as f32))).collect();
-    // Small things are drawn too: what is seen on a hundredth of the surface counts for a tenth.
+    // Square root, so that small areas count: a hundredth of the surface has a tenth of the weight.
     let weights: Vec<f32> = bins.iter().map(|bin| bin.weight.sqrt() as f32).collect();
     let mut centres = farthest(&labs, &weights, count.max(1));
     let mut nearest = vec![0; labs.len()];
@@ -63,7 +63,7 @@ pub(crate) fn few(colours: &[Colour], shown: &[f32], count: usize) -> Vec<Colour
     found
 }
 
-/// The colours of texels that are seen, put together with those that differ in their last bits only.
+/// Histogram of visible texels.
 fn bins(colours: &[Colour], shown: &[f32]) -> Vec<Bin> {
     let table = linear_table();
     let mut bins = vec![Bin::default(); 1 << (3 * BITS)];
@@ -82,7 +82,8 @@ fn bins(colours: &[Colour], shown: &[f32]) -> Vec<Bin> {
     bins
 }
 
-/// Colours far from each other: the most frequent one, then again and again the one that is worst stood for.
+/// Seeds far from each other: the most frequent colour, then repeatedly the one with the greatest weighted
+/// distance.
 fn farthest(labs: &[Oklab], weights: &[f32], count: usize) -> Vec<Oklab> {
     let most = |values: &mut dyn Iterator<Item = f32>| {
         let mut best: Option<(usize, f32)> = None;
@@ -108,7 +109,7 @@ fn farthest(labs: &[Oklab], weights: &[f32], count: usize) -> Vec<Oklab> {
     centres
 }
 
-/// The number of the nearest of some colours; of equally near ones the first.
+/// Index of the nearest colour; the first of equally near ones.
 pub(crate) fn closest(centres: &[Oklab], lab: Oklab) -> usize {
     let mut best = (0, f32::INFINITY);
     for (k, centre) in centres.iter().enumerate() {
@@ -131,7 +132,7 @@ mod tests {
         colours.extend(vec![blue; 4000]);
         colours.extend(vec![white; 40]);
         assert_eq!(few(&colours, &vec![1.0; colours.len()], 6), [white, red, blue]);
-        // What is not seen does not count.
+        // Invisible texels do not count.
         let shown: Vec<f32> = colours.iter().map(|c| if *c == blue { 0.0 } else { 1.0 }).collect();
         assert_eq!(few(&colours, &shown, 6), [white, red]);
         assert!(few(&colours, &vec![0.0; colours.len()], 6).is_empty());

@@ -1,29 +1,31 @@
-//! [`swatches`]: a few flat colours that stand for many.
+//! [`swatches`]: the flat colours of a palette texture, by clustering the colours of triangles.
 
 use rustc_hash::FxHashMap;
 
 use crate::colour::srgb::Colour;
 
-/// No more flat colours than this; what has more is a photograph.
+/// Maximum number of palette colours; a picture with more is a photograph.
 const MOST: usize = 64;
 
-/// Colours that differ by less than this in every channel are one.
+/// Minimum channel difference between two palette colours.
 pub(crate) const ALIKE: u32 = 28;
 
-/// Share of the colours that may be strangers to all swatches: blends at the borders of a palette.
+/// Maximum share of colours without a palette colour, such as blends at the borders of a palette.
 const STRANGERS: f64 = 0.02;
 
-/// Share of triangles whose own pixels must be alike in a palette.
+/// Minimum share of triangles with a single colour in a palette texture.
 const FLAT: f64 = 0.7;
 
-/// For each colour of a triangle, and whether the triangle is of one colour, the flat one that stands
-/// for it: the colours of a palette; or the mean of all where there is none.
+/// Flat colour for each triangle, given its colour and whether it is its only one: a palette colour, or the
+/// mean of all if there is no palette.
 pub(crate) fn swatches(triangles: &[(Colour, bool)]) -> Vec<Colour> {
     of_palette(triangles).unwrap_or_else(|| vec![mean(triangles); triangles.len()])
 }
 
-/// For each colour of a triangle, and whether the triangle is of one colour, the one of a palette that stands for it; none where
-/// there would be more than 64 or where many triangles are of several colours.
+/// Palette colour for each triangle, given its colour and whether it is its only one.
+///
+/// Returns `None` if the palette would have more than 64 colours, or if too many triangles have several
+/// colours.
 pub(crate) fn of_palette(triangles: &[(Colour, bool)]) -> Option<Vec<Colour>> {
     let flat = triangles.iter().filter(|(_, flat)| *flat).count();
     if (flat as f64) < FLAT * triangles.len() as f64 {
@@ -36,7 +38,7 @@ pub(crate) fn of_palette(triangles: &[(Colour, bool)]) -> Option<Vec<Colour>> {
     let mut ranked: Vec<(Colour, usize)> = counts.iter().map(|(colour, count)| (*colour, *count)).collect();
     ranked.sort_unstable_by_key(|(colour, count)| (std::cmp::Reverse(*count), *colour));
 
-    // The most frequent colours stand for those near them.
+    // Greedy clustering: the most frequent colours represent those near them.
     let mut chosen: Vec<Colour> = Vec::new();
     let mut strangers = 0;
     for (colour, count) in &ranked {
@@ -59,7 +61,7 @@ pub(crate) fn of_palette(triangles: &[(Colour, bool)]) -> Option<Vec<Colour>> {
     Some(triangles.iter().map(|(colour, _)| of.get(colour).copied().unwrap_or(*colour)).collect())
 }
 
-/// The mean of colours; opaque.
+/// Mean of colours; opaque.
 pub(crate) fn mean(triangles: &[(Colour, bool)]) -> Colour {
     let count = triangles.len().max(1) as u64;
     let channel = |of: fn(&Colour) -> u8| {
@@ -69,7 +71,7 @@ pub(crate) fn mean(triangles: &[(Colour, bool)]) -> Colour {
     Colour::rgb(channel(|c| c.r), channel(|c| c.g), channel(|c| c.b))
 }
 
-/// The greatest difference of two colours in a channel.
+/// Maximum difference of two colours in any channel.
 pub(crate) fn difference(a: Colour, b: Colour) -> u32 {
     let of = |a: u8, b: u8| u32::from(a.abs_diff(b));
     of(a.r, b.r).max(of(a.g, b.g)).max(of(a.b, b.b))
@@ -100,7 +102,7 @@ mod tests {
         let photograph = flat(&shades(0..8));
         assert_eq!(of_palette(&photograph), None);
         assert_eq!(mean(&photograph), Colour::rgb(128, 126, 100));
-        // A smooth run of one hue is few colours, each near what it stands for.
+        // A smooth gradient of one hue gives a few colours, each near those that it represents.
         let run = shades(0..1);
         let kept = of_palette(&flat(&run)).unwrap();
         assert!(kept.iter().zip(&run).all(|(a, b)| difference(*a, *b) < ALIKE));

@@ -14,30 +14,31 @@ use crate::colour::pixel_picture::Picture;
 use crate::scene::material::{Placing, Wrap};
 use crate::scene::{Material, Scene};
 
-/// How the texels of a picture lie in the plane, and how the picture goes on beyond its borders.
+/// Layout of a picture's texels in the plane, and its continuation outside the borders.
 ///
-/// The middle of the first texel lies at the origin, x runs along a row and y from the top row down.
+/// The centre of the first texel is the origin; x runs along a row and y from the top row down. The unit is a
+/// texel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Texels {
-    /// Texels in a row, and rows; at least 1.
+    /// Width and height in texels; at least 1.
     pub size: [usize; 2],
-    /// How the picture goes on along x and along y.
+    /// Wrapping along x and along y.
     pub wrap: [Wrap; 2],
-    /// Whether v grows from the bottom row up, as in OBJ and PLY, or from the top row down.
+    /// Whether v grows upwards from the bottom row, as in OBJ and PLY, or downwards from the top row.
     pub upward: bool,
-    /// Where the material puts the picture on its coordinates.
+    /// Scale and offset of the material's texture coordinates.
     pub placing: Placing,
 }
 
 impl Texels {
-    /// Those of the picture of a material.
+    /// Layout of a material's picture.
     pub fn of(scene: &Scene, material: &Material, picture: &Picture) -> Self {
         let size = [picture.width, picture.height];
         let Material { wrap, placing, .. } = *material;
         Self { size, wrap, upward: scene.format != "glTF", placing }
     }
 
-    /// Where a pair of texture coordinates lies in the plane; none if it is no place.
+    /// Point of the plane for a pair of texture coordinates; `None` if it is not finite or too far away.
     pub fn place(&self, uv: [f32; 2]) -> Option<DVec2> {
         let Placing { scale, offset } = self.placing;
         let [u, v] = [0, 1]
@@ -45,11 +46,11 @@ impl Texels {
         let v = if self.upward { 1.0 - f64::from(v) } else { f64::from(v) };
         let [width, height] = self.size.map(|count| count as f64);
         let place = DVec2::new(f64::from(u) * width - 0.5, v * height - 0.5);
-        // Beyond this many texels single precision no longer tells them apart.
+        // At this distance single precision can no longer distinguish texels.
         (place.is_finite() && place.abs().max_element() < 1e9).then_some(place)
     }
 
-    /// The same picture after this many texels, along x and along y; none where the border goes on instead.
+    /// Period of the pattern along x and along y, in texels; `None` if the border is repeated.
     pub fn periods(&self) -> [Option<usize>; 2] {
         [0, 1].map(|k| match self.wrap[k] {
             Wrap::Repeat => Some(self.size[k]),
@@ -58,14 +59,14 @@ impl Texels {
         })
     }
 
-    /// How many cells between texels and their neighbours there are before the same comes again, along x and along y.
+    /// Number of cells between texel centres in one period, along x and along y.
     pub fn reach(&self) -> [usize; 2] {
         let periods = self.periods();
-        // Where the border goes on for ever one cell is enough to see in which way.
+        // With a repeated border, one cell is enough to show the direction of lines outside.
         [0, 1].map(|k| periods[k].unwrap_or((self.size[k] - 1).max(1)))
     }
 
-    /// The numbers of the texels to the right of one, to its left, below it and above it.
+    /// Indices of the texels to the right, to the left, below and above.
     #[inline]
     pub fn beside(&self, texel: usize) -> [usize; 4] {
         let [width, height] = self.size;
@@ -77,7 +78,7 @@ impl Texels {
         [(1, 0), (-1, 0), (0, 1), (0, -1)].map(|(i, j)| self.index(column + i, row + j))
     }
 
-    /// The number of the texel a whole number of steps from the first, along x and along y.
+    /// Index of the texel at a column and a row, which may be outside the picture.
     #[inline]
     pub fn index(&self, column: i64, row: i64) -> usize {
         let [width, height] = self.size;
@@ -85,7 +86,7 @@ impl Texels {
     }
 }
 
-/// Which of `count` texels in a row stands at a place.
+/// Wraps an index into `0..count`.
 #[inline]
 fn wrapped(at: i64, count: i64, wrap: Wrap) -> usize {
     if (0..count).contains(&at) {
@@ -102,16 +103,16 @@ fn wrapped(at: i64, count: i64, wrap: Wrap) -> usize {
     within as usize
 }
 
-/// The borders between what differs in a picture, one period of them.
+/// Traced borders between areas of a picture, one period of them.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Traced {
-    /// End to end. Those that are no rings end where three meet, or where the picture is repeated or goes on for ever.
+    /// Linked polylines. Open ones end where three borders meet, or at the border of the picture or period.
     pub lines: Vec<Vec<DVec2>>,
-    /// The numbers of the two colours that each line parts, or empty.
+    /// The two colours on the sides of each line, or empty.
     pub parted: Vec<[u8; 2]>,
-    /// How far the cells between texels reach, along x and along y.
+    /// Number of cells along x and along y.
     pub reach: [usize; 2],
-    /// Where the same comes again, along x and along y.
+    /// Period along x and along y.
     pub periods: [Option<usize>; 2],
 }
 

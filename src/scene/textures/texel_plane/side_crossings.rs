@@ -1,35 +1,35 @@
-//! Where borders in a picture cross the sides of a triangle, the same for both triangles that share one.
+//! Crossings of borders with the sides of a triangle, identical for both triangles that share a side.
 
 use glam::DVec2;
 use robust::{Coord, orient2d};
 
 use super::texel_borders::Segment;
 
-/// Nearer than this to an end of a side, as a share of it, is the end.
+/// Crossings within this fraction of a side from its end count as the end.
 const AT_END: f64 = 1e-9;
 
-/// Twice the area of a triangle, positive where it turns from x to y; the sign is exact.
+/// Twice the signed area of a triangle, positive if it turns from x to y. The sign is exact.
 pub(crate) fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let at = |p: DVec2| Coord { x: p.x, y: p.y };
     orient2d(at(a), at(b), at(c))
 }
 
-/// A side of a triangle in the plane of the texels, from the end that comes first in space to the other.
+/// A side of a triangle in the texel plane, directed from the end that comes first in space.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TexelSide {
     pub from: DVec2,
     pub to: DVec2,
-    /// Whether the triangle itself lies where [`turn`] is not negative.
+    /// Whether the triangle is on the side where [`turn`] is not negative.
     pub inside: bool,
 }
 
 impl TexelSide {
-    /// Whether a point lies on the triangle's side of the line through it.
+    /// Whether a point is on the triangle's side of the line.
     pub fn admits(&self, p: DVec2) -> bool {
         (turn(self.from, self.to, p) >= 0.0) == self.inside
     }
 
-    /// Where a border crosses the side: the part of the side before it, and the part of the border.
+    /// Crossing of a border segment with the side: positions on the side and on the segment, 0 to 1.
     pub fn crossing(&self, [p, q]: Segment) -> Option<(f64, f64)> {
         let (of_p, of_q) = (turn(self.from, self.to, p), turn(self.from, self.to, q));
         if (of_p >= 0.0) == (of_q >= 0.0) {
@@ -51,7 +51,7 @@ impl TexelSide {
     }
 }
 
-/// The crossings of a side in order, each once.
+/// Sorts crossings along a side and removes duplicates and ends.
 pub(crate) fn in_order(parts: &mut Vec<f64>) {
     parts.retain(|part| *part > 0.0 && *part < 1.0);
     parts.sort_unstable_by(f64::total_cmp);

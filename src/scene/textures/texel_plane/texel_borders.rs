@@ -1,4 +1,4 @@
-//! [`Outline`]: borders in the plane of a picture's texels, thinned to what is needed of them, by place.
+//! [`Outline`]: simplified borders in the texel plane, with a grid index for queries by box.
 //!
 //! Source: Douglas and Peucker, "Algorithms for the reduction of the number of points", 1973.
 
@@ -7,28 +7,28 @@ use glam::DVec2;
 use super::Traced;
 use crate::geometry::lists::csr_lists::{Grouped, grouped};
 
-/// A piece of border, in the direction in which it was traced.
+/// Segment of a border, in tracing direction.
 pub(crate) type Segment = [DVec2; 2];
 
-/// How far the lines go on beyond a picture whose border is repeated for ever, texels.
+/// Length of the extension of lines outside a picture with repeated border, texels.
 const FAR: f64 = 2e9;
 
-/// Cells of the index along each side, at most.
+/// Maximum cells of the index along each side.
 const MOST_CELLS: usize = 64;
 
-/// A line of more points than this is thinned in parts.
+/// Maximum points of a line, or part of a line, that is simplified as a whole.
 const SPAN: usize = 512;
 
-/// Whoever asks for more pieces of border at once gets none.
+/// Maximum segments that a query returns; larger queries fail.
 const MOST_SEGMENTS: usize = 100_000;
 
-/// Borders, one period of them, by place.
+/// Borders of one period, indexed by position.
 #[derive(Debug)]
 pub(crate) struct Outline {
     pub segments: Vec<Segment>,
-    /// The numbers of the two colours that each of them parts.
+    /// The two colours on the sides of each segment.
     parted: Vec<[u8; 2]>,
-    /// Where the same comes again, along x and along y.
+    /// Period along x and along y, texels.
     periods: [Option<f64>; 2],
     across: [usize; 2],
     cell: DVec2,
@@ -36,7 +36,7 @@ pub(crate) struct Outline {
 }
 
 impl Outline {
-    /// Traced borders, which may lie this far beside where they are exactly, texels.
+    /// Simplifies traced borders with a tolerance in texels, and indexes them.
     pub fn new(traced: &Traced, tolerance: f64) -> Self {
         let Traced { lines, parted: of_lines, reach, periods } = traced;
         let (reach, periods) = (*reach, *periods);
@@ -59,7 +59,7 @@ impl Outline {
         outline
     }
 
-    /// How many pieces of border a picture has.
+    /// Number of segments in one period.
     pub fn count(&self) -> usize {
         self.segments.len()
     }
@@ -76,13 +76,12 @@ impl Outline {
         }
     }
 
-    /// The pieces of border that may lie in a box; none if there are too many.
+    /// Segments that may touch a box; `None` if there are too many.
     pub fn near(&self, low: DVec2, high: DVec2) -> Option<Vec<Segment>> {
         self.near_as(low, high, |segment, _| segment)
     }
 
-    /// The pieces of border that may lie in a box, each made something of together with the numbers of the two colours that it
-    /// parts; none if there are too many.
+    /// Segments that may touch a box, mapped by `make` with their two colours; `None` if there are too many.
     pub fn near_as<T>(
         &self,
         low: DVec2,
@@ -127,7 +126,7 @@ impl Outline {
     }
 }
 
-/// Lets a line that ends at a border which is repeated for ever go on outwards.
+/// Extends the ends of a line outwards where the border texel is repeated.
 fn extend(line: &mut Vec<DVec2>, reach: [usize; 2], periods: [Option<usize>; 2]) {
     let (Some(first), Some(last)) = (line.first().copied(), line.last().copied()) else { return };
     if first == last {
@@ -152,13 +151,12 @@ fn extend(line: &mut Vec<DVec2>, reach: [usize; 2], periods: [Option<usize>; 2])
     line.extend(beyond(last));
 }
 
-/// A line without the points that lie within `tolerance` of the line without them; closed ones that are no wider than that are
-/// gone.
+/// Simplifies a line with a tolerance. Closed lines narrower than the tolerance become empty.
 fn thinned(line: &[DVec2], tolerance: f64) -> Vec<DVec2> {
     let count = line.len();
     let is_closed = line[0] == line[count - 1];
     let mut kept = vec![false; count];
-    // A line that winds for ever would be gone through once a turn, so that long ones are thinned span by span.
+    // The recursion on a long winding line would be quadratic, so it is simplified span by span.
     let mut ends: Vec<usize> = (0..count - 1).step_by(SPAN).chain([count - 1]).collect();
     if is_closed && count <= SPAN {
         let from = |k: &usize| line[*k].distance_squared(line[0]);

@@ -1,7 +1,7 @@
-//! [`middle_lines`]: the middle edges of roundings as lines, where these are whole.
+//! [`middle_lines`]: centre edges of fillets, kept where they form whole lines.
 //!
-//! On thinned out meshes an edge here and there looks like the middle of a rounding. What is drawn is a line that goes as far as the
-//! rounding does, but for a corner at its ends.
+//! On decimated meshes single edges may look like the middle of a fillet. A centre line must run along the
+//! whole fillet, except for a corner at its ends.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -10,19 +10,21 @@ use super::surface_trace::Walk;
 use crate::mesh::EdgeFaces;
 use crate::parallel::task_size::GRAIN;
 
-/// An edge in the middle of a rounding, and how wide the rounding is.
+/// Centre edge of a fillet, with the width of the fillet.
 pub(crate) type Middle = (usize, f64);
 
-/// A line is longer than its rounding is wide by this factor,
+/// Minimum length of a line, in widths of its fillet.
 const LONG: f64 = 3.0;
-/// and by this one than what goes on along the rounding at both its ends.
+/// Minimum length of a line, in lengths of the continuation of the fillet at both ends.
 const WHOLE: f64 = 2.0;
-/// Edges that are followed from the end of a line: what takes more of them is no corner.
+/// Maximum number of edges followed from the end of a line. A longer continuation is no corner.
 const MOST: usize = 64;
-/// The cosine (40 degrees) of the turn by which a line goes on from one edge to another, and beyond its end in all.
+/// Minimum cosine (40 degrees) of the turn between consecutive edges, and of the total turn after the end of
+/// a line.
 const ONWARD: f64 = 0.766;
 
-/// The edges of those found, which are some of the edges asked, that are parts of whole lines; both are ascending, as is what is left.
+/// The edges of `found` that belong to whole lines, ascending. `found` is a subset of `asked`; both are
+/// ascending.
 pub(crate) fn middle_lines(walk: &Walk, asked: &[usize], found: &[Middle]) -> Vec<usize> {
     let lines = Lines::new(walk, asked, found);
     let mut stays: Vec<usize> = Vec::new();
@@ -36,7 +38,7 @@ pub(crate) fn middle_lines(walk: &Walk, asked: &[usize], found: &[Middle]) -> Ve
         let mut line = vec![at];
         let outside = ends.map(|end| {
             let (mut edge, mut end) = (found[at].0, end);
-            // Along the line to its end, which a closed line has none of.
+            // Follows the line to its end. A closed line has none.
             loop {
                 let Some(next) = lines.next_in_line(edge, end) else { break Some((edge, end)) };
                 if std::mem::replace(&mut is_seen[next], true) {
@@ -64,14 +66,15 @@ pub(crate) fn middle_lines(walk: &Walk, asked: &[usize], found: &[Middle]) -> Ve
     stays
 }
 
-/// The edges of roundings by the vertices at which they end.
+/// Fillet edges by end vertex.
 struct Lines<'a> {
     walk: &'a Walk<'a>,
     found: &'a [Middle],
-    /// The vertices of those found with their places, ascending, and those of all edges asked with these.
+    /// Vertices of the found edges with their indices, sorted; then vertices of all examined edges with their
+    /// edges.
     found_at: Vec<(u32, usize)>,
     asked_at: Vec<(u32, usize)>,
-    /// Vertices at which creases or borders end.
+    /// Whether a crease or border ends at each vertex.
     is_on_line: Vec<bool>,
 }
 
@@ -103,7 +106,7 @@ impl<'a> Lines<'a> {
         if a == end { b } else { a }
     }
 
-    /// From one end of an edge to the other.
+    /// Vector along an edge towards one of its ends.
     fn towards(&self, edge: usize, end: u32) -> DVec3 {
         let positions = &self.walk.mesh.positions;
         positions[end as usize] - positions[self.far(edge, end) as usize]
@@ -114,26 +117,26 @@ impl<'a> Lines<'a> {
         self.towards(edge, a).length()
     }
 
-    /// Those found that end at a vertex, but for one edge.
+    /// Found edges that end at a vertex, except one edge.
     fn found_at(&self, vertex: u32, edge: usize) -> impl Iterator<Item = usize> {
         at_vertex(&self.found_at, vertex).filter(move |other| self.found[*other].0 != edge)
     }
 
-    /// Which of those found goes on at one end of an edge: the only one there, if it does not turn away.
+    /// The found edge that continues an edge at one end: the only one there, if it does not turn away.
     fn next_in_line(&self, edge: usize, end: u32) -> Option<usize> {
         let mut found = self.found_at(end, edge);
         let next = found.next().filter(|_| !self.is_on_line[end as usize])?;
         (found.next().is_none() && self.onward(edge, end, self.found[next].0) > ONWARD).then_some(next)
     }
 
-    /// The cosine of the turn from an edge to another at a vertex.
+    /// Cosine of the turn from an edge to another at a vertex.
     fn onward(&self, edge: usize, end: u32, other: usize) -> f64 {
         let next = self.towards(other, self.far(other, end));
         self.towards(edge, end).normalize_or_zero().dot(next.normalize_or_zero())
     }
 
-    /// How far the rounding goes on from the end of a line until it meets another one or turns away, in addition to so much; none if that
-    /// is more than the most.
+    /// Length of the fillet after the end of a line, until it meets another line or turns away, added to
+    /// `length`. `None` if the sum exceeds `most`.
     fn beyond(&self, mut edge: usize, mut end: u32, mut length: f64, most: f64) -> Option<f64> {
         let convex = self.walk.is_convex(edge);
         let ahead = self.towards(edge, end).normalize_or_zero();
@@ -160,7 +163,7 @@ impl<'a> Lines<'a> {
     }
 }
 
-/// What belongs to a vertex in sorted pairs.
+/// Values of a vertex in sorted pairs.
 fn at_vertex(pairs: &[(u32, usize)], vertex: u32) -> impl Iterator<Item = usize> {
     let first = pairs.partition_point(|(v, _)| *v < vertex);
     pairs[first..].iter().take_while(move |(v, _)| *v == vertex).map(|(_, of)| *of)

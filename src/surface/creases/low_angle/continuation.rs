@@ -1,7 +1,7 @@
-//! [`Beyond`]: how a surface goes on from an edge, straight across one of its faces.
+//! [`Beyond`]: how a surface continues from an edge, straight across one of its faces.
 //!
-//! Facets of a curve turn again by as much, the same way, before they have gone much farther than the facet before; what was
-//! cut at an angle does not.
+//! Facets of a curve bend again by a similar angle in the same direction, at about the width of one facet. A
+//! surface cut at an angle does not. An edge where neither side continues as a curve is a crease.
 
 use std::f64::consts::PI;
 
@@ -11,39 +11,41 @@ use super::surface_trace::{Bend, Crossing, Walk};
 use crate::geometry::numbers::portable_math::cos;
 use crate::mesh::{EdgeFaces, FaceId};
 
-/// A surface turns again if it does by more than this share of the turn.
+/// Minimum turn, as a share of the first turn, for the surface to bend again.
 const AGAIN: f64 = 0.35;
 
-/// Facets of one curve are as wide as each other: a surface that turns again so many times farther off is none of them.
+/// Maximum ratio of facet widths on one curve. A surface that bends again farther away is not part of the
+/// curve.
 const WIDE: f64 = 4.0;
-/// Facets of one rounding are as wide as each other but for this factor.
+/// Maximum ratio of the widths of two neighbouring steps of one fillet.
 const ALIKE: f64 = 1.5;
-/// In its middle a rounding turns by twice as much as at its ends, and by rounding a little more.
+/// Maximum turn in the middle of a fillet, as a multiple of the turn at its ends: 2, plus rounding.
 const TWICE: f64 = 2.2;
 
-/// A facet of no more faces is looked at all around.
+/// Maximum number of faces of a facet that is examined all around.
 const FACET: usize = 16;
-/// The cosine (a quarter of a degree) above which two sides of a facet lie on one line, if they are aside from it by no more than
-/// this share of the way between.
+/// Two sides of a facet are collinear above this cosine (a quarter of a degree), if their offset is below the
+/// share `ASIDE` of their distance or length.
 const STRAIGHT: f64 = 0.999_99;
 const ASIDE: f64 = 0.004;
-/// The cosine (45 degrees) above which two edges of a facet run beside each other.
+/// Minimum cosine (45 degrees) between parallel edges of a facet.
 const PARALLEL: f64 = 0.71;
-/// Edges one behind the other lie on one line where they are apart by less than this share of their distance.
+/// Minimum sideways offset between parallel edges, as a share of their distance. Below it they lie on one
+/// line.
 const SAME_LINE: f64 = 0.1;
 
-/// How a surface goes on straight across from an edge.
+/// Continuation of a surface straight across from an edge.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Beyond {
-    /// It ends at so great a distance: at a crease, or where the mesh does.
+    /// Ends at this distance: at a crease, or at a border of the mesh.
     Ends(f64),
-    /// It turns again at so great a distance, the same way.
+    /// Bends again at this distance, in the same direction.
     Bends(f64),
-    /// It turns back by as much at this edge.
+    /// Bends back by a similar angle at this edge.
     TurnsBack(usize),
 }
 
-/// Whether surfaces that go on so from both sides of an edge end there.
+/// Whether surfaces with these two continuations end at the edge between them.
 fn is_end(beyond: [Beyond; 2]) -> bool {
     match beyond {
         [Beyond::Bends(far), Beyond::Ends(near)] | [Beyond::Ends(near), Beyond::Bends(far)] => {
@@ -55,17 +57,18 @@ fn is_end(beyond: [Beyond; 2]) -> bool {
 }
 
 impl Walk<'_> {
-    /// Whether the surfaces on both sides of an edge end at it, with the edges at which they have to turn back for that.
+    /// Whether the surfaces on both sides of an edge end at it. Returns the edges where they must bend back
+    /// for that.
     pub fn ends_at(&self, edge: usize) -> Option<[Option<usize>; 2]> {
         let (bend, faces) = self.bend(edge)?;
         let [first, second] = faces.map(|face| self.beyond(&bend, face));
         let beyond = [first?, second?];
-        // Facets of curves are mostly told by a few faces; all around them is asked of what is left.
+        // A trace is enough for most facets of curves. Only for the rest are the facets examined all around.
         if !is_end(beyond) {
             return None;
         }
         let first = self.seen_around(&bend, faces[0], beyond[0])?;
-        // Whatever is around the other facet, it makes no end of what is none.
+        // The other facet cannot turn this result into an end.
         if !is_end([first, beyond[1]]) {
             return None;
         }
@@ -76,7 +79,7 @@ impl Walk<'_> {
         }))
     }
 
-    /// How the surface goes on from an edge, straight across one of its faces; none where that is not told.
+    /// Continuation of the surface from an edge, straight across one of its faces; `None` if undecided.
     fn beyond(&self, bend: &Bend, face: u32) -> Option<Beyond> {
         let (beyond, crossed) = self.across(bend, face)?;
         match (beyond, crossed) {
@@ -87,7 +90,8 @@ impl Walk<'_> {
         }
     }
 
-    /// The same, where the facet that the face is of does not bend straight across but may aside of that; none if it is a triangle.
+    /// Same, but checks the whole facet of the face for bends off the trace. `None` if the facet is a
+    /// triangle.
     fn seen_around(&self, bend: &Bend, face: u32, beyond: Beyond) -> Option<Beyond> {
         let Some(around) = self.facet(face) else { return Some(beyond) };
         if self.is_triangle(&around) {
@@ -99,8 +103,8 @@ impl Walk<'_> {
         }
     }
 
-    /// Whether a crease that is met so far beyond an edge is the middle of a rounding in few steps: what is beyond is as
-    /// wide and turns again the same way.
+    /// Whether a crease at distance `near` is the middle of a fillet of few steps: the next strip has a
+    /// similar width and bends in the same direction.
     fn is_of_rounding(&self, bend: &Bend, near: f64, sharp: usize, last: u32) -> bool {
         let most = cos((TWICE * bend.turn).min(PI)) as f32;
         let is_step =
@@ -114,7 +118,7 @@ impl Walk<'_> {
         far < ALIKE * near && near < ALIKE * far
     }
 
-    /// The edges around the facet that a face is of; none of a large one.
+    /// The edges around the facet of a face; `None` for a large facet.
     fn facet(&self, face: u32) -> Option<Vec<usize>> {
         let (mut own, mut at, mut around) = (vec![face], 0, Vec::new());
         while at < own.len() {
@@ -134,7 +138,7 @@ impl Walk<'_> {
         Some(around)
     }
 
-    /// Whether a facet has three sides alone: those of thinned out meshes end where it happens.
+    /// Whether a facet has at most three sides. Facets of decimated meshes have arbitrary borders.
     fn is_triangle(&self, around: &[usize]) -> bool {
         let mut lines: Vec<[DVec3; 2]> = Vec::new();
         for edge in around {
@@ -151,7 +155,7 @@ impl Walk<'_> {
         lines.len() <= 3
     }
 
-    /// How far away a facet bends again along an edge much like this one.
+    /// Distance to the nearest edge of the facet that is parallel to this one and bends again.
     fn bends_beside(&self, bend: &Bend, around: &[usize]) -> Option<f64> {
         let ends = |edge: usize| self.mesh.edges.vertices[edge].map(|v| self.mesh.positions[v as usize]);
         let [from, to] = ends(bend.edge);
@@ -169,11 +173,11 @@ impl Walk<'_> {
             let [p, q] = ends(edge);
             let away = (p + q) / 2.0 - (from + to) / 2.0;
             let apart = away.reject_from(along).length();
-            // What goes on along the edge itself is the same crease.
+            // An edge on the same line belongs to the same crease.
             let is_beside = way(edge).dot(along).abs() > PARALLEL && apart > SAME_LINE * away.length();
             is_beside.then_some(apart)
         };
-        // What goes on from end to end around the facet is the same crease as well.
+        // So does an edge connected end to end around the facet.
         let mut others: Vec<usize> =
             around.iter().copied().filter(|edge| *edge != bend.edge && bends(*edge)).collect();
         let mut same = vec![bend.edge];
@@ -191,7 +195,8 @@ impl Walk<'_> {
         others.into_iter().filter_map(apart).min_by(f64::total_cmp)
     }
 
-    /// How the surface goes on from the middle of an edge, square to it, and the edge where that is, with the face before it.
+    /// Continuation found by a trace from the middle of an edge, with the edge where a crease ended it and
+    /// the face before that edge.
     fn across(&self, bend: &Bend, face: u32) -> Option<(Beyond, Option<(usize, u32)>)> {
         let again = cos(AGAIN * bend.turn) as f32;
         for crossing in self.crossings(bend.edge, face) {

@@ -1,7 +1,8 @@
-//! [`narrow_roundings`]: the lines that stand for roundings of few steps which are narrow beside the surfaces that they join.
+//! [`narrow_roundings`]: centre lines of fillets that have few steps and are narrow compared with the
+//! surfaces they join.
 //!
-//! A rounding of three or four steps turns by less than a crease at each of them, and would leave a box without edges. On paper it is
-//! one edge: the line in its middle.
+//! A fillet of three or four steps turns by less than the crease angle at each of them, so a box with such
+//! fillets would show no edges. In a drawing such a fillet is one line, along its middle.
 
 use crate::parallel::prelude::*;
 
@@ -10,47 +11,48 @@ use super::surface_trace::{Bend, Walk};
 use crate::geometry::numbers::portable_math::cos;
 use crate::mesh::Mesh;
 
-/// Steps of a rounding turn by more than this share of the one in its middle.
+/// Minimum turn of a step, as a share of the turn at the middle edge.
 const AGAIN: f64 = 0.35;
-/// Steps to be found on one side of an edge.
+/// Maximum number of steps on one side of the middle edge.
 const MOST_STEPS: usize = 4;
-/// How far a rounding turns in all, degrees.
+/// Range of the total turn of a fillet, degrees.
 const TURN_DEG: [f64; 2] = [50.0, 130.0];
-/// A rounding is narrow if the surfaces beside it are so many times as wide: both of them, and one of them.
+/// Minimum width of the surfaces next to a narrow fillet, in fillet widths: of both, and of the wider one.
 const NARROW: [f64; 2] = [1.5, 3.0];
-/// Strips of one rounding are as wide as each other but for this factor, and so are the turns between them.
+/// Maximum ratio between the widths of the strips of one fillet, and between its inner turns.
 const REGULAR: f64 = 1.3;
-/// At its ends a rounding turns by no more than so many times as much as in its middle.
+/// Maximum turn at the ends of a fillet, in turns of its middle.
 const MOST_AT_END: f64 = 1.6;
-/// Turns that differ by less than this share of a whole rounding's are alike.
+/// Maximum difference between two half turns that count as equal, as a share of the total turn.
 const ALIKE: f64 = 0.03;
-/// One of two surfaces is wider if it is by this factor.
+/// Minimum ratio of widths for one of two surfaces to count as wider.
 const WIDER: f64 = 1.5;
-/// Directions differ along an axis if they do by more than this.
+/// Minimum difference between two normals along an axis.
 const APART: f32 = 0.1;
-/// The smallest piece of work for a thread, in edges.
+/// Minimum number of edges per task.
 const GRAIN: usize = 1 << 8;
 
-/// Those of the edges asked that are in the middle of a narrow rounding, in their order: where they are most of its middle line.
+/// The edges of `asked`, in order, that lie in the middle of a narrow fillet and cover most of its centre
+/// line.
 pub(crate) fn narrow_roundings(walk: &Walk, asked: &[usize]) -> Vec<usize> {
     let wide_at = |edge: &usize| Some((*edge, Bent::at(walk, *edge)?.wide_if_middle(walk.mesh)?));
     let found: Vec<Middle> = asked.par_iter().with_min_len(GRAIN).filter_map(wide_at).collect();
     if found.is_empty() { Vec::new() } else { middle_lines(walk, asked, &found) }
 }
 
-/// An edge at which a surface turns.
+/// Edge where the surface turns.
 #[derive(Clone, Copy)]
 struct Step {
-    /// How far it is from the edge that is asked.
+    /// Distance from the start edge, world units.
     reach: f64,
-    /// Radians that the surface has turned since then.
+    /// Total turn since the start edge, radians.
     turned: f64,
     /// The face behind it.
     face: u32,
 }
 
-/// What is on one side of an edge: the edges after it at which the surface turns the same way in steps as wide as each other, nearest
-/// first, and how far it is to where the surface behind the last of them ends.
+/// One side of an edge: the following steps of a fillet, nearest first, and the distance to the end of the
+/// surface behind the last step.
 struct Side {
     steps: [Step; MOST_STEPS],
     count: usize,
@@ -58,7 +60,7 @@ struct Side {
 }
 
 impl Side {
-    /// What is straight across a face from an edge that is so long; none if no rounding ends there.
+    /// Traces across `face` from an edge of the given length. `None` if no fillet ends on this side.
     fn new(walk: &Walk, bend: &Bend, length: f64, face: u32) -> Option<Self> {
         let again = cos(AGAIN * bend.turn) as f32;
         let mut last = Step { reach: 0.0, turned: 0.0, face };
@@ -67,7 +69,7 @@ impl Side {
             let crossing = crossing?;
             let (edge, wide) = (crossing.edge, crossing.reach - last.reach);
             side.end = crossing.reach;
-            // What is beside a rounding is wide enough, or this is none that is as narrow as the edge is long.
+            // A gap this wide is a neighbouring surface of any fillet that is narrower than the edge is long.
             if wide > NARROW[1] * length {
                 break;
             }
@@ -76,7 +78,7 @@ impl Side {
             if next.is_some() && cosine >= again {
                 continue;
             }
-            // The first strip tells how wide the others are.
+            // The first strip sets the width of the others.
             let is_strip = side.count == 0 || wide <= REGULAR * side.steps[0].reach;
             let Some((next, _)) = next.filter(|(next, _)| next.convex == bend.convex && is_strip) else {
                 break;
@@ -94,14 +96,14 @@ impl Side {
         (0..side.count).any(ends).then_some(side)
     }
 
-    /// How far the surface behind a step reaches.
+    /// Width of the surface behind a step.
     fn width(&self, step: usize) -> f64 {
         let end = if step + 1 < self.count { self.steps[step + 1].reach } else { self.end };
         end - self.steps[step].reach
     }
 }
 
-/// An edge at which a surface turns, and what is on both sides of it.
+/// Bent edge, with the steps on both sides.
 struct Bent {
     turn: f64,
     sides: [Side; 2],
@@ -113,12 +115,12 @@ impl Bent {
         let (bend, [a, b]) = walk.bend(edge)?;
         let [p, q] = walk.mesh.edges.vertices[edge].map(|v| walk.mesh.positions[v as usize]);
         let length = p.distance(q);
-        // Facets of cylinders, which are most that is asked, are told by one side.
+        // Most candidates are facets of cylinders, which the first side already rules out.
         let sides = [Side::new(walk, &bend, length, a)?, Side::new(walk, &bend, length, b)?];
         Some(Self { turn: bend.turn, sides, length })
     }
 
-    /// The narrowest rounding that the edge is in, by its last step on each side.
+    /// The narrowest fillet that contains the edge, as its last step on each side.
     fn rounding(&self) -> Option<[usize; 2]> {
         let [near, far] = &self.sides;
         let runs = (0..near.count).flat_map(|i| (0..far.count).map(move |j| [i, j]));
@@ -131,7 +133,7 @@ impl Bent {
         runs.filter(is_one).min_by(|a, b| wide(*a).total_cmp(&wide(*b)))
     }
 
-    /// Whether the steps of a rounding are those of an arc: as wide as each other, and the surface turns by as much between them.
+    /// Whether the steps form an arc: strips of similar width, with similar turns between them.
     fn is_arc(&self, run: [usize; 2]) -> bool {
         let (mut strips, mut inner, mut most_at_end) =
             (Range::default(), Range::default().with(self.turn), 0.0f64);
@@ -140,7 +142,7 @@ impl Bent {
             for (k, step) in side.steps[..=last].iter().enumerate() {
                 strips = strips.with(step.reach - before.reach);
                 let turn = step.turned - before.turned;
-                // The turns at both ends are those of the surfaces beside as well.
+                // The turns at both ends also belong to the neighbouring surfaces.
                 if k < last {
                     inner = inner.with(turn);
                 } else {
@@ -152,7 +154,8 @@ impl Bent {
         strips.is_within(REGULAR) && inner.is_within(REGULAR) && most_at_end <= MOST_AT_END * inner.least
     }
 
-    /// How wide the narrow rounding is that the edge is the middle of; of two edges it is the one beside the wider surface.
+    /// Width of the narrow fillet whose middle edge this is. Of two middle edges, the one next to the wider
+    /// surface is taken.
     fn wide_if_middle(&self, mesh: &Mesh) -> Option<f64> {
         let run = self.rounding().filter(|run| self.is_arc(*run))?;
         let wide = self.sides[0].steps[run[0]].reach + self.sides[1].steps[run[1]].reach;
@@ -166,7 +169,7 @@ impl Bent {
         if whole < least || whole > most {
             return false;
         }
-        // How much less than half of the rounding is on each side.
+        // Half of the total turn, minus the turn on each side.
         let less = ends.map(|end| whole / 2.0 - end.turned);
         let alike = ALIKE * whole;
         if less[0].min(less[1]) < -alike {
@@ -187,7 +190,7 @@ impl Bent {
     }
 }
 
-/// The least and the greatest of numbers.
+/// Range of some numbers.
 struct Range {
     least: f64,
     most: f64,
@@ -204,7 +207,7 @@ impl Range {
         Self { least: self.least.min(number), most: self.most.max(number) }
     }
 
-    /// Whether they differ by no more than a factor.
+    /// Whether the largest is at most `factor` times the smallest.
     fn is_within(&self, factor: f64) -> bool {
         self.most <= factor * self.least
     }

@@ -1,8 +1,9 @@
-//! [`shallow_creases`]: edges of machined parts that turn by less than a crease, where the surfaces on both sides of them end.
+//! [`shallow_creases`]: creases of machined parts below the crease angle, where the surfaces on both sides
+//! end.
 //!
-//! The chamfer of a plate, a ramp, the point of a drill and its shank meet at angles at which a coarse cylinder has its
-//! facets as well. What tells them apart is how the surface goes on straight across: facets of a curve turn again by as much, the
-//! same way; what was cut at an angle does not.
+//! A chamfer, a ramp or the tip of a drill may meet its neighbour at the same angle as two facets of a coarse
+//! cylinder. The continuation across the surface distinguishes them: facets of a curve bend again by a
+//! similar angle in the same direction; a surface cut at an angle does not.
 
 use std::ops::Range;
 
@@ -16,17 +17,20 @@ use crate::mesh::{EdgeFaces, EdgeMark, Mesh, Turns};
 use crate::parallel::task_size::GRAIN;
 use crate::surface::HardEdges;
 
-/// A shallow crease turns by more than this share of the angle of a crease: 16 degrees of 40.
+/// Minimum turn of a shallow crease, as a share of the crease angle: 16 of 40 degrees.
 const SHALLOW: f64 = 0.4;
 
-/// Who asks for creases that are sharper than by default, degrees, gets these alone.
+/// Maximum crease angle, degrees, for which shallow creases are sought. A larger angle requests sharp creases
+/// only.
 const MOST_DEG: f64 = 40.0;
 
-/// An edge that may be a shallow crease, with those at which the surfaces on both sides have to turn back for that.
+/// Possible shallow crease, with the edges where the surfaces on both sides must bend back.
 type Candidate = (usize, [Option<usize>; 2]);
 
-/// The edges, ascending, that turn by less than `crease_deg` degrees and part surfaces that end there. `may` says which are asked;
-/// at `flat` ones the surface does not turn, and `hard` ones are creases already.
+/// Edges, ascending, that turn by less than `crease_deg` degrees and separate surfaces that end there.
+///
+/// Only edges that satisfy `may` are examined. The surface is flat at edges in `flat`; edges in `hard` are
+/// creases already.
 pub(crate) fn shallow_creases(
     mesh: &Mesh,
     (turns, flat): (&Turns, &EdgeSet),
@@ -50,8 +54,8 @@ pub(crate) fn shallow_creases(
     settled(mesh, &found, hard)
 }
 
-/// The edges, ascending, that turn by less than `crease_deg` degrees and by more than the facets of a fine curve; `may` says which are
-/// asked. Of what the file says something about it is not asked.
+/// Edges, ascending, that turn by less than `crease_deg` degrees and by more than facets of a fine curve.
+/// Only edges that satisfy `may` and have no mark in the file are examined.
 pub(crate) fn shallow_edges(
     mesh: &Mesh,
     turns: &Turns,
@@ -74,18 +78,18 @@ pub(crate) fn shallow_edges(
     (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN).filter(is_asked).collect()
 }
 
-/// Those of the candidates, which are in order, that hold each other: where the surface has to turn back is a shallow
-/// crease as well, and no line of them ends inside the surface.
+/// The candidates (in edge order) that support each other. The edges where the surface must bend back must be
+/// shallow creases too, and no line may end inside the surface.
 fn settled(mesh: &Mesh, found: &[Candidate], hard: &HardEdges) -> Vec<usize> {
     let vertices = |k: usize| mesh.edges.vertices[found[k].0];
-    // Candidates by the vertices at which they end, and by the edges where they need another.
+    // Candidates by end vertex, and by the edges that they depend on.
     let mut ends: Vec<(u32, usize)> = (0..found.len()).flat_map(|k| vertices(k).map(|v| (v, k))).collect();
     let mut needs: Vec<(usize, usize)> = Vec::new();
     needs.extend((0..found.len()).flat_map(|k| found[k].1.into_iter().flatten().map(move |edge| (edge, k))));
     ends.sort_unstable();
     needs.sort_unstable();
     let at = |vertex: u32| equal_range(&ends, vertex);
-    // How many lines end at each vertex: those that stay, and others, at which none ends inside the surface.
+    // Number of lines that end at each vertex: remaining candidates, creases and borders.
     let is_line =
         |edge: &usize| hard.is_hard(*edge) || !matches!(mesh.edges.faces(*edge), EdgeFaces::Two { .. });
     let of_others: Vec<usize> = (0..mesh.edges.len())
@@ -114,7 +118,7 @@ fn settled(mesh: &Mesh, found: &[Candidate], hard: &HardEdges) -> Vec<usize> {
         stays[k] = false;
         for range in vertices(k).map(at) {
             lines[range.start] -= 1;
-            // The last one at a vertex is asked once more, and whoever else is there need not be.
+            // Only the last line at a vertex needs another check.
             if lines[range.start] == 1 {
                 asked.extend(ends[range].iter().map(|(_, other)| *other));
             }
@@ -124,7 +128,7 @@ fn settled(mesh: &Mesh, found: &[Candidate], hard: &HardEdges) -> Vec<usize> {
     found.iter().zip(stays).filter(|(_, stays)| *stays).map(|((edge, _), _)| *edge).collect()
 }
 
-/// Where in sorted pairs those of a key lie.
+/// Range of the pairs with a key, in sorted pairs.
 fn equal_range<K: Ord>(pairs: &[(K, usize)], key: K) -> Range<usize> {
     let first = pairs.partition_point(|pair| pair.0 < key);
     first..first + pairs[first..].partition_point(|pair| pair.0 <= key)

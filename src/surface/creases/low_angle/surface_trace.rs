@@ -1,4 +1,4 @@
-//! [`Walk`]: over a surface from face to face, straight across from an edge.
+//! [`Walk`]: traces that cross a surface from face to face, perpendicular to a start edge.
 
 use std::iter::Take;
 
@@ -9,33 +9,33 @@ use crate::mesh::edges::edge_set::EdgeSet;
 use crate::mesh::{EdgeFaces, FaceId, Mesh, Turns};
 use crate::surface::HardEdges;
 
-/// Faces that are crossed at most: what is level for longer is taken to end.
+/// Maximum number of crossed faces. A level surface that goes on for longer counts as ended.
 const MOST: usize = 64;
 
-/// An edge between two faces at which the surface turns.
+/// Edge between two faces, with the turn of the surface there.
 #[derive(Clone, Copy)]
 pub(crate) struct Bend {
     pub edge: usize,
     pub convex: bool,
-    /// Radians.
+    /// Turn, radians.
     pub turn: f64,
 }
 
-/// What a walk over the surface needs.
+/// Mesh data for traces.
 pub(crate) struct Walk<'a> {
     pub mesh: &'a Mesh,
     pub turns: &'a Turns,
-    /// Edges at which faces are of one facet.
+    /// Edges inside facets, where the surface is flat.
     pub flat: &'a EdgeSet,
     pub hard: &'a HardEdges,
-    /// The cosine of a crease.
+    /// Cosine of the crease angle.
     pub most: f32,
-    /// For each vertex the first edge that has no lower one.
+    /// For each vertex, its first edge in the edge table: edges are sorted by their smaller vertex.
     first: Vec<u32>,
 }
 
 impl<'a> Walk<'a> {
-    /// Made ready to look edges up, by one pass over them; creases turn by more than `crease_deg` degrees.
+    /// Indexes the edges by vertex. Creases turn by more than `crease_deg` degrees.
     pub fn new(
         mesh: &'a Mesh,
         (turns, flat): (&'a Turns, &'a EdgeSet),
@@ -53,7 +53,7 @@ impl<'a> Walk<'a> {
         Self { mesh, turns, flat, hard, most, first }
     }
 
-    /// The edge between two vertices, which are in ascending order.
+    /// The edge between two vertices in ascending order.
     pub fn edge(&self, ends: [u32; 2]) -> Option<usize> {
         let vertex = ends[0] as usize;
         let [from, to] = [self.first[vertex], self.first[vertex + 1]].map(|edge| edge as usize);
@@ -61,7 +61,7 @@ impl<'a> Walk<'a> {
         of_vertex.binary_search_by_key(&ends[1], |[_, b]| *b).ok().map(|at| from + at)
     }
 
-    /// The face on the other side of an edge.
+    /// The face across an edge, if the edge has two consistently wound faces.
     pub fn over(&self, edge: usize, face: u32) -> Option<u32> {
         match self.mesh.edges.faces(edge) {
             EdgeFaces::Two { faces, same_way: false } => Some(faces[usize::from(faces[0] == face)]),
@@ -69,7 +69,8 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// An edge and its faces; none where the surface does not go on from one face to another as it lies, or has no area.
+    /// An edge and its two faces. `None` at borders, between inconsistently wound faces, and at faces without
+    /// area.
     pub fn bend(&self, edge: usize) -> Option<(Bend, [u32; 2])> {
         let EdgeFaces::Two { faces, same_way } = self.mesh.edges.faces(edge) else { return None };
         if same_way || faces.iter().any(|face| self.mesh.is_degenerate(FaceId(*face))) {
@@ -79,8 +80,9 @@ impl<'a> Walk<'a> {
         Some((Bend { edge, convex: self.is_convex(edge)?, turn }, faces))
     }
 
-    /// The edges that are crossed by a way that begins in the middle of an edge, goes over one of its faces and stays in the
-    /// plane square to the edge, until the surface ends; none for what cannot be told, where it ends too.
+    /// The edges crossed by a trace that starts at the middle of `edge`, enters `face`, and stays in the
+    /// plane perpendicular to the edge. The trace ends where the surface ends. An item is `None` where the
+    /// trace cannot be continued reliably, and the trace ends there too.
     pub fn crossings(&self, edge: usize, face: u32) -> Take<Crossings<'_>> {
         let entry = self.mesh.edges.vertices[edge];
         let [from, to] = entry.map(|v| self.mesh.positions[v as usize]);
@@ -88,7 +90,7 @@ impl<'a> Walk<'a> {
             .take(MOST)
     }
 
-    /// Whether the surface bends away at an edge as seen from the front of its faces.
+    /// Whether an edge is convex, seen from the front of its faces.
     pub fn is_convex(&self, edge: usize) -> Option<bool> {
         let mesh = self.mesh;
         let EdgeFaces::Two { faces: [a, b], same_way: false } = mesh.edges.faces(edge) else { return None };
@@ -99,32 +101,33 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// Where a way straight across a surface crosses an edge.
+/// Crossing of a trace with an edge.
 pub(crate) struct Crossing {
     pub edge: usize,
-    /// The face that it comes from.
+    /// The face that the trace leaves.
     pub before: u32,
-    /// How far away from where it began.
+    /// Distance from the start of the trace, world units.
     pub reach: f64,
 }
 
-/// What [`Walk::crossings`] finds.
+/// Iterator returned by [`Walk::crossings`].
 pub(crate) struct Crossings<'w> {
     walk: &'w Walk<'w>,
     middle: DVec3,
     along: DVec3,
-    /// The edge that was crossed last, and the face behind it.
+    /// The edge crossed last, and the face behind it.
     entry: [u32; 2],
     face: Option<u32>,
 }
 
 impl Crossings<'_> {
-    /// Over a face.
+    /// Crosses one face.
     fn step(&mut self, face: u32) -> Option<Crossing> {
         let mesh = self.walk.mesh;
         let along = |v: u32| (mesh.positions[v as usize] - self.middle).dot(self.along);
         let apex = *mesh.triangles[face as usize].iter().find(|v| !self.entry.contains(v))?;
-        // The side of the entry that the plane square to the edge passes between, with the apex.
+        // The end of the entry edge on the other side of the plane from the apex: the trace leaves between
+        // these two.
         let kept = *self.entry.iter().find(|v| (along(**v) > 0.0) != (along(apex) > 0.0))?;
         let entry = [kept.min(apex), kept.max(apex)];
         let edge = self.walk.edge(entry)?;

@@ -1,7 +1,7 @@
-//! [`Extents`]: how large each part is and where it lies, by which what concerns it is judged.
+//! [`Extents`]: size, position and tolerances of each part.
 //!
-//! Tolerances are fractions of the parts that they are about, never of the whole model: what becomes of one
-//! part must not depend on others that lie elsewhere.
+//! Tolerances are fractions of the size of a part, never of the whole model, so that a part does not depend
+//! on others elsewhere.
 
 use std::cmp::Ordering;
 
@@ -14,36 +14,37 @@ use crate::geometry::numbers::tolerance;
 use crate::mesh::normals::triangle_area::{has_own_area, scale_of};
 use crate::parallel::task_size::GRAIN;
 
-/// The origin of a mesh lies on a grid with steps of this many times the power of two above its size, so
-/// that parts that come and go do not move it.
+/// Grid step of the mesh origin, in sizes of the model rounded up to a power of two. A coarse grid keeps the
+/// origin when parts are added or removed.
 const ORIGIN_OF_SIZE: f64 = 256.0;
 
-/// Contact by the precision of a file's coordinates never reaches farther than this share of the part: a file
-/// that says so little of a part says nothing of what touches it.
+/// Maximum contact distance due to the precision of a file, as a share of the part. A file with coarser
+/// coordinates does not determine which surfaces touch.
 const CONTACT_AT_MOST: f64 = 1e-3;
 
-/// How large a part is and where it lies.
+/// Size, position and tolerances of a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
-    /// Least coordinates, local space.
+    /// Lower corner of the box, local space.
     pub low: DVec3,
-    /// Greatest coordinates, local space.
+    /// Upper corner of the box, local space.
     pub high: DVec3,
-    /// The length that its tolerances are fractions of, world units: the diagonal of its box.
+    /// Reference length of its tolerances, world units: the diagonal of its box, or more for a part far from
+    /// the origin.
     pub scale: f64,
-    /// Surfaces this near touch, as far as the numbers of the file can tell, world units.
+    /// Maximum distance of touching surfaces, within the precision of the file, world units.
     pub contact: f64,
-    /// Vertices this near are one vertex, world units.
+    /// Maximum distance of vertices that are welded, world units.
     pub weld: f64,
-    /// The step of its coordinates as the file wrote them, world units; 0 where they are exact.
+    /// Step of its coordinates as written in the file, world units; 0 where they are exact.
     pub step: f64,
-    /// How far rounding may have moved a vertex, world units; 0 where coordinates are exact.
+    /// Maximum displacement of a vertex by rounding, world units; 0 where coordinates are exact.
     pub rounding: f64,
-    /// The part without the rest of its body.
+    /// Extent of the part without the rest of its body.
     own: Own,
 }
 
-/// The scale and the box of a part alone.
+/// Scale and box of a single part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Own {
     scale: f64,
@@ -69,7 +70,7 @@ impl Extent {
         if self.low.x <= self.high.x { self.low.distance(self.high) } else { 0.0 }
     }
 
-    /// The order of two parts by their own size, then by where they are, which does not depend on that in the file.
+    /// Compares two parts by size, then by position. Independent of their order in the file.
     #[must_use]
     pub fn precedence(&self, other: &Self) -> Ordering {
         let place = |own: &Own| [own.low.to_array(), own.high.to_array()];
@@ -84,22 +85,25 @@ impl Extent {
     }
 }
 
-/// The extents of all parts of a mesh.
+/// Extents of all parts of a mesh.
 #[derive(Debug, Clone, Default)]
 pub struct Extents {
     of_part: Vec<Extent>,
-    /// Middle of the box around all, local space. Only for searches, whose findings do not depend on it.
+    /// Centre of the box around everything, local space. Only for searches whose result does not depend on
+    /// it.
     pub middle: DVec3,
-    /// Diagonal of that box. Only for searches as well.
+    /// Diagonal of the same box. Only for searches.
     pub diagonal: f64,
-    /// The middle and the diagonal of the box around what counts: without faces that have no area, unless there are no others.
+    /// Centre and diagonal of the box around everything except faces without area. Includes these if there
+    /// are no others.
     counted: (DVec3, f64),
 }
 
 impl Extents {
-    /// The extents of what is in a soup, whose positions are relative to `origin`.
+    /// Extents of the parts of a soup with positions relative to `origin`.
     ///
-    /// With `has_flat_faces`, faces without area do not count in the extent of their part, unless it has no others.
+    /// With `has_flat_faces`, faces without area do not count for the extent of their part, unless it has no
+    /// others.
     pub(crate) fn new(soup: &Soup, origin: DVec3, has_flat_faces: bool) -> Self {
         let mut extents = Self::of_all(soup, |_| true);
         if has_flat_faces {
@@ -108,7 +112,7 @@ impl Extents {
                 extents.counted = counted.counted;
             }
             for (own, counted) in extents.of_part.iter_mut().zip(counted.of_part) {
-                // A part of nothing but such faces keeps their box.
+                // A part with only such faces keeps their box.
                 *own = if counted.low.x <= counted.high.x { counted } else { *own };
             }
         }
@@ -119,7 +123,7 @@ impl Extents {
         extents
     }
 
-    /// The boxes of all parts, by the triangles for which `counts` holds and the wires that have a length.
+    /// Boxes of all parts, from the triangles with `counts` and the wires with a length.
     fn of_all(soup: &Soup, counts: impl Fn([DVec3; 3]) -> bool + Sync) -> Self {
         let part = |face: usize| soup.triangle_part.get(face).copied().unwrap_or_default();
         type Boxes = Vec<(PartId, DVec3, DVec3)>;
@@ -163,19 +167,19 @@ impl Extents {
         Self { of_part, middle, diagonal, counted: (middle, diagonal) }
     }
 
-    /// The extent of a part; nothing for a part without faces and wires.
+    /// Extent of a part; empty for a part without faces and wires.
     #[must_use]
     pub fn of(&self, part: PartId) -> &Extent {
         self.of_part.get(part.index()).unwrap_or(&Extent::NOTHING)
     }
 
-    /// The extents of all parts.
+    /// Extents of all parts.
     #[must_use]
     pub fn all(&self) -> &[Extent] {
         &self.of_part
     }
 
-    /// The place of each part in the order of [`Extent::precedence`]; parts of one size in one place keep the order of the file.
+    /// Rank of each part in the order of [`Extent::precedence`]. Equal parts keep the order of the file.
     #[must_use]
     pub fn ranks(&self) -> Vec<u32> {
         let mut order: Vec<u32> = (0..self.of_part.len() as u32).collect();
@@ -187,26 +191,27 @@ impl Extents {
         ranks
     }
 
-    /// Whether the coordinates of some part are rounded.
+    /// Whether the coordinates of any part are rounded.
     #[must_use]
     pub fn is_rounded(&self) -> bool {
         self.of_part.iter().any(|part| part.rounding > 0.0)
     }
 
-    /// A ball that holds all vertices: its middle, local space, and its radius. Both are rounded, so that they
-    /// seldom change when parts come, go and move.
+    /// Bounding sphere of all vertices: centre in local space, and radius. Both are rounded, so that they
+    /// rarely change when parts are added, removed or moved.
     #[must_use]
     pub fn ball(&self) -> (DVec3, f64) {
         ball(self.middle, self.diagonal)
     }
 
-    /// The same of what counts: faces without area do not, unless there are no others. For all that shows in a drawing.
+    /// Same, without faces that have no area, unless there are no others. Use it for everything visible in a
+    /// drawing.
     #[must_use]
     pub fn counted_ball(&self) -> (DVec3, f64) {
         ball(self.counted.0, self.counted.1)
     }
 
-    /// The diagonal of the box around what counts.
+    /// Diagonal of the box around everything except faces without area.
     #[must_use]
     pub fn counted_diagonal(&self) -> f64 {
         self.counted.1
@@ -214,7 +219,7 @@ impl Extents {
 }
 
 impl Extents {
-    /// The same, but that each part has the extent of its body: the union of those of its parts. The order of parts stays that of
+    /// Gives each part the extent of its body, the union of its parts. The order of parts still depends on
     /// their own sizes.
     pub(crate) fn united(mut self, bodies: &[PartId], origin: DVec3, single_precision: bool) -> Self {
         if bodies.is_empty() {
@@ -234,14 +239,14 @@ impl Extents {
     }
 }
 
-/// A ball around a box, rounded.
+/// Rounded sphere around a box.
 fn ball(middle: DVec3, diagonal: f64) -> (DVec3, f64) {
     if diagonal == 0.0 {
         return (middle, 1.0);
     }
     let step = power_of_two_above(diagonal) / 8.0;
     let middle = (middle / step).round() * step;
-    // The middle is off by no more than half a step along each axis.
+    // Rounding moves the centre by at most half a step along each axis.
     let least = diagonal / 2.0 + step;
     let quarter = step / 2.0;
     (middle, (least / quarter).ceil() * quarter)
@@ -260,7 +265,7 @@ impl Extent {
         // Placing a part in the world rounds its coordinates again.
         let of_single = if single_precision { tolerance::F32_STEP * largest } else { 0.0 };
         self.step = step.max(of_single);
-        // A lattice that can be seen is the shape itself.
+        // A visible lattice is the intended shape.
         let step = if step <= tolerance::VISIBLE_STEP * self.diagonal() { step } else { 0.0 };
         let rounding = (tolerance::ROUNDING_OF_LATTICE * step).max(tolerance::ROUNDING_OF_SINGLE * of_single);
         self.rounding = rounding.min(CONTACT_AT_MOST * self.scale);
@@ -270,8 +275,8 @@ impl Extent {
     }
 }
 
-/// The zero of a mesh whose box is given: zero itself, unless the model lies far from it for its size. It
-/// lies on a coarse grid, and subtracting it rounds nothing.
+/// Origin of a mesh with the given box. It is zero, unless the model is far from zero for its size. It lies
+/// on a coarse grid, so that the subtraction is exact.
 pub(crate) fn origin(low: DVec3, high: DVec3) -> DVec3 {
     let middle = low / 2.0 + high / 2.0;
     let size = low.distance(high);
@@ -279,7 +284,7 @@ pub(crate) fn origin(low: DVec3, high: DVec3) -> DVec3 {
         return middle + DVec3::ZERO;
     }
     let step = ORIGIN_OF_SIZE * power_of_two_above(size);
-    // The sum makes zeros positive.
+    // Adding zero turns -0 into +0.
     (middle / step).round() * step + DVec3::ZERO
 }
 
@@ -331,7 +336,7 @@ mod tests {
     fn faces_without_area_and_wires_without_length_do_not_count() {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
         let far = [[1e6, 0.0, 0.0], [1e6 + 1.0, 0.0, 0.0], [1e6 + 2.0, 0.0, 0.0]].map(DVec3::from_array);
-        // The model itself may lie far from zero, and the face at zero.
+        // Once the model is far from zero, and once the flat face.
         for shift in [DVec3::ZERO, DVec3::new(-1e6, 0.0, 0.0)] {
             let wire = Wire { vertices: [5, 5], part: PartId(0), material: MaterialId(0) };
             let soup = |triangles: &[[u32; 3]], parts: &[PartId]| Soup {
@@ -345,7 +350,7 @@ mod tests {
             let flat = Mesh::build(soup(&[[0, 1, 2], [3, 4, 5]], &[PartId(0); 2]));
             assert_eq!(plain.extents.of(PartId(0)), flat.extents.of(PartId(0)), "{shift}");
             assert_eq!((plain.origin, flat.cleaning.degenerate > 0), (flat.origin, true));
-            // A part of such faces alone.
+            // A part with only such faces.
             let apart = Mesh::build(soup(&[[0, 1, 2], [3, 4, 5]], &[PartId(0), PartId(1)]));
             assert_eq!(plain.extents.of(PartId(0)), apart.extents.of(PartId(0)));
             assert_eq!(apart.extents.of(PartId(1)).diagonal(), 2.0);

@@ -1,4 +1,4 @@
-//! [`shares`]: vertices shared out among workers, each with the faces that touch its own, so that none has to look at all.
+//! [`shares`]: blocks of vertices, one per task, with the faces that touch each block.
 
 use std::ops::Range;
 
@@ -6,19 +6,20 @@ use crate::parallel::prelude::*;
 
 use crate::parallel::task_size::GRAIN;
 
-/// Faces that are looked at as one piece of work.
+/// Number of faces per task.
 const CHUNK: usize = 1 << 12;
 
-/// The vertices of one worker.
+/// Block of vertices.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Share {
     /// Its vertices.
     pub vertices: Range<usize>,
-    /// Runs of the faces with a corner among them, ascending.
+    /// Runs of the faces with a corner in the block, ascending.
     pub faces: Vec<Range<usize>>,
 }
 
-/// How many shares there are of at most `size` vertices: equally many for each thread, so that none waits for the last of another.
+/// Number of blocks of at most `size` vertices. A multiple of the number of threads, so that all have equal
+/// work.
 pub(crate) fn share_count(vertices: usize, size: usize) -> usize {
     if vertices <= size.min(GRAIN) {
         return vertices.min(1);
@@ -26,12 +27,12 @@ pub(crate) fn share_count(vertices: usize, size: usize) -> usize {
     vertices.div_ceil(size).next_multiple_of(rayon_core::current_num_threads())
 }
 
-/// So many vertices in shares for so many workers. Vertices and faces mostly stand in one order, so that faces of a share
-/// make few runs.
+/// Divides vertices into `workers` blocks. Vertices and faces mostly have the same order, so the faces of a
+/// block form few runs.
 pub(crate) fn shares(vertex_count: usize, triangles: &[[u32; 3]], workers: usize) -> Vec<Share> {
     let workers = workers.max(1);
     let bound = |k: usize| vertex_count * k / workers;
-    // Bounds are rounded down, so that the next share may have begun already.
+    // Bounds are rounded down, so the vertex may already be in the next block.
     let whose = |v: usize| {
         let worker = v * workers / vertex_count;
         if bound(worker + 1) <= v { worker + 1 } else { worker }
@@ -62,7 +63,8 @@ pub(crate) fn shares(vertex_count: usize, triangles: &[[u32; 3]], workers: usize
     all
 }
 
-/// The runs of some faces, numbered from `first` on, for each worker: where their shares of vertices begin, and whose a vertex is.
+/// Runs of some faces, numbered from `first`, for each block. `bound` is the first vertex of a block, and
+/// `whose` the block of a vertex.
 fn runs(
     first: usize,
     triangles: &[[u32; 3]],
@@ -70,7 +72,7 @@ fn runs(
     (bound, whose): (impl Fn(usize) -> usize, impl Fn(usize) -> usize),
 ) -> Vec<Vec<Range<usize>>> {
     let mut runs = vec![Vec::new(); workers];
-    // A run of faces that lie within the share of one worker.
+    // The current run of faces lies within one block.
     let (mut own, mut worker, mut start) = (0..0, 0, first);
     let mut add = |worker: usize, run: Range<usize>| {
         if run.is_empty() {
