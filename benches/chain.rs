@@ -1,4 +1,4 @@
-//! Times linking, tidying, smoothing and fitting of chains on made view maps.
+//! Times of linking, tidying, smoothing and fitting of chains, on generated view maps.
 
 use divan::{Bencher, black_box};
 use kurbo::Point;
@@ -14,7 +14,7 @@ fn main() {
     divan::main();
 }
 
-/// Adds a line through points, all of one kind.
+/// Adds a line of one kind through points.
 fn add(map: &mut ViewMap, points: &[Point], closed: bool, kind: LineKind) {
     let first = map.vertices.len() as u32;
     map.vertices.extend(points.iter().map(|position| ViewVertex {
@@ -42,7 +42,7 @@ fn add(map: &mut ViewMap, points: &[Point], closed: bool, kind: LineKind) {
     }
 }
 
-/// Wavy loops of tiny zigzag pieces, like the contours of a scan.
+/// Wavy loops of small zigzag edges, like the contours of a scan.
 fn scan(pieces: usize) -> ViewMap {
     let mut map = ViewMap::default();
     let each = 300;
@@ -60,7 +60,7 @@ fn scan(pieces: usize) -> ViewMap {
     map
 }
 
-/// Boxes of nine visible edges each.
+/// Boxes with nine visible edges each.
 fn city(edges: usize) -> ViewMap {
     let mut map = ViewMap::default();
     for house in 0..edges / 9 {

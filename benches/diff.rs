@@ -1,5 +1,4 @@
-//! Comparing drawings of 50,000 segments each: reading them, setting aside what is equal, covering what is not, and pairing
-//! what went elsewhere. The floor is reading one of them.
+//! Times of comparing drawings of 50,000 segments each, as multiples of reading them.
 //!
 //! `cargo bench --bench diff`
 
@@ -14,7 +13,7 @@ fn main() {
     divan::main();
 }
 
-/// The best of some tries, in ms.
+/// Shortest of several runs, ms.
 fn best(mut act: impl FnMut()) -> f64 {
     let one = |act: &mut dyn FnMut()| {
         let began = Instant::now();
@@ -26,7 +25,7 @@ fn best(mut act: impl FnMut()) -> f64 {
 
 const TRIES: usize = 3;
 
-/// Each comparison as a multiple of reading both files.
+/// Prints each comparison as a multiple of reading both files.
 fn ratios() {
     let coincident = |d: &str| {
         let paths = format!("<path d=\"{d}\"/>").repeat(30_000);
@@ -54,10 +53,10 @@ fn ratios() {
     }
 }
 
-/// How the same 50,000 segments are cut into marks.
+/// Number of marks, and segments per mark; 50,000 segments in total.
 const CUTS: [(usize, usize); 3] = [(500, 100), (10_000, 5), (50_000, 1)];
 
-/// Curly strokes all over a page, moved to the right.
+/// Curly strokes all over a page, shifted to the right.
 fn strokes((count, pieces): (usize, usize), shift: f64) -> String {
     let mut state = 7u64;
     let mut next = || {

@@ -1,6 +1,7 @@
-//! How many edges the dual-space tree asks, and how long that takes: a table as figure 3 of Claes, Di
-//! Fiore, Vansichem and Van Reeth, "Fast 3D cartoon rendering with improved quality by exploiting
-//! graphics hardware", IVCNZ 2001.
+//! Number of edges that the dual-space tree tests, and the time of a search.
+//!
+//! Source of the table: figure 3 of Claes, Di Fiore, Vansichem and Van Reeth, "Fast 3D cartoon rendering with
+//! improved quality by exploiting graphics hardware", IVCNZ 2001.
 //!
 //! ```sh
 //! cargo bench --bench dual_tree [-- MODEL…]
@@ -95,7 +96,7 @@ fn directions() -> Vec<DVec3> {
     all.flat_map(|(x, y)| steps.map(|z| DVec3::new(x, y, z))).filter(|d| *d != DVec3::ZERO).collect()
 }
 
-/// The least time of a few calls.
+/// Shortest time of five calls.
 fn timed<T>(mut call: impl FnMut() -> T) -> (T, Duration) {
     let mut best = Duration::MAX;
     for _ in 0..4 {
@@ -143,7 +144,7 @@ fn row(name: &str, scene: &Scene) {
             contours += plain.iter().filter(|s| s.kind == LineKind::Contour).count();
         }
         let count = directions().len();
-        // Views after which the tree has saved what it took to make.
+        // Number of views after which the tree has saved its construction time.
         let saved = (plain_time.as_secs_f64() - tree_time.as_secs_f64()) / count as f64;
         let pays =
             if saved > 0.0 { format!("{:.0}", (made.as_secs_f64() / saved).ceil()) } else { "-".into() };
@@ -163,7 +164,7 @@ fn row(name: &str, scene: &Scene) {
     }
 }
 
-/// The triangles that hold the border L·n = 0.3 on spheres, as many lights as there are views.
+/// Triangles with the tone border L·n = 0.3 on spheres, for one light per view direction.
 fn tones() {
     println!("\nTriangles that may hold a tone border:");
     println!(

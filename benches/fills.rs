@@ -1,12 +1,12 @@
-//! How long a view takes when its model is ready, in depth rasters of the same model.
+//! Time of a view of a prepared model, as a multiple of a depth raster of the same model.
 //!
 //! ```sh
 //! cargo bench --bench fills [-- MODEL…]
 //! ```
 //!
-//! A *redraw* is all that is done for one view of a [`Prepared`] scene: projection, lines, tone
-//! borders, visibility, regions, chains, ink. The *floor* under it is one depth raster of its faces,
-//! 1024 pixels along each side. Ratios can be compared between machines, times cannot.
+//! A *redraw* is all work for one view of a [`Prepared`] scene: projection, lines, tone borders, visibility,
+//! regions, chains, ink. The *floor* is one depth raster of its faces with 1024 x 1024 pixels. Ratios can be
+//! compared between machines, times cannot.
 
 #[path = "../tests/library/support/readers/shared_folder.rs"]
 #[expect(dead_code, reason = "tests ask it more")]
@@ -33,12 +33,13 @@ use solids::Solid;
 
 const SHARED: [&str; 2] = ["cad/knot_50k.glb", "organic/stanford-bunny.obj"];
 
-/// Everything is measured at least so often, and again until so much time has passed.
+/// Rounds per measurement: at least `LEAST_ROUNDS`, then more until `PATIENCE` has passed, at most
+/// `MOST_ROUNDS`.
 const LEAST_ROUNDS: usize = 3;
 const MOST_ROUNDS: usize = 40;
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// Pixels of the raster along each side.
+/// Side length of the raster, pixels.
 const SIDE: f64 = 1024.0;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -61,7 +62,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     if given.is_empty() {
         let torus = solids::torus(200, 100, 1.0, 0.4);
         rows("torus", &scene(torus), &styles, &pools);
-        // Hides much of itself.
+        // A model that hides large parts of itself.
         rows("knot", &scene(knot(400, 50)), &styles, &pools);
     }
     let shared = SHARED.iter().filter(|_| given.is_empty()).filter_map(|name| models::find(name));
@@ -72,14 +73,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// A round tube along a trefoil, as a torus bent into it.
+/// Round tube along a trefoil, made by bending a torus.
 fn knot(along: usize, around: usize) -> Solid {
     let axis = |t: f64| {
         let radius = 2.0 + 0.95 * cos(3.0 * t);
         DVec3::new(radius * cos(2.0 * t), radius * sin(2.0 * t), 0.95 * sin(3.0 * t))
     };
     solids::torus(along, around, 1.0, 0.46).moved(|p| {
-        // Around the z axis of the torus is along the knot.
+        // The angle around the z axis of the torus is the parameter along the knot.
         let t = atan2(p.y, p.x);
         let (out, up) = (p.truncate().length() - 1.0, p.z);
         let way = (axis(t + 1e-5) - axis(t - 1e-5)).normalize();
@@ -113,7 +114,7 @@ fn rows(name: &str, scene: &Scene, styles: &[(&str, Style)], pools: &[ThreadPool
     }
 }
 
-/// The shortest of several runs, after one that is not counted.
+/// Shortest of several runs after a warm-up, ms.
 fn least_ms<T>(mut run: impl FnMut() -> T) -> f64 {
     black_box(run());
     let started = Instant::now();

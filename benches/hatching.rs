@@ -1,12 +1,12 @@
-//! What hatching costs beside what it is laid on.
+//! Cost of hatching relative to drawing and to visibility.
 //!
 //! ```sh
 //! cargo bench --bench hatching [-- MODEL…]
 //! ```
 //!
-//! For each model the stages of a drawing in pencil, in parts of the time in which the whole model is drawn in
-//! ink; and the laying and clipping of its strokes, alone, in parts of the time of visibility. Ratios can be
-//! compared between machines, times cannot.
+//! For each model: the time of drawings in hatched styles as a multiple of a drawing in ink, and the time of
+//! the hatching stage as a multiple of the visibility stage. Ratios can be compared between machines, times
+//! cannot.
 
 #[path = "../tests/library/support/readers/shared_folder.rs"]
 #[expect(dead_code, reason = "tests ask it more")]
@@ -19,7 +19,7 @@ use ligne::drawing::{Page, Unit};
 use ligne::pipeline::{Prepared, Report, render_reported};
 use ligne::{Camera, Scene, Style};
 
-/// Everything is measured this often; the least time counts.
+/// Rounds per measurement. The shortest time counts.
 const ROUNDS: usize = 7;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -61,7 +61,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// The least time of a drawing, ms, and its report.
+/// Shortest time of a drawing, ms, and its report.
 fn least(scene: &Scene, camera: &Camera, page: Page, style: &Style) -> (f64, Report) {
     let mut best: Option<(f64, Report)> = None;
     for _ in 0..ROUNDS {

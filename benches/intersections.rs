@@ -1,4 +1,4 @@
-//! How long the search for intersections takes, on generated solids and on scans.
+//! Times of the search for intersections, on generated solids and on scans.
 
 #[path = "../tests/library/support/readers/shared_folder.rs"]
 #[expect(dead_code, reason = "tests ask it more")]
@@ -18,7 +18,7 @@ fn main() {
     divan::main();
 }
 
-/// Triangles that face a distant eye, about half of a closed surface.
+/// Whether each triangle faces a distant camera. About half of a closed surface does.
 fn facing(solid: &Solid) -> Vec<bool> {
     let eye = DVec3::new(0.4, 0.5, 0.77);
     solid
@@ -31,7 +31,7 @@ fn facing(solid: &Solid) -> Vec<bool> {
         .collect()
 }
 
-/// A shared model, or a line that it is absent.
+/// Shared model as a solid; none if it is missing.
 fn scan(name: &str) -> Option<Solid> {
     let scene = Scene::open(models::find(name)?).ok()?;
     let Mesh { positions, triangles, .. } = Mesh::build(scene.to_soup());

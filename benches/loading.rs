@@ -1,4 +1,4 @@
-//! How long the readers take for a million triangles, and flattening after them.
+//! Times of reading and flattening a million triangles.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,7 @@ use divan::{Bencher, black_box};
 use ligne::load::{obj, ply, stl};
 use ligne::scene::Scene;
 
-/// Sides of the wavy grid: 708 x 708 quads are 1,002,528 triangles.
+/// Side of the wavy grid in quads: 708 x 708 quads are 1,002,528 triangles.
 const SIDE: usize = 708;
 
 fn main() {

@@ -1,4 +1,4 @@
-//! How long it takes to find the order of collapses of a surface, to read it from a file, and to change the level.
+//! Times of computing the collapse order of a surface, reading it from a file, and changing the level.
 
 use divan::{Bencher, black_box};
 use glam::DVec3;
@@ -13,7 +13,7 @@ fn main() {
     divan::main();
 }
 
-/// A ring with waves on it, closed both ways.
+/// Wavy ring, closed in both directions.
 fn ring(side: u32) -> Scene {
     let turn = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(side);
     let point = |i: u32, j: u32| {

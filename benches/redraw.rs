@@ -1,11 +1,11 @@
-//! How long a new view takes when its model is ready: camera moved, drawing as SVG bytes in memory.
+//! Time of a new view of a prepared model: camera moved, drawing as SVG bytes in memory.
 //!
 //! ```sh
 //! cargo bench --bench redraw [-- WORD…]
 //! ```
 //!
-//! Medians over 60 views around the model, on all threads, after a few that are not counted. Words choose the rows whose names
-//! contain one of them. Shared models that are not there are passed over.
+//! Medians over 60 views around the model, on all threads, after a few warm-up views. Words select the rows
+//! whose names contain one of them. Missing shared models are skipped.
 
 #[path = "../tests/library/support/readers/shared_folder.rs"]
 #[expect(dead_code, reason = "tests ask it more")]
@@ -23,11 +23,11 @@ use ligne::pipeline::Prepared;
 use ligne::scene::{Geometry, Part};
 use ligne::{Camera, Scene, Style, SvgOptions};
 
-/// Views that are counted, and those before them.
+/// Number of measured views, and of warm-up views before them.
 const VIEWS: u32 = 60;
 const WARM: u32 = 3;
 
-/// Pixels of the page along each side.
+/// Side length of the page, px.
 const SIDE: f64 = 1000.0;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -61,7 +61,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Seconds that each view took, ascending, and the bytes of the last.
+/// Time of each view, seconds, ascending, and the number of bytes of the last.
 fn redraw(scene: &Scene, style: &Style) -> Result<(Vec<f64>, usize), ligne::Error> {
     let prepared = Prepared::new(scene, style);
     let page = Page { width: SIDE, height: SIDE, unit: Unit::Px, background: style.background };

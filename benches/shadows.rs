@@ -1,4 +1,4 @@
-//! How long cast shadows take: their borders, and asking points; and how much of the sky is seen.
+//! Times of cast shadows: their borders, and shadow queries of points. Also the time of sky visibility.
 //!
 //! ```sh
 //! cargo bench --bench shadows [-- MODEL…]

@@ -1,4 +1,4 @@
-//! Times each geometric stage on meshes that are made here: a sphere, rough terrain, a city.
+//! Times of each geometric stage on generated meshes: a sphere, rough terrain, a city.
 
 use divan::{Bencher, black_box};
 use glam::{DAffine3, DVec3};
@@ -41,7 +41,7 @@ fn scene(name: &str) -> Scene {
     Scene { geometries: vec![geometry], parts: vec![part], ..Scene::default() }
 }
 
-/// A scene and everything that is made of it on the way to a drawing.
+/// Scene with all intermediate results of a drawing.
 struct Made {
     scene: Scene,
     camera: Camera,
@@ -145,7 +145,7 @@ fn visibility(bencher: Bencher, name: &str) {
     bencher.bench(|| black_box(&made).view_map());
 }
 
-/// On a map whose doubles are gone already: the search without the removal.
+/// The input map has no overlaps left, so this measures the search without the removal.
 #[divan::bench(args = SCENES)]
 fn doubles(bencher: Bencher, name: &str) {
     let map = made(name).view_map();

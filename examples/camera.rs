@@ -1,4 +1,4 @@
-//! Where the eye stands: named views, angles, framing, and the record that other programs read.
+//! Cameras: named views, angles, framing, and camera records for other programs.
 //!
 //! ```sh
 //! cargo run --example camera [-- FOLDER]
@@ -14,15 +14,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = Scene::open(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/gear.obj"))?;
     let style = Style::default();
 
-    // Every way to choose a view gives a direction. `fit` then moves the eye so that the model fills
-    // the frame, so the frame and the projection are chosen before it.
+    // Every way to choose a view gives a direction. `fit` then moves the camera until the model fills the
+    // frame. Set the frame and the projection first.
     let isometric = Camera::named(NamedView::Iso, scene.up).with_frame(800.0, 600.0).fit(&scene);
     let low = Camera::azimuth_elevation(-25.0, 8.0, scene.up).with_frame(800.0, 300.0).fit(&scene);
     let wide = Camera::three_quarter_of(scene.up)
         .with_projection(Projection::Perspective { fov_y_deg: 75.0 })
         .fit(&scene);
 
-    // Or all of it by hand: go nearer to the axle than framing would.
+    // All values set directly: closer to the axle than framing would be.
     let (least, greatest) = scene.bounds().ok_or("the model is empty")?;
     let near = Camera { target: (least + greatest) / 2.0, eye: wide.target.lerp(wide.eye, 0.6), ..wide };
     near.validate()?;
@@ -32,7 +32,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let picture = folder.join(format!("camera-{name}.svg"));
         std::fs::write(&picture, drawing.to_svg(&SvgOptions::default()))?;
 
-        // The record holds every bit: the same camera comes back from it.
+        // The record stores all bits, so reading it gives the same camera.
         let record = folder.join(format!("camera-{name}.json"));
         std::fs::write(&record, camera.to_json())?;
         assert_eq!(Camera::open(&record)?, camera);

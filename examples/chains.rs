@@ -1,4 +1,4 @@
-//! From pieces to lines: how linking, smoothing and fitting change the view map's edges.
+//! Chains: how linking, smoothing and fitting change the edges of the view map.
 //!
 //! ```sh
 //! cargo run --example chains [-- MODEL]
@@ -23,7 +23,7 @@ fn main() -> Result<(), Error> {
     let visible = map.edges.iter().filter(|edge| edge.invisibility == 0).count();
     println!("{visible} visible view edges");
 
-    // A length of 0 turns its step off. With every step off, chains are the mesh's own edges.
+    // A length of 0 disables its step. Without any step, chains consist of mesh edges.
     let off = ChainOptions {
         smooth: Length::px(0.0),
         simplify: Length::px(0.0),
@@ -38,11 +38,11 @@ fn main() -> Result<(), Error> {
         ("as by default", ChainOptions::default()),
     ];
     for (name, options) in ways {
-        // Hidden contours are linked as well, but not drawn.
+        // Hidden contours are linked as well, but not drawn here.
         let mut chains = chains::link(&map, &options, Unit::Px, HiddenLines::None);
         chains.retain(|chain| chain.invisibility == 0);
         let closed = chains.iter().filter(|chain| chain.closed).count();
-        // The path is what is drawn: one element moves the pen, each further one is a line or a curve.
+        // The first element of a path moves the pen. Each further one is a line or a curve.
         let pieces: usize = chains.iter().map(|chain| chain.path.elements().len() - 1).sum();
         let longest = chains.iter().map(|chain| chain.points.len()).max().unwrap_or(0);
         println!(

@@ -1,4 +1,4 @@
-//! One drawing written in several ways: precision, ids, groups for hot-spots, and PNG.
+//! Export of one drawing: precision, ids, groups for hotspots, and PNG.
 //!
 //! ```sh
 //! cargo run --example export [-- FOLDER]
@@ -15,7 +15,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let camera = Camera::three_quarter_of(scene.up).with_frame(800.0, 600.0).fit(&scene);
     let drawing = render(&scene, &camera, &Style::default())?;
 
-    // A drawing is a plain 2-D document: its marks remember what they are, nothing else.
+    // A drawing is a 2-D document. Marks store the kind of line or area they come from.
     for layer in &drawing.layers {
         let from_motor = |name: &str| name.starts_with("motor");
         let parts = layer.marks.iter().filter_map(|mark| mark.provenance.part.as_deref());
@@ -25,8 +25,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let plain = SvgOptions::default();
     let small = SvgOptions::default().with_precision(0);
-    // A prefix keeps ids apart where several drawings are inlined in one page, and a group for each
-    // part makes hot-spots.
+    // A prefix keeps ids unique if several drawings are inlined in one page. A group per part allows
+    // hotspots.
     let spots = SvgOptions::default().with_id_prefix("pump-").grouped_by(Grouping::Part);
     for (name, options) in [("plain", plain), ("small", small), ("spots", spots)] {
         let file = folder.join(format!("export-{name}.svg"));

@@ -1,4 +1,4 @@
-//! Which lines a model has: the kinds of feature lines, counted for several views.
+//! Feature lines of a model: the number of each kind in several views.
 //!
 //! ```sh
 //! cargo run --example feature_lines [-- MODEL]
@@ -15,8 +15,8 @@ fn main() -> Result<(), Error> {
     let scene = Scene::open(std::env::args().nth(1).unwrap_or_else(|| castle.to_owned()))?;
     let mesh = Mesh::build(scene.to_soup());
 
-    // Borders, creases, material boundaries and intersections belong to the model; contours
-    // belong to the view.
+    // Borders, creases, material boundaries and intersections depend on the model only. Contours depend on
+    // the view.
     let kinds =
         [LineKind::Contour, LineKind::Border, LineKind::Crease, LineKind::Material, LineKind::Intersection];
     print!("{:12}", "view");

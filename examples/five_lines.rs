@@ -1,4 +1,4 @@
-//! A model becomes a drawing in five lines.
+//! From model to drawing in five lines.
 //!
 //! ```sh
 //! cargo run --example five_lines [-- MODEL [OUT.svg]]

@@ -1,4 +1,4 @@
-//! Strokes of a hatching, one by one: how much of each tone they cover, and which a darker drawing keeps.
+//! Strokes of a hatching: how much of each tone they cover, and which ones a darker drawing keeps.
 //!
 //! ```sh
 //! cargo run --release --example hatching
@@ -16,7 +16,7 @@ fn main() -> Result<(), ligne::Error> {
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
     let page = Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None };
 
-    // Pen and ink, and the same with more ink in every tone.
+    // Pen and ink, and the same style with more ink in every tone.
     let pen = Style::load("pen", &[])?;
     let darker = Style::load("pen", &["hatching.coverage=[0.44, 0.35, 0.26, 0]".to_owned()])?;
     let mut kept: Vec<BTreeMap<u64, f64>> = Vec::new();
@@ -24,7 +24,7 @@ fn main() -> Result<(), ligne::Error> {
         let prepared = Prepared::new(&scene, style);
         let Some((ground, layers)) = prepared.hatch_strokes(&camera, page) else { continue };
 
-        // Each stroke knows the cell in which it begins, and a cell its bin of light.
+        // Each stroke stores the cell where it begins. A cell stores its tone bin.
         let mut area: BTreeMap<u16, f64> = BTreeMap::new();
         for cell in ground.cells.iter().filter(|cell| cell.facet != 0) {
             *area.entry(cell.look.bin).or_default() += cell.area;

@@ -1,4 +1,4 @@
-//! What is in a model file, and what was mended on the way from its parts to one mesh.
+//! Contents of a model file, and the repairs on the way from its parts to one mesh.
 //!
 //! ```sh
 //! cargo run --example load [-- MODEL]
@@ -18,7 +18,7 @@ fn main() -> Result<(), Error> {
         println!("  reading it: {line}");
     }
 
-    // A part is an instance: it points to a geometry, which is stored once, and says where it is.
+    // A part is an instance. It refers to a geometry, which is stored once, and has a transform.
     println!("{} parts that show {} geometries", scene.parts.len(), scene.geometries.len());
     for part in scene.parts.iter().take(8) {
         let triangles = scene.geometries[part.geometry].triangles.len();
@@ -29,12 +29,12 @@ fn main() -> Result<(), Error> {
         println!("  material {:20} {}", material.name, material.colour.hex());
     }
 
-    // Parts are chosen by name before the mesh is made.
+    // Parts are selected by name before the mesh is built.
     let all = scene.parts.len();
     scene.keep_parts(&[], &["*bolt*".to_owned()]);
     println!("{} of {all} parts are no bolts", scene.parts.len());
 
-    // The mesh has all parts in world space; vertices at one place are one vertex.
+    // The mesh holds all parts in world space. Vertices at the same position are welded.
     let mesh = Mesh::build(scene.to_soup());
     let cleaning = mesh.cleaning;
     println!("{} faces, {} vertices, {} edges", mesh.triangles.len(), mesh.positions.len(), mesh.edges.len());

@@ -1,4 +1,4 @@
-//! One mesh, six views: the stages of the pipeline by hand, so that the mesh is made only once.
+//! Six views of one mesh: pipeline stages called separately, so that the mesh is built only once.
 //!
 //! ```sh
 //! cargo run --example many_views [-- FOLDER]
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = Scene::open(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/pump.glb"))?;
     let style = Style::load("technical", &["lines.hidden=none".to_owned()])?;
 
-    // What all views share.
+    // Shared by all views.
     let surface = Surface::new(Mesh::build(scene.to_soup()), &style.lines);
     let search = EdgeSearch::new(&surface);
     let known = Known { search: Some(&search), ..Known::default() };

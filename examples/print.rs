@@ -1,6 +1,7 @@
-//! Pages for presses: two views and a balloon of letters, and the comic page of the examples, written with several inks and standards.
+//! Pages for printing: two views with a balloon, and the comic page of the examples, with several inks and
+//! standards.
 //!
-//! `cargo run --example print -- FOLDER [PROFILE.icc]`: the ICC profile of a press is needed for four inks and for PDF/X-4.
+//! `cargo run --example print -- FOLDER [PROFILE.icc]`: CMYK and PDF/X-4 need the ICC profile of a press.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -66,7 +67,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Two views of a gear with frames on a page of 120 x 80 mm with 3 mm of bleed, and a balloon.
+/// Page of 120 x 80 mm with 3 mm of bleed: two framed views of a gear, and a balloon.
 fn page(title: &str, words: &str) -> Result<Composition, Error> {
     let scene = Scene::open("examples/models/gear.obj")?;
     let (width, height, bleed) = (120.0, 80.0, 3.0);
@@ -83,7 +84,7 @@ fn page(title: &str, words: &str) -> Result<Composition, Error> {
         let camera = Camera::three_quarter().fit(&scene);
         let drawing = render(&scene, &camera, &Style::load(style, &[])?)?;
         let frame = Rect::new(8.0, 8.0, 62.0, 78.0) + ligne::kurbo::Vec2::new(56.0 * number as f64, 0.0);
-        // The drawing fills its frame, and more.
+        // The drawing is slightly larger than its frame.
         let scale = frame.height() / drawing.page.height * 1.2;
         let middle = Affine::translate((-drawing.page.width / 2.0, -drawing.page.height / 2.0));
         let place = Affine::translate(frame.center().to_vec2()) * Affine::scale(scale) * middle;

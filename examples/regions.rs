@@ -1,4 +1,4 @@
-//! The flat colour regions of a drawing: which part, material and tone each shows, and how large it is.
+//! Colour regions of a drawing: part, material and tone of each, and its area.
 //!
 //! ```sh
 //! cargo run --example regions [-- MODEL [PICTURE.svg]]
@@ -21,8 +21,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let style = Style::load("toon", &["fills.seams=exact".to_owned()])?;
     let drawing = render(&scene, &camera, &style)?;
 
-    // Regions are marks like lines, in layers of their own below them. Regions that lie in the shadow
-    // of something else have a second layer, where the style casts shadows.
+    // Regions are marks in separate layers below the lines. If the style casts shadows, shaded regions are in
+    // a second layer.
     let is_region = |kind: LayerKind| matches!(kind, LayerKind::Fills | LayerKind::Shadows);
     let layers = drawing.layers.iter().filter(|layer| is_region(layer.kind));
     let mut regions: Vec<(&Mark, f64)> =

@@ -1,4 +1,4 @@
-//! Three ways to a style: a built-in one with changes, options set in code, and a style sheet.
+//! Three ways to make a style: changes of a built-in style, options set in code, and a style sheet.
 //!
 //! ```sh
 //! cargo run --example styles [-- FOLDER]
@@ -31,16 +31,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scene = Scene::open(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/bracket.stl"))?;
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
 
-    // The same words as `--style technical --set lines.crease_deg=20` on the command line.
+    // The same as `--style technical --set lines.crease_deg=20` on the command line.
     let changed = Style::load("technical", &["lines.crease_deg=20".to_owned()])?;
 
-    // Each stage has a struct of options with public fields, and a style is all of them.
+    // Each stage has a struct of options with public fields. A style combines them.
     let mut coded = Style { background: Some(Colour::rgb(0xfb, 0xf5, 0xe6)), ..Style::default() };
     coded.lines.hidden = HiddenLines::Solid;
     coded.lines.kinds = vec![LineKind::Contour, LineKind::Crease];
     coded.chain.smooth = Length::px(1.0);
 
-    // A sheet says the same in TOML, and pens as well; mistakes are shown with their line.
+    // A style sheet is TOML, and can also define pens. Errors show the line.
     let sheet = Style::from_toml(BLUEPRINT)?;
     if let Err(error) = Style::from_toml("[lines]\ncrease_dg = 20\n") {
         println!("{error}");

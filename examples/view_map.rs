@@ -1,4 +1,4 @@
-//! What is seen and what is hidden: the view map, by length and by the ends of its pieces.
+//! Visible and hidden lines: lengths in the view map, and the kinds of ends of its edges.
 //!
 //! ```sh
 //! cargo run --example view_map [-- MODEL]
@@ -16,7 +16,7 @@ fn main() -> Result<(), Error> {
     let bracket = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/bracket.stl");
     let scene = Scene::open(std::env::args().nth(1).unwrap_or_else(|| bracket.to_owned()))?;
 
-    // Unless hidden lines are asked for, what is hidden is left out and not counted.
+    // Hidden lines are dropped and not counted unless they are requested.
     let options = LineOptions { hidden: HiddenLines::Solid, ..LineOptions::default() };
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
     let surface = Surface::new(Mesh::build(scene.to_soup()), &options).finer_for(&camera);
@@ -24,7 +24,7 @@ fn main() -> Result<(), Error> {
     let feature_lines = lines::extract(&surface, &view, &options);
     let map = visibility::build(&surface.mesh, &view, &feature_lines, &options);
 
-    // Each edge of the map is a straight piece of one line, behind so many surfaces throughout.
+    // Each edge of the map is a straight piece of one line with constant invisibility.
     let mut lengths: BTreeMap<u16, f64> = BTreeMap::new();
     for edge in &map.edges {
         let [a, b] = [edge.start, edge.end].map(|vertex| map.vertices[vertex.index()].position);
@@ -35,7 +35,7 @@ fn main() -> Result<(), Error> {
         println!("  {length:9.1} px of line behind {surfaces} surfaces");
     }
 
-    // Visible lines end where another surface passes in front: at computed points, not at pixels.
+    // Visible lines end where another surface passes in front, at computed points instead of pixels.
     let seen = map.edges.iter().filter(|edge| edge.invisibility == 0);
     let ends: BTreeSet<_> = seen.flat_map(|edge| [edge.start, edge.end]).collect();
     let junctions = ends.iter().map(|vertex| map.vertices[vertex.index()]);

@@ -1,40 +1,40 @@
-//! How the program asks Linux for memory: one heap that does not shrink, the first of it in large pages.
+//! Memory settings of the program on Linux: one heap that never shrinks and starts with large pages.
 //!
-//! A drawing makes and drops arrays of many megabytes at every stage. By default glibc gives each back to the system
-//! and asks anew for the next, and the system hands out, and clears, four kilobytes at a time: a tenth to a sixth of
-//! the time of a drawing went there (`docs/dev/speed.md`). What is asked for here are hints: where the system knows none
-//! of them, or has little memory to promise, the program runs as it would without.
+//! A drawing allocates and frees arrays of many megabytes at every stage. By default glibc returns each to
+//! the system and requests the next again. The system then clears and maps pages of 4 kB, which takes 10 to
+//! 17 % of the time of a drawing (`docs/dev/speed.md`). The settings are hints. On systems that do not
+//! support them, or with little memory, the program runs as it would without them.
 //!
-//! This is the one place of the project that calls what the compiler cannot check. It calls two functions of the C
-//! library, on its own memory, before there is a second thread.
+//! This is the only unsafe code of the project. It calls two functions of the C library on its own memory,
+//! before a second thread starts.
 
 use std::ffi::c_int;
 
-/// How much is promised large pages, which is what a drawing of a million faces takes. Nothing of it is taken before it
-/// is written to. More of it was seen to gain much in one run and to lose as much in the next.
+/// Size of the reserve in large pages, bytes: the memory of a drawing with a million faces. Pages are only
+/// allocated when written. Larger reserves gave inconsistent gains between runs.
 const RESERVE: usize = 256 << 20;
 
-/// Less than this is not worth the trouble.
+/// Minimum reserve, bytes. Smaller ones have no measurable effect.
 const LEAST_RESERVE: usize = 32 << 20;
 
-/// Pages are at least, and start at multiples of, so many bytes on all machines that Linux runs on with glibc.
+/// Alignment of the reserve, bytes: the largest page size on Linux systems with glibc.
 const PAGE: usize = 64 << 10;
 
-/// No number of bytes is too many to be kept.
+/// Value of a threshold that disables trimming.
 const NEVER: c_int = -1;
 
-/// Has memory come from one heap that does not shrink, in large pages where the system has them.
+/// Configures the allocator: one heap that never shrinks, with large pages where the system supports them.
 ///
-/// To be called first of all, while there is one thread.
+/// Call this first, while there is one thread.
 pub fn keep() {
-    // SAFETY: `mallopt` sets numbers inside the allocator and may be called at any time; it refuses what it does not
-    // know, and what it returns says no more than that.
+    // SAFETY: `mallopt` sets parameters of the allocator and may be called at any time. It refuses unknown
+    // parameters, and its return value only reports that.
     unsafe {
-        // Threads share the heap: what one has dropped, another takes.
+        // All threads share one heap, so freed memory is reused.
         libc::mallopt(libc::M_ARENA_MAX, 1);
         // The heap does not shrink.
         libc::mallopt(libc::M_TRIM_THRESHOLD, NEVER);
-        // And no array has a place outside of it, which would go back to the system as soon as it is dropped.
+        // Arrays stay on the heap. Separately mapped arrays would be returned to the system when freed.
         libc::mallopt(libc::M_MMAP_MAX, 0);
     }
     let mut size = RESERVE;
@@ -43,7 +43,7 @@ pub fn keep() {
     }
 }
 
-/// Grows the heap by so many bytes, in large pages, and gives them back to it: whether it could.
+/// Grows the heap by `size` bytes in large pages and frees them again. Returns whether that worked.
 fn reserve(size: usize) -> bool {
     let mut room: Vec<u8> = Vec::new();
     if room.try_reserve_exact(size).is_err() {
@@ -52,8 +52,8 @@ fn reserve(size: usize) -> bool {
     let start = room.as_mut_ptr();
     let into_page = start.align_offset(PAGE);
     let length = (size - into_page) / PAGE * PAGE;
-    // SAFETY: the range is whole pages within `room`, which lives; the advice changes how large the pages are that
-    // it will be made of, and nothing that can be read there. An error means that nothing was changed.
+    // SAFETY: the range consists of whole pages inside `room`, which is alive. The advice changes the size of
+    // future pages, but no readable contents. An error means that nothing changed.
     unsafe {
         libc::madvise(start.wrapping_add(into_page).cast(), length, libc::MADV_HUGEPAGE);
     }

@@ -1,33 +1,33 @@
-//! [`Change`]: what becomes of the ink from one frame to the next.
+//! [`Change`]: changes of the ink between two frames.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::inked::{Bit, Bits, Inked};
 use super::seen::Spot;
 
-/// Shares of the ink that two frames have, and how far hatching slips.
+/// Shares of the ink that two frames have in common, and displacement of hatching strokes.
 #[derive(Default, Clone)]
 pub struct Change {
-    /// Of all ink: in strokes that both frames have by the same name, by length.
+    /// Length of strokes with the same name in both frames, as a share of all ink.
     pub kept: f64,
-    /// The most that any naming could keep: strokes of both frames paired one to one.
+    /// Maximum of `kept` for any naming: strokes of both frames are paired one to one.
     pub ceiling: f64,
-    /// Of the ink that both frames show, point by point: that has another name in the later frame.
+    /// Share of the common ink, point by point, whose stroke has a different name in the later frame.
     pub renamed: f64,
-    /// Of all ink: on places that both frames show, and which only one of them inks.
+    /// Share of all ink at points that both frames show and only one of them inks.
     pub popped: f64,
-    /// The same of the hatching.
+    /// The same share for hatching.
     pub hatching_popped: f64,
-    /// Of bits of hatching that both frames have: how far they are across their stroke from where their place on the surface went, px.
+    /// Distance of each common hatching point from its expected position, across its stroke, px.
     pub slips_px: Vec<f64>,
 }
 
-/// What becomes of one bit in another frame; of what may become of it, the first.
+/// Result for one point in another frame. If several apply, the first one counts.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 enum Fate {
     Kept,
     Renamed,
-    /// Its place is out of sight there.
+    /// The point is hidden in the other frame.
     Hidden,
     Gone,
 }
@@ -55,8 +55,9 @@ impl Change {
     }
 }
 
-/// The ink of strokes of two frames that are paired one to one, whatever their names: those that share at least a third of
-/// the shorter one's ink, the longest first. Greedy, so that the best pairs of all may hold somewhat more.
+/// Length of strokes that can be paired one to one, independent of names. A pair shares at least a third of
+/// the ink of the shorter stroke. The longest pairs are taken first. This is greedy, so the best pairing may
+/// be slightly longer.
 fn paired(before: &Inked, after: &Inked) -> f64 {
     const SHARED: f64 = 1.0 / 3.0;
     let mut shared: BTreeMap<(u64, u64), f64> = BTreeMap::new();
@@ -106,9 +107,10 @@ fn fates(from: &Inked, to: &Inked, bits: fn(&Inked) -> &Bits) -> Vec<Fate> {
     bits(from).all.iter().map(fate).collect()
 }
 
-/// How far each bit of hatching slips, and how many bits have no stroke of their direction near them though they are in sight.
+/// Displacement of each hatching point, and number of visible points without a stroke of similar direction
+/// nearby.
 fn slips(before: &Inked, after: &Inked) -> (Vec<f64>, usize) {
-    /// Directions of strokes that may be the same, as the sine of the angle between them.
+    /// Maximum sine of the angle between directions that count as similar.
     const PARALLEL: f64 = 0.3;
     let (mut slips, mut gone) = (Vec::new(), 0);
     for bit in &before.hatching.all {

@@ -1,4 +1,4 @@
-//! [`Inked`]: a frame's lines as points a few px apart.
+//! [`Inked`]: lines of a frame, sampled as points a few px apart.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use ligne::kurbo::{self, ParamCurveArclen, PathEl, Point, Vec2};
 
 use super::seen::Seen;
 
-/// A point of a line: where it is, where the line goes there, and what the line is known by.
+/// Sample of a line: position, direction, and identity of its stroke.
 #[derive(Clone, Copy)]
 pub struct Bit {
     pub at: Point,
@@ -15,14 +15,14 @@ pub struct Bit {
     pub identity: u64,
 }
 
-/// Bits, found by where they are.
+/// Samples in a grid.
 #[derive(Default)]
 pub struct Bits {
     pub all: Vec<Bit>,
     cells: BTreeMap<[i64; 2], Vec<usize>>,
 }
 
-/// A frame: its lines, its hatching, and what is in front.
+/// Frame with its lines, its hatching, and its depth buffer.
 pub struct Inked {
     pub lengths: BTreeMap<u64, f64>,
     pub length: f64,
@@ -62,10 +62,10 @@ fn axis(mark: &Mark) -> &kurbo::BezPath {
 }
 
 impl Bits {
-    /// How near two bits must be to be asked for, px.
+    /// Maximum distance of samples that belong together, px.
     pub const REACH_PX: f64 = 3.0;
 
-    /// From bit to bit along a line, px.
+    /// Distance between samples along a line, px.
     pub const STEP_PX: f64 = 2.0;
 
     fn add(&mut self, mark: &Mark) {
@@ -86,7 +86,7 @@ impl Bits {
         });
     }
 
-    /// The bits within [`Bits::REACH_PX`] of a point.
+    /// Samples within [`Bits::REACH_PX`] of a point.
     pub fn near(&self, at: Point) -> impl Iterator<Item = &Bit> {
         let [x, y] = cell(at);
         let around = (-1..=1).flat_map(move |dx| (-1..=1).map(move |dy| [x + dx, y + dy]));

@@ -1,17 +1,22 @@
-//! How well strokes last from frame to frame: `cargo bench --bench coherence -- [STYLE…]`.
+//! Temporal coherence of strokes: `cargo bench --bench coherence -- [STYLE…]`.
 //!
-//! Neighbouring frames of clips (1/24 s apart) and of turns (half a degree apart) are compared:
+//! Compares neighbouring frames of clips (1/24 s apart) and turntables (half a degree apart):
 //!
-//! - *kept*, of all ink: in strokes that both frames have by the same name, by length. What goes out of sight counts as lost;
-//! - *ceiling*: what of *kept* any naming could reach: strokes of both frames paired one to one by the ink they share, greedily, the
-//!   longest first. What is missing to 100 % are strokes that are joined or parted, or come and go, by what hides them;
-//! - *renamed*, of the ink that both frames show, point by point on the surface: in strokes of another name;
-//! - *pops*, px in 1000 px of ink: on places of the surface that both frames show and only one of them inks. A contour that
-//!   slides over the surface is where it was as long as it is within 3 px;
-//! - *hatch pops*, the same of hatching;
-//! - *slip*, px: how far strokes of hatching are, across, from where their places on the surface went.
+//! - *kept*: share of all ink, by length, in strokes with the same name in both frames. Hidden ink counts as
+//!   lost.
+//! - *ceiling*: maximum of *kept* for any naming. Strokes of both frames are paired one to one by their
+//!   common ink, greedily, longest first. The rest to 100 % are strokes that occlusion joins, splits, adds or
+//!   removes.
+//! - *renamed*: share of the ink that both frames show, point by point on the surface, whose stroke has a
+//!   different name.
+//! - *pops*: px per 1000 px of ink at surface points that both frames show and only one inks. A contour that
+//!   slides over the surface counts as unchanged within 3 px.
+//! - *hatch pops*: the same for hatching.
+//! - *slip*: distance of hatching strokes from the expected positions of their surface points, across the
+//!   stroke, px.
 //!
-//! What a frame shows, and where a place is in the next, is found by a depth buffer made here, from the posed triangles.
+//! A depth buffer of the posed triangles determines which points a frame shows, and their positions in the
+//! next frame.
 
 mod change;
 mod inked;
@@ -29,7 +34,7 @@ use seen::Seen;
 const FRAMES: usize = 24;
 const DEGREES: f64 = 0.5;
 
-/// Models, and the clip that plays; none for a turn.
+/// Models with the clip that plays; none for a turntable.
 const MODELS: [(&str, Option<&str>); 8] = [
     ("examples/models/crane.glb", Some("lift")),
     ("../shared/models/animated/Fox.glb", Some("Run")),

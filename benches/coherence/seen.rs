@@ -1,5 +1,5 @@
-//! [`Seen`]: which triangle is in front at every px of a frame, and where its places are in another frame. It is a plain depth
-//! buffer that shares no code with what draws.
+//! [`Seen`]: depth buffer of a frame, which maps surface points between frames. It shares no code with the
+//! renderer.
 
 use ligne::glam::DVec3;
 use ligne::kurbo::Point;
@@ -7,30 +7,31 @@ use ligne::scene::Projection;
 use ligne::{Camera, Scene};
 
 const NONE: u32 = u32::MAX;
-/// How far behind what is in front a place may lie and still be seen, as a share of the model's size.
+/// Maximum distance behind the front surface of a point that counts as visible, as a share of the model's
+/// size.
 const BEHIND: f64 = 0.01;
 
-/// A frame as a depth buffer of one cell a px.
+/// Depth buffer of a frame with one cell per px.
 pub struct Seen {
     width: usize,
     height: usize,
     face: Vec<u32>,
     /// Depth along the optical axis, world units.
     depth: Vec<f64>,
-    /// Corners of each triangle: place on the page, px, and depth.
+    /// Corners of each triangle: page position, px, and depth.
     corners: Vec<[Spot; 3]>,
     perspective: bool,
     behind: f64,
 }
 
-/// A place on a frame's page, and how deep it lies.
+/// Page position and depth.
 #[derive(Clone, Copy)]
 pub struct Spot {
     pub at: Point,
     depth: f64,
 }
 
-/// A place on the surface: a triangle and the shares of its corners.
+/// Point on the surface: a triangle and barycentric weights.
 #[derive(Clone, Copy)]
 pub struct Place {
     face: u32,
@@ -87,7 +88,7 @@ impl Seen {
         }
     }
 
-    /// The shares of the corners in space, and the depth, from those on the page.
+    /// Barycentric weights in space and the depth, from weights on the page.
     fn mixed(&self, corners: &[Spot; 3], on_page: [f64; 3]) -> ([f64; 3], f64) {
         let weigh = |corner: usize| {
             if self.perspective { on_page[corner] / corners[corner].depth } else { on_page[corner] }
@@ -98,8 +99,8 @@ impl Seen {
         (shares, (0..3).map(|corner| shares[corner] * corners[corner].depth).sum())
     }
 
-    /// Places on the surface in front at a point of the page and a px around it: a line is at the rim of a face as often as not,
-    /// where one px is far along the surface.
+    /// Surface points in front within one px of a page position. Lines often lie at the edge of a face, where
+    /// one px is far along the surface.
     pub fn places(&self, at: Point) -> Vec<Place> {
         let front = self.around(at).map(|cell| self.depth[cell]).fold(f64::INFINITY, f64::min);
         let place = |cell: usize| {
@@ -112,7 +113,7 @@ impl Seen {
         self.around(at).filter(|cell| self.depth[*cell] <= front + self.behind).filter_map(place).collect()
     }
 
-    /// The place on the surface in front at a point of the page.
+    /// Surface point in front at a page position.
     pub fn place(&self, at: Point) -> Option<Place> {
         let cell = self.around(at).nth(4)?;
         let corners = self.corners.get(self.face[cell] as usize)?;
@@ -121,7 +122,7 @@ impl Seen {
         Some(Place { face: self.face[cell], shares: self.mixed(corners, on_page.map(|share| share / sum)).0 })
     }
 
-    /// Where a place is in this frame.
+    /// Position of a surface point in this frame.
     pub fn spot(&self, place: Place) -> Spot {
         let corners = &self.corners[place.face as usize];
         let sum =
@@ -135,12 +136,12 @@ impl Seen {
         Spot { at, depth }
     }
 
-    /// Whether nothing lies in front of a spot.
+    /// Whether a point is visible.
     pub fn shows(&self, spot: Spot) -> bool {
         self.around(spot.at).any(|cell| self.depth[cell] + self.behind >= spot.depth)
     }
 
-    /// The cells around a point, its own the fifth; fewer at the rim of the page.
+    /// Cells around a position, with the central cell in fifth place. Fewer at the border of the page.
     fn around(&self, at: Point) -> impl Iterator<Item = usize> + '_ {
         let cells = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| [dx, dy]));
         cells.filter_map(move |[dx, dy]| {
@@ -169,7 +170,7 @@ fn spot(position: DVec3, camera: &Camera) -> Spot {
     Spot { at, depth }
 }
 
-/// Shares of the corners on the page, which sum to one.
+/// Barycentric weights on the page. Their sum is one.
 fn shares(corners: &[Spot; 3], at: Point) -> Option<[f64; 3]> {
     let [a, b, c] = corners.map(|corner| corner.at);
     let all = (b - a).cross(c - a);

@@ -1,4 +1,4 @@
-//! The floor: what any program must do to draw a model, in the plainest way, on one thread.
+//! Floor: the minimum work of any program that draws a model, implemented plainly on one thread.
 
 use std::hint::black_box;
 use std::path::Path;
@@ -9,34 +9,34 @@ use ligne::mesh::{Edges, Soup};
 use ligne::scene::{Camera, Scene};
 use ligne::view::Frame;
 
-/// Pixels of the depth raster, each way.
+/// Side length of the depth raster, pixels.
 const SIDE: usize = 1024;
 
-/// What the floor works on, made once and not timed.
+/// Input of the floor, prepared without timing.
 pub struct Floor {
     soup: Soup,
     frame: Frame,
     pool: rayon::ThreadPool,
 }
 
-/// Seconds that each step of the floor took.
+/// Time of each step of the floor, seconds.
 #[derive(Debug, Clone, Copy)]
 pub struct FloorTimes {
     pub parse: f64,
     pub edges: f64,
     pub project: f64,
     pub raster: f64,
-    /// CPU of all steps together; wall time where the system does not tell it.
+    /// CPU time of all steps; wall time if the system does not report it.
     pub cpu: f64,
 }
 
 impl FloorTimes {
-    /// All steps together.
+    /// Sum of all steps.
     pub fn total(&self) -> f64 {
         self.parse + self.edges + self.project + self.raster
     }
 
-    /// The smaller of each step's times.
+    /// Minimum of two measurements, step by step.
     pub fn least(self, other: Self) -> Self {
         Self {
             parse: self.parse.min(other.parse),
@@ -49,7 +49,7 @@ impl FloorTimes {
 }
 
 impl Floor {
-    /// The floor of a model, in the default view and framing.
+    /// Prepares the floor of a model in the default view and framing.
     pub fn new(model: &Path) -> Result<Self, ligne::Error> {
         let scene = Scene::open(model)?;
         let side = SIDE as f64;
@@ -78,7 +78,7 @@ impl Floor {
         FloorTimes { parse, edges, project, raster, cpu }
     }
 
-    /// Wall time of some work on one thread; its CPU time is added to `cpu`.
+    /// Wall time of some work on one thread. Its CPU time is added to `cpu`.
     fn timed<T: Send>(&self, cpu: &mut f64, work: impl FnOnce() -> T + Send) -> (f64, T) {
         self.pool.install(|| {
             let (start, before) = (Instant::now(), thread_cpu());
@@ -90,20 +90,20 @@ impl Floor {
     }
 }
 
-/// CPU seconds of this thread so far, where the system tells them.
+/// CPU time of this thread so far, seconds, if the system reports it.
 fn thread_cpu() -> Option<f64> {
-    // The count is brought up to date when the thread gives way.
+    // The system updates the counter when the thread yields.
     std::thread::yield_now();
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     Some(text.split_whitespace().next()?.parse::<f64>().ok()? / 1e9)
 }
 
-/// Points in pixels, with a nearness.
+/// Points in pixels, with inverse depth as the third coordinate.
 fn project(positions: &[DVec3], frame: &Frame) -> Vec<[f32; 3]> {
     positions.iter().map(|p| frame.image_from_local(*p).as_vec3().to_array()).collect()
 }
 
-/// The greatest nearness at each pixel's centre.
+/// Largest inverse depth at the centre of each pixel.
 fn raster(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<f32> {
     let mut depths = vec![f32::NEG_INFINITY; SIDE * SIDE];
     let last = (SIDE - 1) as f32;
@@ -113,7 +113,7 @@ fn raster(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<f32> {
         let right = (a[0].max(b[0]).max(c[0]) - 0.5).floor().min(last);
         let top = (a[1].min(b[1]).min(c[1]) - 0.5).ceil().max(0.0);
         let bottom = (a[1].max(b[1]).max(c[1]) - 0.5).floor().min(last);
-        // Most triangles of a fine mesh lie between the centres of pixels.
+        // Most triangles of a fine mesh lie between pixel centres.
         if left > right || top > bottom {
             continue;
         }
@@ -121,7 +121,7 @@ fn raster(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<f32> {
         if area == 0.0 || area.is_nan() {
             continue;
         }
-        // Barycentric weights of b and c, and the nearness, are linear in x and y.
+        // Barycentric weights of b and c, and the inverse depth, are linear in x and y.
         let (bx, by) = ((c[1] - a[1]) / area, (a[0] - c[0]) / area);
         let (cx, cy) = ((a[1] - b[1]) / area, (b[0] - a[0]) / area);
         let (qb, qc) = (b[2] - a[2], c[2] - a[2]);
@@ -132,7 +132,7 @@ fn raster(points: &[[f32; 3]], triangles: &[[u32; 3]]) -> Vec<f32> {
             for (step, depth) in depths[y * SIDE + left..=y * SIDE + right].iter_mut().enumerate() {
                 let (wb, wc) = (wb + step as f32 * bx, wc + step as f32 * cx);
                 let q = a[2] + wb * qb + wc * qc;
-                // Without branches: nobody can guess where small triangles end.
+                // Without branches, because the ends of small triangles cannot be predicted.
                 let shows = (wb >= 0.0) & (wc >= 0.0) & (wb + wc <= 1.0) & (q > *depth);
                 *depth = if shows { q } else { *depth };
             }

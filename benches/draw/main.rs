@@ -1,9 +1,8 @@
-//! Compares the whole process `ligne draw` with the floor under it: reading the file, edge adjacency,
-//! projection and one depth raster, on one thread. Ratios can be compared between machines, times
-//! cannot.
+//! Compares the process `ligne draw` with its floor: reading the file, edge adjacency, projection and one
+//! depth raster, on one thread. Ratios can be compared between machines, times cannot.
 //!
-//! `cargo bench --bench draw [-- NAME…]` draws the models whose names contain one of the words, or
-//! all. Models that are not there are passed over; `LIGNE_MODELS` names their folder.
+//! `cargo bench --bench draw [-- NAME…]` draws all models, or those whose names contain one of the words.
+//! Missing models are skipped. `LIGNE_MODELS` names their folder.
 
 mod floor;
 mod process;
@@ -20,7 +19,7 @@ use floor::Floor;
 use process::Threads;
 use scenes::Triangles;
 
-/// Models, and how many times their floor a drawing should take where that is laid down.
+/// Models, with the maximum ratio of drawing time to floor, if defined.
 const MODELS: [(&str, Option<f64>); 11] = [
     ("organic/stanford-bunny.obj", Some(1.8)),
     ("cad/drive.obj", Some(1.3)),
@@ -35,10 +34,10 @@ const MODELS: [(&str, Option<f64>); 11] = [
     ("cad/drive.glb", None),
 ];
 
-/// What makes a model of so many.
+/// Generator of a model of a given size.
 type Make = fn(u32) -> Triangles;
 
-/// The same for models that are made here: what makes them, of how many, and the limit.
+/// Generated models: name, generator, size and maximum ratio.
 const MADE: [(&str, Make, u32, f64); 6] = [
     ("nested", scenes::nested, 224, 3.0),
     ("printed", scenes::printed, 39, 4.0),
@@ -48,23 +47,23 @@ const MADE: [(&str, Make, u32, f64); 6] = [
     (TEN_MILLION, scenes::knot, 1118, 2.5),
 ];
 
-/// A model that takes minutes: it is drawn only where it is asked for by name.
+/// Model that takes minutes. It is drawn only if it is named.
 const TEN_MILLION: &str = "knot_10m";
 
-/// Contours along the edges of the mesh, for the costs of smooth ones.
+/// Options for contours along mesh edges, to measure the cost of smooth ones.
 const ALONG_EDGES: [&str; 2] = ["--set", "lines.contours=mesh"];
 
 const MIB: f64 = 1024.0 * 1024.0;
 
-/// A model is measured at least so often, and again until so much time has passed.
+/// Rounds per model: at least `LEAST_ROUNDS`, then more until `PATIENCE` has passed, at most `MOST_ROUNDS`.
 const LEAST_ROUNDS: usize = 3;
 const MOST_ROUNDS: usize = 25;
 const PATIENCE: Duration = Duration::from_secs(6);
 
-/// What was measured of one model.
+/// Measurements of one model.
 struct Row {
     name: String,
-    /// Seconds a triangle on one thread, CPU where it is known.
+    /// Seconds per triangle on one thread; CPU time if known.
     per_triangle: f64,
 }
 
@@ -126,7 +125,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Measures one model, floor and drawings in turn, and prints its row.
+/// Measures the floor and the drawings of a model in turn, and prints its row.
 fn measure(model: &Path, limit: Option<f64>, folder: &Path) -> Result<Row, Box<dyn std::error::Error>> {
     let floor = Floor::new(model)?;
     let drawing = folder.join("drawing.svg");
@@ -182,7 +181,7 @@ fn measure(model: &Path, limit: Option<f64>, folder: &Path) -> Result<Row, Box<d
     Ok(Row { name, per_triangle })
 }
 
-/// How the time a triangle grows along models of one kind; 1 or less is linear or better.
+/// Prints the growth of the time per triangle for models of one kind. 1 or less means linear or better.
 fn print_growth(rows: &[Row]) {
     let names = ["knot_1k", "knot_10k", "knot_50k", "knot_100k", "dragon-871k"];
     let chosen: Vec<&Row> =
@@ -194,7 +193,7 @@ fn print_growth(rows: &[Row]) {
     }
 }
 
-/// The folder of the shared models.
+/// Folder of the shared models.
 fn models() -> PathBuf {
     let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/models");
     std::env::var_os("LIGNE_MODELS").map_or_else(beside, PathBuf::from)
@@ -216,7 +215,7 @@ fn write_obj(path: &Path, scene: &Triangles) -> std::io::Result<()> {
     file.flush()
 }
 
-/// Load averages of the machine, where it tells them: a busy one spoils all times.
+/// Load averages of the machine, if known. Times are unreliable on a busy machine.
 fn load() -> String {
     std::fs::read_to_string("/proc/loadavg")
         .map_or_else(|_| "unknown".to_owned(), |text| text.trim().to_owned())

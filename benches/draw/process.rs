@@ -1,4 +1,4 @@
-//! `ligne draw` as a process of its own: wall time, CPU time, memory, stages.
+//! Runs `ligne draw` as a process, and measures wall time, CPU time, memory and stages.
 
 use std::io::Error;
 use std::path::Path;
@@ -7,20 +7,20 @@ use std::time::Instant;
 
 const LIGNE: &str = env!("CARGO_BIN_EXE_ligne");
 
-/// GNU time, which tells the memory of a process that has ended.
+/// GNU time, which reports the memory of a finished process.
 const GNU_TIME: &str = "/usr/bin/time";
 
-/// What has Bash tell CPU time in milliseconds, where GNU time tells it in hundredths of seconds.
+/// Bash script that reports CPU time in milliseconds. GNU time only reports hundredths of a second.
 const BASH_TIME: &str = "TIMEFORMAT='%3U %3S'; time \"$0\" \"$@\"";
 
-/// How many threads a drawing may use.
+/// Number of threads of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Threads {
     One,
     All,
 }
 
-/// Seconds that drawing the model takes from start to end of the process, with more options if there are any.
+/// Wall time of drawing a model, from start to end of the process, seconds.
 pub fn draw(model: &Path, drawing: &Path, threads: Threads, options: &[&str]) -> Result<f64, Error> {
     let mut command = Command::new(LIGNE);
     add_arguments(&mut command, model, drawing, threads);
@@ -31,21 +31,21 @@ pub fn draw(model: &Path, drawing: &Path, threads: Threads, options: &[&str]) ->
     succeeded(&output).map(|()| seconds)
 }
 
-/// CPU seconds, of the user and of the system, that drawing the model takes; `None` without Bash.
+/// CPU time of drawing a model, user and system, seconds; `None` without Bash.
 pub fn cpu(model: &Path, drawing: &Path, threads: Threads) -> Option<f64> {
     let mut command = Command::new("bash");
     command.args(["-c", BASH_TIME, LIGNE]);
     Some(told(command, model, drawing, threads)?.iter().sum())
 }
 
-/// Bytes of memory that drawing the model takes; `None` without GNU time.
+/// Memory of drawing a model, bytes; `None` without GNU time.
 pub fn memory(model: &Path, drawing: &Path, threads: Threads) -> Option<f64> {
     let mut command = Command::new(GNU_TIME);
     command.args(["-f", "%M", LIGNE]);
     Some(told(command, model, drawing, threads)?.first()? * 1024.0)
 }
 
-/// The numbers that a command around the drawing tells.
+/// Numbers that a wrapper command prints about the drawing.
 fn told(mut command: Command, model: &Path, drawing: &Path, threads: Threads) -> Option<Vec<f64>> {
     add_arguments(&mut command, model, drawing, threads);
     let output = command.stdin(Stdio::null()).output().ok()?;
@@ -53,14 +53,14 @@ fn told(mut command: Command, model: &Path, drawing: &Path, threads: Threads) ->
     said.split_whitespace().map(|word| word.parse().ok()).collect()
 }
 
-/// The stages of a drawing and their milliseconds, in the order of the report.
+/// Stages of a drawing with their times in milliseconds, in the order of the report.
 pub fn stages(model: &Path, drawing: &Path) -> Result<Vec<(String, f64)>, Error> {
     let report = drawing.with_extension("json");
     let mut command = Command::new(LIGNE);
     add_arguments(&mut command, model, drawing, Threads::All);
     succeeded(&command.arg("--report").arg(&report).output()?)?;
     let text = std::fs::read_to_string(&report)?;
-    // Stages are the only numbers with a point.
+    // Only stage times contain a decimal point.
     let stage = |line: &str| {
         let (name, number) = line.trim().trim_end_matches(',').split_once(": ")?;
         let number = number.contains('.').then(|| number.parse().ok())??;

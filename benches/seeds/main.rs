@@ -1,14 +1,15 @@
-//! Frames a second, as the papers that began this field count them: `cargo bench --bench seeds`.
+//! Frames per second, measured as in the papers that founded this field: `cargo bench --bench seeds`.
 //!
-//! - By passes and faces: Ishaya, "Real-time cartoon rendering with Direct-X 8.0 hardware", 2003, figure 4 (1,200, 26,000 and
-//!   40,000 polygons), and Claes and others, "Fast 3D cartoon rendering with improved quality by exploiting graphics
-//!   hardware", 2001 (6,280 and 10,396 faces). Here: levels of a ring with waves, turned by a degree a frame.
-//! - With and without animation against plain shading: Lake and others, "Stylized rendering techniques for scalable
-//!   real-time 3D animation", NPAR 2000, figure 14. Here: models that move, drawn as they move, and standing still
-//!   while the camera goes round them.
+//! - By passes and faces: Ishaya, "Real-time cartoon rendering with Direct-X 8.0 hardware", 2003, figure 4
+//!   (1,200, 26,000 and 40,000 polygons), and Claes and others, "Fast 3D cartoon rendering with improved
+//!   quality by exploiting graphics hardware", 2001 (6,280 and 10,396 faces). Here: levels of a wavy ring,
+//!   turned by one degree per frame.
+//! - With and without animation, against plain shading: Lake and others, "Stylized rendering techniques for
+//!   scalable real-time 3D animation", NPAR 2000, figure 14. Here: moving models, and the same models at rest
+//!   on a turntable.
 //!
-//! A frame is posed, drawn, and written as SVG into memory. *plain* is no part of ligne: vertices lit and drawn into a picture by one
-//! thread.
+//! A frame is posed, drawn, and written as SVG to memory. *plain* is not part of ligne: one thread lights the
+//! vertices and rasterises the triangles.
 
 mod plain;
 
@@ -33,7 +34,7 @@ const FRAMES: usize = 24;
 /// Squares along a side of the ring: 40,328 triangles.
 const SIDE: u32 = 142;
 
-/// A style as one pass or more: its name, the style, and what is set in it.
+/// Row of the table: name, style, and settings.
 type Pass = (&'static str, &'static str, &'static [&'static str]);
 const PASSES: [Pass; 6] = [
     ("inker", "ink", &[]),
@@ -98,20 +99,20 @@ fn row(name: &str, plain: f64, rates: &[f64]) {
     println!();
 }
 
-/// What frames show.
+/// Poses and cameras of the frames.
 struct Course {
     moments: Vec<Moment>,
 }
 
 impl Course {
-    /// A turn by a degree a frame.
+    /// A turntable with one degree per frame.
     fn turn(rigged: &Rigged) -> Self {
         let table = Turntable::round(&rigged.scene, 360);
         let poses: Vec<_> = (0..FRAMES).map(|frame| (Vec::new(), table.turn(360 - frame % 360))).collect();
         Self::seen(rigged, poses, |camera, frame| table.camera(camera, frame))
     }
 
-    /// The first clip, 24 frames a second.
+    /// The first clip at 24 frames per second.
     fn clip(rigged: &Rigged) -> Self {
         let [from, _] = rigged.rig.clips[0].span();
         let timeline = Timeline::of_frames(FRAMES, from, 24.0).expect("a timeline");
@@ -138,7 +139,7 @@ impl Course {
     }
 }
 
-/// Frames a second, by the median of their times.
+/// Frames per second, from the median frame time.
 fn rate(animator: &Animator, course: &Course) -> f64 {
     let options = SvgOptions::default();
     of_times(course.moments.iter().map(|moment| {
@@ -164,7 +165,7 @@ fn of_times(times: impl Iterator<Item = f64>) -> f64 {
     1.0 / times[times.len() / 2]
 }
 
-/// A ring with waves on it, closed both ways.
+/// Wavy ring, closed in both directions.
 fn ring() -> Scene {
     let turn = |k: u32| std::f64::consts::TAU * f64::from(k) / f64::from(SIDE);
     let point = |i: u32, j: u32| {

@@ -1,10 +1,11 @@
-//! Plain shading, the measure that drawing is held against: vertices lit by one light, and faces between them filled.
+//! Plain Gouraud shading as the reference: vertices lit by one light, triangles rasterised with a depth
+//! buffer.
 
 use ligne::Camera;
 use ligne::glam::{DVec3, Vec3};
 use ligne::scene::Projection;
 
-/// A picture of grey values, row by row.
+/// Picture of grey values, row by row.
 pub fn shaded(positions: &[DVec3], triangles: &[[u32; 3]], camera: &Camera) -> Vec<f32> {
     let [right, up, forward] = camera.axes();
     let (width, height) = (camera.width as usize, camera.height as usize);

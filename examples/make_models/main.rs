@@ -1,6 +1,6 @@
 //! Writes the example models: `cargo run --release --example make_models [-- DIR]`.
 //!
-//! The files come out the same to the byte on every machine; DIR is `examples/models` unless given.
+//! The files are identical on all machines, byte for byte. DIR defaults to `examples/models`.
 
 mod buildings;
 mod figures;
@@ -47,7 +47,7 @@ fn main() -> std::io::Result<()> {
     let (bear, normals) = figures::bear::bear();
     write("bear.ply", &writers::ply::bytes("a bear of soft blobs", &bear, &normals))?;
 
-    // Small models that are hard to see right.
+    // Small models with cases that are difficult to draw.
     let text =
         |title: &str, parts: &[Part], normals: &[Vec<DVec3>]| writers::obj::text(title, None, parts, normals);
     write("shaft.obj", text("A shaft in its bearing, in mm", &machines::shaft::parts(), &[]).as_bytes())?;
@@ -84,6 +84,6 @@ fn main() -> std::io::Result<()> {
     write("trellis.mtl", buildings::trellis::library().as_bytes())?;
     write("trellis-hole.png", &buildings::trellis::hole())?;
     write("trellis-leaf.png", &buildings::trellis::leaf())?;
-    // No model, but a brush to draw one with.
+    // A brush picture, for drawing with a brush.
     write("brush-dry.png", &objects::brush::dry())
 }

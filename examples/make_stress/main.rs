@@ -1,8 +1,8 @@
 //! Writes scenes for timing: `cargo run --release --example make_stress -- DIR [SCENE [N]]`.
 //!
-//! Without a scene it writes `city.obj` (1.08 million triangles) and `menger4.obj` (673 thousand).
-//! Scenes are `city` (N houses a side), `menger` (N levels), `sphere` (12 N² triangles), `terrain`
-//! (2 N²), `knot` (8 N²), `nested` (24 N²), `printed` (83 times 8 N²) and `doubled` (67 times 16 N²).
+//! Without a scene it writes `city.obj` (1.08 million triangles) and `menger4.obj` (673 thousand). Scenes are
+//! `city` (N houses per side), `menger` (N levels), `sphere` (12 N² triangles), `terrain` (2 N²), `knot` (8
+//! N²), `nested` (24 N²), `printed` (83 times 8 N²) and `doubled` (67 times 16 N²).
 
 mod scenes;
 

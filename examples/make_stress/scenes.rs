@@ -1,7 +1,7 @@
-//! Large scenes for timing: a city of boxes, a Menger sponge, spheres and terrain of any size; a knot, a folded scan, a plate of printed
-//! parts, an assembly whose faces stand twice.
+//! Large scenes for timing: a city of boxes, a Menger sponge, spheres, terrain, a knot, a folded scan, a
+//! plate of printed parts, and an assembly with doubled faces.
 //!
-//! Benches include this file by its path, so it uses nothing of the program around it.
+//! Benches include this file by path, so it uses no other file of the example.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 pub struct Triangles {
     pub points: Vec<[f64; 3]>,
     pub faces: Vec<[u32; 3]>,
-    /// The first face of each object; empty where all is one.
+    /// First face of each object; empty for a single object.
     pub objects: Vec<usize>,
 }
 
@@ -24,7 +24,7 @@ impl Triangles {
         self.faces.extend([[a, b, c], [a, c, d]]);
     }
 
-    /// Adds another one, larger and elsewhere, as an object of its own.
+    /// Adds another scene, scaled and moved, as a separate object.
     fn place(&mut self, other: &Self, size: f64, at: [f64; 3]) {
         self.objects.push(self.faces.len());
         let first = self.points.len() as u32;
@@ -32,7 +32,7 @@ impl Triangles {
         self.faces.extend(other.faces.iter().map(|face| face.map(|corner| corner + first)));
     }
 
-    /// A grid of points bent to a surface that closes both ways.
+    /// Grid of points bent into a surface that closes in both directions.
     fn torus(around: u32, along: u32, at: impl Fn(f64, f64) -> [f64; 3]) -> Self {
         let mut out = Self::default();
         for (i, j) in (0..along).flat_map(|i| (0..around).map(move |j| (i, j))) {
@@ -46,12 +46,12 @@ impl Triangles {
     }
 }
 
-/// The corners of each side of a cube, counter-clockwise from outside; bit 0 of a corner is x, bit 1
-/// is y, bit 2 is z. Sides in the order -x, +x, -y, +y, -z, +z.
+/// Corners of each side of a cube, counter-clockwise from outside. Bits 0, 1 and 2 of a corner are x, y and
+/// z. Sides in the order -x, +x, -y, +y, -z, +z.
 const SIDES: [[usize; 4]; 6] =
     [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
 
-/// A number from 0 to 1 for a cell of a grid; `salt` tells several of one cell apart.
+/// Pseudo-random number from 0 to 1 for a grid cell. `salt` selects one of several per cell.
 fn chance(x: i64, y: i64, salt: u64) -> f64 {
     let mut bits = (x as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15)
         ^ (y as u64).wrapping_mul(0xC2B2_AE3D_27D4_EB4F)
@@ -62,8 +62,8 @@ fn chance(x: i64, y: i64, salt: u64) -> f64 {
     (bits >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-/// `side` x `side` houses in blocks of five with streets between; some touch, none overlap. 300 a
-/// side make 1.08 million triangles.
+/// `side` x `side` houses in blocks of five with streets in between. Some touch, none overlap. 300 per side
+/// give 1.08 million triangles.
 pub fn city(side: u32) -> Triangles {
     let mut out = Triangles::default();
     let middle = f64::from(side) / 2.0;
@@ -73,7 +73,7 @@ pub fn city(side: u32) -> Triangles {
         let distance = (f64::from(i) - middle).abs().max((f64::from(j) - middle).abs()) / middle;
         let tall = chance(column, row, 1);
         let height = 4.0 + 12.0 * chance(column, row, 2) + 90.0 * (1.0 - distance) * tall * tall * tall;
-        // One house in four fills its whole plot and so touches its neighbours that do.
+        // One house in four fills its whole plot, so it touches neighbours that do the same.
         let gap = if chance(column, row, 3) < 0.25 { 0.0 } else { 0.5 + 1.5 * chance(column, row, 4) };
         let (low, high) = ([x + gap, 0.0, z + gap], [x + 10.0 - gap, height, z + 10.0 - gap]);
         let corners: [u32; 8] = std::array::from_fn(|corner| {
@@ -88,7 +88,7 @@ pub fn city(side: u32) -> Triangles {
     out
 }
 
-/// Whether the unit cell of a Menger sponge of so many cells a side is solid.
+/// Whether a unit cell of a Menger sponge with `size` cells per side is solid.
 fn is_solid(cell: [i64; 3], size: i64) -> bool {
     if cell.iter().any(|&k| k < 0 || k >= size) {
         return false;
@@ -103,8 +103,8 @@ fn is_solid(cell: [i64; 3], size: i64) -> bool {
     true
 }
 
-/// The surface of a Menger sponge in the unit cube, a square for each outer side of a smallest cube.
-/// Level 4 has 672,768 triangles. Where solid cells meet along an edge only, four squares share it.
+/// Surface of a Menger sponge in the unit cube, with one square per outer side of a smallest cube. Level 4
+/// has 672,768 triangles. Where solid cells only meet along an edge, four squares share it.
 pub fn menger(level: u32) -> Triangles {
     let size = 3_i64.pow(level);
     let mut out = Triangles::default();
@@ -132,7 +132,8 @@ pub fn menger(level: u32) -> Triangles {
     out
 }
 
-/// A unit sphere of 12 `n`² triangles: the sides of a cube, `n` squares along each, blown up.
+/// Unit sphere of 12 `n`² triangles: the sides of a cube with `n` squares along each, projected onto the
+/// sphere.
 pub fn sphere(n: u32) -> Triangles {
     let mut out = Triangles::default();
     let mut known: BTreeMap<[i64; 3], u32> = BTreeMap::new();
@@ -163,7 +164,7 @@ pub fn sphere(n: u32) -> Triangles {
     out
 }
 
-/// A smooth value between 0 and 1 from the corners of the grid cell around a point.
+/// Smooth value between 0 and 1, interpolated from the corners of the grid cell around a point.
 fn noise(x: f64, z: f64, salt: u64) -> f64 {
     let (i, j) = (x.floor() as i64, z.floor() as i64);
     let ease = |t: f64| t * t * (3.0 - 2.0 * t);
@@ -172,7 +173,7 @@ fn noise(x: f64, z: f64, salt: u64) -> f64 {
     row(j) * (1.0 - v) + row(j + 1) * v
 }
 
-/// Hills over a square of side 100, `n` squares along each side: 2 `n`² triangles, open at the rim.
+/// Hills over a square of side 100, with `n` squares along each side: 2 `n`² triangles, open at the border.
 pub fn terrain(n: u32) -> Triangles {
     let mut out = Triangles::default();
     for (i, j) in (0..=n).flat_map(|i| (0..=n).map(move |j| (i, j))) {
@@ -191,13 +192,14 @@ pub fn terrain(n: u32) -> Triangles {
     out
 }
 
-/// Sine and cosine of so many turns.
+/// Sine and cosine of an angle in turns.
 fn turned(turns: f64) -> [f64; 2] {
     let (sin, cos) = libm::sincos(turns * std::f64::consts::TAU);
     [cos, sin]
 }
 
-/// A trefoil of a round tube: 8 `n`² triangles, `n` squares around it. 100 around make 80 thousand, 1,118 ten million.
+/// Trefoil of a round tube with `n` squares around it: 8 `n`² triangles. 100 give 80 thousand, 1,118 give ten
+/// million.
 pub fn knot(n: u32) -> Triangles {
     let middle = |s: f64| {
         let ([c2, s2], [c3, s3]) = (turned(2.0 * s), turned(3.0 * s));
@@ -223,7 +225,7 @@ fn normalized(a: [f64; 3]) -> [f64; 3] {
     a.map(|x| x / length)
 }
 
-/// Two shells one in the other, folded and rough as a scan is: 24 `n`² triangles, 1.2 million for 224.
+/// Two nested shells, folded and rough like a scan: 24 `n`² triangles, 1.2 million for 224.
 pub fn nested(n: u32) -> Triangles {
     let mut out = Triangles::default();
     for (salt, radius) in [(40_u64, 1.0), (50, 0.86)] {
@@ -244,7 +246,7 @@ pub fn nested(n: u32) -> Triangles {
     out
 }
 
-/// 83 parts side by side on a plate, of five kinds: 83 times 8 `n`² triangles, one million for 39.
+/// Plate with 83 parts of five kinds side by side: 83 times 8 `n`² triangles, one million for 39.
 pub fn printed(n: u32) -> Triangles {
     let kinds: Vec<Triangles> = (0..5).map(|kind| printed_part(kind, n)).collect();
     let mut out = Triangles::default();
@@ -256,7 +258,7 @@ pub fn printed(n: u32) -> Triangles {
     out
 }
 
-/// A ring, a vase with ripples, a cog, a spring washer, a ball of layers.
+/// Ring, rippled vase, gear, spring washer, or layered ball.
 fn printed_part(kind: u32, n: u32) -> Triangles {
     Triangles::torus(2 * n, 2 * n, |along, around| {
         let ([c, s], [height, width]) = (turned(along), {
@@ -275,8 +277,8 @@ fn printed_part(kind: u32, n: u32) -> Triangles {
     })
 }
 
-/// 67 objects side by side and in each other, every face of which stands there twice, once each way: 67 times 16 `n`² triangles,
-/// 347 thousand for 18.
+/// 67 objects, some inside each other, with every face doubled in both orientations: 67 times 16 `n`²
+/// triangles, 347 thousand for 18.
 pub fn doubled(n: u32) -> Triangles {
     let mut single = Triangles::default();
     let kinds: Vec<Triangles> = (0..5).map(|kind| printed_part(kind, n)).collect();

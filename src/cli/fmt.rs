@@ -1,4 +1,4 @@
-//! `ligne fmt`: drawings rewritten in canonical form.
+//! `ligne fmt`: rewrites drawings in canonical form.
 
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -12,7 +12,7 @@ use crate::diff::canonical_svg;
 use crate::error::Error;
 use crate::export::encoding::gzip;
 
-/// No drawing is larger unpacked.
+/// Maximum size of an unpacked drawing, bytes.
 const MOST_BYTES: usize = 1 << 30;
 
 /// Options of `ligne fmt`.

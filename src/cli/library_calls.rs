@@ -1,4 +1,4 @@
-//! The calls of the command line into the rest of the crate.
+//! Library calls that several commands share.
 
 use rayon_core::ThreadPool;
 
@@ -14,8 +14,8 @@ use crate::pipeline::report::mesh_defects;
 use crate::scene::{Scene, Warnings};
 use crate::style::Style;
 
-/// The style by that name or in that file, changed by `sets` (`KEY=VALUE` each) and with the
-/// background that was asked for.
+/// Loads a style by name or path, applies `sets` (`KEY=VALUE` each), and replaces the background if one is
+/// given.
 pub(crate) fn load_style(
     name_or_path: &str,
     sets: &[String],
@@ -28,7 +28,7 @@ pub(crate) fn load_style(
     Ok(style)
 }
 
-/// Leaves only the parts whose names match `only` (all, where it is empty) and none of `hide`.
+/// Keeps parts whose names match `only` (all if empty) and none of `hide`.
 pub(crate) fn keep_parts(scene: &mut Scene, only: &[String], hide: &[String]) -> Result<(), Error> {
     if only.is_empty() && hide.is_empty() {
         return Ok(());
@@ -38,7 +38,7 @@ pub(crate) fn keep_parts(scene: &mut Scene, only: &[String], hide: &[String]) ->
     check_left(scene, &names)
 }
 
-/// Leaves the same parts, and what moves them.
+/// Keeps the same parts of a rigged model, with the nodes that move them.
 pub(crate) fn keep_moving_parts(rigged: &mut Rigged, only: &[String], hide: &[String]) -> Result<(), Error> {
     if only.is_empty() && hide.is_empty() {
         return Ok(());
@@ -52,7 +52,7 @@ fn part_names(scene: &Scene) -> Vec<String> {
     scene.parts.iter().map(|part| part.name.clone()).collect()
 }
 
-/// Refuses a scene of which nothing is left.
+/// Refuses a scene without parts. `names` are the parts before the selection.
 fn check_left(scene: &Scene, names: &[String]) -> Result<(), Error> {
     if scene.parts.is_empty() {
         let mut shown: Vec<&str> = names.iter().map(String::as_str).take(8).collect();
@@ -63,18 +63,18 @@ fn check_left(scene: &Scene, names: &[String]) -> Result<(), Error> {
     Ok(())
 }
 
-/// The mesh of a scene, with the defects that cleaning found.
+/// Builds the mesh of a scene, and returns the defects that cleaning found.
 pub(crate) fn mesh_findings(scene: &Scene) -> (Warnings, Mesh) {
     let mesh = Mesh::build(scene.to_soup());
     (mesh_defects::of_mesh(&mesh, scene), mesh)
 }
 
-/// The drawing as SVG.
+/// Encodes a drawing as SVG.
 pub(crate) fn svg(drawing: &Drawing, choices: &SvgChoices) -> Vec<u8> {
     drawing.to_svg(&svg_options(choices)).into_bytes()
 }
 
-/// How SVG is written, for the exporter.
+/// Converts the SVG options of a request for the exporter.
 pub(crate) fn svg_options(choices: &SvgChoices) -> SvgOptions {
     let group = match choices.group {
         GroupBy::Layer => Grouping::Layer,
@@ -84,21 +84,21 @@ pub(crate) fn svg_options(choices: &SvgChoices) -> SvgOptions {
     SvgOptions { precision: choices.precision, id_prefix, group, ..SvgOptions::default() }
 }
 
-/// The drawing as PNG, at so many pixels to the inch.
+/// Encodes a drawing as PNG with a resolution in pixels per inch.
 pub(crate) fn png(drawing: &Drawing, dpi: f64) -> Result<Vec<u8>, Error> {
     drawing.to_png(&PngOptions { resolution: Resolution::Dpi(dpi) })
 }
 
-/// Works with so many threads, or with as many as there are cores.
+/// Runs work on a number of threads; by default one per core.
 pub(crate) fn in_threads<T: Send>(threads: Option<u16>, work: impl FnOnce() -> T + Send) -> Result<T, Error> {
     match threads {
-        // On one of the threads themselves, so that none has to be waited for at each part of the work.
+        // Runs on a thread of the global pool, which avoids a hand-over at each parallel step.
         None => Ok(rayon_core::scope(|_| work())),
         Some(_) => Ok(pool(threads)?.install(work)),
     }
 }
 
-/// So many threads, or as many as there are cores.
+/// Thread pool with a number of threads; by default one per core.
 pub(crate) fn pool(threads: Option<u16>) -> Result<ThreadPool, Error> {
     let pool = rayon_core::ThreadPoolBuilder::new().num_threads(threads.map_or(0, usize::from)).build();
     pool.map_err(|error| Error::new(format!("cannot start threads: {error}")).at("--threads"))

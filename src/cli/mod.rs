@@ -1,16 +1,15 @@
 //! Command line of `ligne`: parsing, requests, and one module or folder for each command.
 //!
 //! A call runs in these steps:
-//! 1. [`shorthand`] turns `ligne MODEL` into `ligne draw MODEL`.
-//! 2. [`config`] adds options from environment variables and `ligne.toml`.
-//! 3. clap parses the words into the argument structs of [`options`].
-//! 4. [`request`] checks them and makes a `DrawRequest`.
-//! 5. The command draws, compares or lists. Files are staged in [`output`] and renamed at the end, all or
-//!    none.
+//! 1. `shorthand` turns `ligne MODEL` into `ligne draw MODEL`.
+//! 2. `config` adds options from environment variables and `ligne.toml`.
+//! 3. clap parses the words into the argument structs of `options`.
+//! 4. `request` checks them and makes a `DrawRequest`.
+//! 5. The command draws, compares or lists. Files are staged in `output` and renamed at the end, all or none.
 //!
-//! Commands: [`draw`], [`animate`], [`page`], [`diff`], [`test`], [`fmt`], [`info`], [`styles`], [`manual`]
-//! (`man`, `completions`); `lod` is in [`models`], which opens models. [`step`] converts STEP files.
-//! [`library_calls`] wraps the library calls that several commands share.
+//! Commands: `draw`, `animate`, `page`, `diff`, `test`, `fmt`, `info`, `styles`, `manual` (`man`,
+//! `completions`); `lod` is in `models`, which opens models. `step` converts STEP files. `library_calls`
+//! wraps the library calls that several commands share.
 
 mod animate;
 mod config;
@@ -43,7 +42,8 @@ const DIFFERENCES: u8 = 1;
 /// Exit status if the call or an input file is wrong.
 const WRONG: u8 = 2;
 
-/// Exit status if the same call may succeed later, for example after a full disc. EX_TEMPFAIL of sysexits.h.
+/// Exit status if the same call may succeed later, for example after a full disc. Source: EX_TEMPFAIL of
+/// sysexits.h.
 const LATER: u8 = 75;
 
 const EXAMPLES: &str = "Examples:
@@ -58,10 +58,10 @@ A model as the first word means `ligne draw`.";
 const USAGE: &str = "ligne [OPTIONS] <COMMAND>
        ligne <MODEL> [OUT]... [OPTIONS]";
 
-/// Heading of the options that commands take over from `ligne draw`.
+/// Help heading of the options that commands share with `ligne draw`.
 const SHARED: &str = "Options shared with ligne draw";
 
-/// Commands that take over options from `ligne draw`.
+/// Commands that share options with `ligne draw`.
 const SHARING: [&str; 3] = ["animate", "diff", "styles"];
 
 /// Arguments of the program.
@@ -109,7 +109,7 @@ enum Command {
     Man(manual::man_page::ManArgs),
 }
 
-/// The program's commands and options, as the parser, help, manual pages and completions use them.
+/// Commands and options of the program, for the parser, help, manual pages and completions.
 fn program() -> Program {
     let of_drawing = options::draw_args::HowArgs::augment_args(Program::new("draw"));
     let shared: Vec<_> = of_drawing.get_arguments().map(|option| option.get_id().clone()).collect();
@@ -175,12 +175,12 @@ pub fn main() -> ExitCode {
     }
 }
 
-/// Prints a line on standard error; a closed pipe is not an error.
+/// Prints a line on standard error. A closed pipe is not an error.
 fn say(line: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{line}");
 }
 
-/// Writes to standard output; a closed pipe is not an error.
+/// Writes to standard output. A closed pipe is not an error.
 fn print(bytes: &[u8]) -> Result<(), Error> {
     let mut stdout = std::io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
@@ -193,7 +193,7 @@ fn print(bytes: &[u8]) -> Result<(), Error> {
 
 #[cfg(test)]
 mod tests {
-    /// Help text that fits next to an option on one line of a wide terminal.
+    /// Maximum length of a help text that fits on one line next to its option on a wide terminal.
     const MAX_HELP_CHARS: usize = 125;
 
     #[test]

@@ -1,8 +1,11 @@
-//! The short form `ligne MODEL [OUT]... [OPTIONS]` of `ligne draw MODEL [OUT]... [OPTIONS]`.
+//! Short form `ligne MODEL [OUT]... [OPTIONS]` of `ligne draw MODEL [OUT]... [OPTIONS]`.
 //!
-//! The first word decides. A command stays a command. Anything else counts as a model if it looks like a path: it is `-`, has a dot or a
-//! slash in it, or is an existing file. An option counts if `ligne draw` has it and the program has not. All other words go to the
-//! parser unchanged, which suggests the nearest command.
+//! The first word decides:
+//! - A command stays unchanged.
+//! - A model is any other word that looks like a path: `-`, a word with a dot or slash, or an existing file.
+//! - An option counts if `ligne draw` has it and the program does not.
+//!
+//! All other words go to the parser unchanged, which suggests the nearest command.
 
 use std::ffi::{OsStr, OsString};
 use std::path::Path;
@@ -11,7 +14,7 @@ use clap::Command;
 
 use super::say;
 
-/// The words of a call, with `draw` in front of a model. Notes on standard error if a command hides a file of the same name.
+/// Inserts `draw` before a model. Prints a note if a command hides a file of the same name.
 pub(crate) fn expanded(mut words: Vec<OsString>, program: &Command) -> Vec<OsString> {
     let is_global = |word: &OsString| word == "--no-config";
     let Some(at) = words.iter().skip(1).position(|word| !is_global(word)).map(|at| at + 1) else {
@@ -35,14 +38,14 @@ fn is_command(program: &Command, word: &OsStr) -> bool {
     word == "help" || program.find_subcommand(word).is_some()
 }
 
-/// Whether a word can only be a path, as no command has such a name.
+/// Whether a word must be a path, because no command has such a name.
 fn is_path(word: &OsStr) -> bool {
     let text = word.to_string_lossy();
     let is_option = text.starts_with('-') && text != "-";
     !is_option && (text == "-" || text.contains(['.', '/', '\\']) || Path::new(word).is_file())
 }
 
-/// Whether a word is an option that `ligne draw` has and the program has not.
+/// Whether a word is an option of `ligne draw` but not of the program.
 fn is_option_of_draw(program: &Command, word: &OsStr) -> bool {
     let text = word.to_string_lossy();
     let has = |command: &Command| {

@@ -1,4 +1,4 @@
-//! `ligne styles`: the built-in styles, or the text of one.
+//! `ligne styles`: lists the built-in styles, prints one, or draws a model in many.
 
 use clap::Args;
 
@@ -9,7 +9,7 @@ use crate::cli::draw::contact_sheet::StyleSheetArgs;
 use crate::error::Error;
 use crate::style::Style;
 
-/// What was typed.
+/// Options of `ligne styles`.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   ligne styles                            list the styles
@@ -44,7 +44,7 @@ pub(crate) struct StylesArgs {
     reference: bool,
 }
 
-/// Lists the styles with the idea of each, or shows a sheet.
+/// Lists the styles with their descriptions, prints a style or its keys, or draws a sheet.
 pub(crate) fn run(args: &StylesArgs) -> Result<(), Error> {
     if let (Some(out), Some(model)) = (&args.sheet.sheet, &args.name) {
         return contact_sheet::of_styles(&args.sheet, out, model);
@@ -73,7 +73,7 @@ pub(crate) fn run(args: &StylesArgs) -> Result<(), Error> {
     print(text.as_bytes())
 }
 
-/// The idea of a sheet: its first comment line.
+/// Description of a style sheet: its first comment line.
 fn idea(sheet: &str) -> &str {
     sheet.lines().find_map(|line| line.trim().strip_prefix('#')).map_or("", str::trim)
 }

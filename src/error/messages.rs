@@ -1,9 +1,9 @@
-//! The messages of the TOML and JSON parsers in plain words: no names of types, structs or parsers reach the user.
+//! Messages of the TOML and JSON parsers in plain words, without names of types, structs or parsers.
 
 use super::nearest::nearest;
 use super::spelling::without_american;
 
-/// A parser's message in plain words, and advice.
+/// Parser message in plain words, with advice.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Explained {
     pub message: String,
@@ -15,15 +15,15 @@ pub(crate) struct Explained {
 /// Kind of mistake that a message reports.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Mistake {
-    /// A key that is not known, and the keys that are.
+    /// An unknown key, and the known keys.
     UnknownKey(String, Vec<String>),
-    /// A value of another type than the key has.
+    /// A value of the wrong type.
     WrongType,
-    /// Anything else.
+    /// Any other mistake.
     Other,
 }
 
-/// Explains a message.
+/// Rewrites a parser message in plain words.
 pub(crate) fn explain(message: &str) -> Explained {
     let message = message.trim().replace('\n', ", ");
     let other =
@@ -89,7 +89,7 @@ pub(crate) fn explain(message: &str) -> Explained {
     }
 }
 
-/// The words in back quotes of a message that begins so.
+/// Words in back quotes of a message with this start; none for other messages.
 fn quoted<'a>(message: &'a str, start: &str) -> Option<Vec<&'a str>> {
     Some(message.strip_prefix(start)?.split('`').skip(1).step_by(2).collect())
 }
@@ -101,7 +101,7 @@ fn did_you_mean(word: &str, known: &[&str], list: &str) -> String {
     }
 }
 
-/// A value that was found, as it is written.
+/// A found value as the user wrote it.
 fn plain_value(text: &str) -> String {
     for kind in ["boolean ", "integer ", "floating point ", "character "] {
         if let Some(value) = text.strip_prefix(kind) {
@@ -119,7 +119,7 @@ fn plain_value(text: &str) -> String {
     }
 }
 
-/// A type that is wanted.
+/// An expected type in plain words.
 fn plain_type(text: &str) -> String {
     let whole = |low: &str, high: &str| format!("a whole number from {low} to {high}");
     match text {

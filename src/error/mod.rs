@@ -1,7 +1,9 @@
 //! [`Error`], the error type of the crate: kind, file, place, message and remedy.
 //!
-//! Files: [`messages`] rewrites messages of the TOML and JSON parsers in plain words; [`nearest`] finds the
-//! known word nearest to a misspelt one; [`spelling`] maps American to British spelling of keys and options.
+//! Files:
+//! - [`messages`]: rewrites messages of the TOML and JSON parsers in plain words.
+//! - [`nearest`]: finds the known word nearest to a misspelt one.
+//! - [`spelling`]: maps American to British spelling of keys and options.
 
 pub(crate) mod messages;
 pub(crate) mod nearest;
@@ -11,25 +13,25 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// What sort of thing went wrong, for programs that act on it.
+/// Kind of an error, for programs that react to it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]
 pub enum ErrorKind {
-    /// What was given is not what it should be: a damaged file, a value out of range, an unknown key.
+    /// The input is wrong: a damaged file, a value out of range, an unknown key.
     #[default]
     Invalid,
     /// A file could not be read or written.
     Io,
-    /// What was given may well be sound, but ligne cannot read or write it, or was built without that.
+    /// The input may be correct, but ligne cannot read or write it, or was built without this feature.
     Unsupported,
     /// There is nothing to draw.
     Empty,
 }
 
-/// Why an input was refused.
+/// Error about an input or output.
 ///
-/// Shown as `FILE: PLACE: MESSAGE; REMEDY`, leaving out what is not known. Defects of a model
-/// that can be drawn around are not errors: they are counted as [`crate::scene::Warnings`].
+/// Displayed as `FILE: PLACE: MESSAGE; REMEDY`, without missing fields. Defects of a model that can still be
+/// drawn are not errors. They are counted as [`crate::scene::Warnings`].
 ///
 /// ```
 /// use ligne::{ErrorKind, Scene};
@@ -42,35 +44,34 @@ pub enum ErrorKind {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Error {
-    /// What sort of thing went wrong.
+    /// Kind of the error.
     pub kind: ErrorKind,
-    /// The file that is wrong, as the caller named it.
+    /// File with the error, as named by the caller.
     pub file: Option<PathBuf>,
-    /// The place in it: `line 12`, `byte 80`, `accessor 3`, `key lines.crease_deg`.
+    /// Position in the file: `line 12`, `byte 80`, `accessor 3`, `key lines.crease_deg`.
     pub place: Option<String>,
-    /// What is wrong.
+    /// Description of the error.
     pub message: String,
-    /// What the reader can do about it.
+    /// Action that fixes it.
     pub remedy: Option<String>,
-    /// What it comes from.
+    /// Underlying error.
     source: Option<Arc<dyn std::error::Error + Send + Sync>>,
 }
 
 impl Error {
-    /// An error that knows only what is wrong.
+    /// Error of the kind `Invalid` with a message only.
     pub fn new(message: impl Into<String>) -> Self {
         let kind = ErrorKind::Invalid;
         Self { kind, file: None, place: None, message: message.into(), remedy: None, source: None }
     }
 
-    /// A file that could not be read or written: what was tried, and why it failed.
+    /// Error of reading or writing: the attempted action and its cause.
     pub fn io(tried: impl fmt::Display, error: std::io::Error) -> Self {
         let message = format!("{tried}: {error}");
         Self { kind: ErrorKind::Io, source: Some(Arc::new(error)), ..Self::new(message) }
     }
 
-    /// A text that is not JSON, or does not hold the values it should: `what` is wrong with it, at the parser's line and column;
-    /// it may be empty.
+    /// Error of the JSON parser with its line and column. `what` precedes the message; it may be empty.
     pub(crate) fn json(what: &str, error: &serde_json::Error) -> Self {
         let message = error.to_string();
         // The parser ends its message with the position.
@@ -81,7 +82,7 @@ impl Error {
             0 => made,
             line => made.at(format!("line {line}, column {}", error.column())),
         };
-        // Advice on a missing key is written for TOML.
+        // The advice about a missing key is written for TOML.
         let missing = |advice: &str| Some(advice.strip_prefix("add ")?.strip_suffix(" = …")?.to_owned());
         match advice {
             Some(advice) => made.remedy(missing(&advice).map_or(advice, |key| format!("add \"{key}\": …"))),
@@ -89,28 +90,28 @@ impl Error {
         }
     }
 
-    /// Says of what kind it is.
+    /// Sets the kind.
     #[must_use]
     pub fn of_kind(mut self, kind: ErrorKind) -> Self {
         self.kind = kind;
         self
     }
 
-    /// Names the file the error is about.
+    /// Sets the file.
     #[must_use]
     pub fn in_file(mut self, file: impl AsRef<Path>) -> Self {
         self.file = Some(file.as_ref().to_path_buf());
         self
     }
 
-    /// Names the place inside the file.
+    /// Sets the position in the file.
     #[must_use]
     pub fn at(mut self, place: impl Into<String>) -> Self {
         self.place = Some(place.into());
         self
     }
 
-    /// Names what holds the place inside the file: `accessor 3` before `bufferView 1`.
+    /// Puts an enclosing element before the position: `accessor 3` before `bufferView 1`.
     #[must_use]
     pub(crate) fn within(self, holder: impl Into<String>) -> Self {
         let holder = holder.into();
@@ -118,7 +119,7 @@ impl Error {
         self.at(place)
     }
 
-    /// Says what to do.
+    /// Sets the remedy.
     #[must_use]
     pub fn remedy(mut self, remedy: impl Into<String>) -> Self {
         self.remedy = Some(remedy.into());
@@ -126,7 +127,7 @@ impl Error {
     }
 }
 
-/// Errors are equal if they say the same.
+/// Compares everything except the underlying error.
 impl PartialEq for Error {
     fn eq(&self, other: &Self) -> bool {
         let said = |e: &Self| (e.kind, e.file.clone(), e.place.clone(), e.message.clone(), e.remedy.clone());

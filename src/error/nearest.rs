@@ -1,6 +1,6 @@
-//! [`nearest`]: the known word that a misspelt one stands for.
+//! [`nearest`]: known word that a misspelt word most likely stands for.
 
-/// The known word that was most likely intended: at most a third of its letters differ.
+/// Nearest known word, if at most a third of its letters differ.
 pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     known
         .iter()
@@ -10,7 +10,7 @@ pub(crate) fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         .map(|(_, candidate)| candidate)
 }
 
-/// Letters to insert, delete, replace or swap with the next to turn one word into another (optimal
+/// Edit distance of two words: insertions, deletions, replacements and swaps of neighbouring letters (optimal
 /// string alignment).
 pub(crate) fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());

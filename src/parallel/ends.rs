@@ -1,4 +1,4 @@
-//! Ends of parallel loops: what becomes of the items of each part, and how the results of parts are joined.
+//! Ends of parallel loops: what happens to the items of each part, and how the results are joined.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -7,7 +7,7 @@ use super::sources::Split;
 use super::steps::{IntoParallelIterator, Parallel, Step};
 use super::{cut, gather, part_count, put, run, slots, take};
 
-/// What becomes of the items of one part.
+/// Consumer of the items of one part.
 trait End<T>: Sync {
     type Result: Send;
     fn end(&self, items: impl Iterator<Item = T>) -> Self::Result;
@@ -56,7 +56,7 @@ impl<T: Send, G: Fn(T, T) -> T + Sync> End<T> for Best<G> {
     }
 }
 
-/// A collection that the items of a parallel loop give, in their order.
+/// Collection that is built from the items of a parallel loop, in order.
 pub(crate) trait FromParts<T>: Sized {
     fn from_parts(parts: Vec<Vec<T>>) -> Self;
 }
@@ -123,7 +123,7 @@ impl<S: Split, F: Step<S>> Parallel<S, F> {
         self.drive(&ForEach(function));
     }
 
-    /// Whether the function holds for an item; the others need not be tried.
+    /// Whether the function holds for any item. Stops early.
     pub(crate) fn any(self, function: impl Fn(F::Item) -> bool + Sync) -> bool {
         let found = AtomicBool::new(false);
         self.drive(&Any(function, &found));
@@ -135,7 +135,7 @@ impl<S: Split, F: Step<S>> Parallel<S, F> {
         !self.any(|item| !function(item))
     }
 
-    /// Joins all items by an associative function; `identity` is neutral in it.
+    /// Joins all items with an associative function. `identity` is its neutral element.
     pub(crate) fn reduce(
         self,
         identity: impl Fn() -> F::Item + Sync,
@@ -149,7 +149,7 @@ impl<S: Split, F: Step<S>> Parallel<S, F> {
         results.into_iter().reduce(&end.1).unwrap_or_else(&end.0)
     }
 
-    /// The last of the greatest items.
+    /// Greatest item; the last one of several.
     pub(crate) fn max(self) -> Option<F::Item>
     where
         F::Item: Ord + Send,
@@ -157,7 +157,7 @@ impl<S: Split, F: Step<S>> Parallel<S, F> {
         self.drive(&Best(Ord::max)).into_iter().flatten().reduce(Ord::max)
     }
 
-    /// Calls the function with a value that each part makes for itself, such as a buffer.
+    /// Calls the function with a value that each part creates once, such as a buffer.
     pub(crate) fn for_each_init<T>(
         self,
         init: impl Fn() -> T + Sync,
@@ -166,7 +166,7 @@ impl<S: Split, F: Step<S>> Parallel<S, F> {
         self.map_init(init, function).for_each(|()| ());
     }
 
-    /// Both halves of the items, each in order.
+    /// Splits pairs into two lists, each in order.
     pub(crate) fn unzip<A: Send, B: Send>(self) -> (Vec<A>, Vec<B>)
     where
         F: Step<S, Item = (A, B)>,
@@ -175,7 +175,7 @@ impl<S: Split, F: Step<S>> Parallel<S, F> {
     }
 }
 
-/// Appending the items of a parallel loop to a collection.
+/// Extends a collection with the items of a parallel loop.
 pub(crate) trait ParallelExtend<T> {
     fn par_extend<L>(&mut self, items: L)
     where

@@ -33,17 +33,17 @@ use sources::Split;
 pub(crate) use starts::{ParallelSlice, ParallelSliceMut};
 pub(crate) use steps::{IntoParallelIterator, Parallel, Step};
 
-/// What a module with parallel loops imports.
+/// Traits that modules with parallel loops import.
 pub(crate) mod prelude {
     pub(crate) use super::{
         IntoParallelIterator, ParallelExtend, ParallelSlice, ParallelSliceMut, ParallelSort,
     };
 }
 
-/// Parts a thread in a loop without limits: enough that a thread with cheap parts takes over others.
+/// Number of parts per thread in a loop without limits. Threads with cheap parts can take over others.
 const PARTS_PER_THREAD: usize = 8;
 
-/// Greatest number of parts a thread, which bounds the memory for results.
+/// Maximum number of parts per thread. Bounds the memory for results.
 const MAX_PARTS_PER_THREAD: usize = 128;
 
 /// Runs `work(0)` to `work(tasks - 1)` on the threads of the current pool, each once, and waits for all.
@@ -71,7 +71,7 @@ fn run(tasks: usize, work: &(dyn Fn(usize) + Sync)) {
     });
 }
 
-/// Runs both functions, at the same time where a thread is free, and returns their results.
+/// Runs both functions, in parallel if a thread is free, and returns their results.
 pub(crate) fn join<A: Send, B: Send>(
     first: impl FnOnce() -> A + Send,
     second: impl FnOnce() -> B + Send,
@@ -91,7 +91,7 @@ fn join_tasks(first: &mut (dyn FnMut() + Send), second: &mut (dyn FnMut() + Send
     rayon_core::join(first, second);
 }
 
-/// Number of parts of a loop over `len` items with at least `min` and at most `max` items in each.
+/// Number of parts of a loop over `len` items with at least `min` and at most `max` items per part.
 fn part_count(len: usize, min: usize, max: usize) -> usize {
     let threads = rayon_core::current_num_threads();
     if threads == 1 {
@@ -101,13 +101,13 @@ fn part_count(len: usize, min: usize, max: usize) -> usize {
     (threads * PARTS_PER_THREAD).max(len.div_ceil(max.max(1))).min(most).max(1)
 }
 
-/// A part of a source and the number of items before it, until a thread takes it.
+/// Part of a source until a thread takes it, and the number of items before it.
 struct Part<S> {
     first: usize,
     source: Mutex<Option<S>>,
 }
 
-/// Cuts a source into `count` parts whose lengths differ by at most one.
+/// Splits a source into `count` parts whose lengths differ by at most one.
 fn cut<S: Split>(source: S, count: usize) -> Vec<Part<S>> {
     let len = source.length();
     let mut parts = Vec::with_capacity(count);
@@ -134,7 +134,7 @@ fn put<T>(slot: &Mutex<Option<T>>, value: T) {
     *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(value);
 }
 
-/// The results of all parts, in the order of the parts.
+/// Results of all parts, in order.
 fn gather<R>(slots: Vec<Mutex<Option<R>>>) -> Vec<R> {
     slots.into_iter().filter_map(|slot| slot.into_inner().unwrap_or_else(PoisonError::into_inner)).collect()
 }

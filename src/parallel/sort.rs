@@ -1,4 +1,4 @@
-//! Sorting under the names of rayon.
+//! Sorting methods with the names of rayon. They run on one thread.
 
 use std::cmp::Ordering;
 

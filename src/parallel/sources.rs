@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::{slice, vec};
 
-/// A sequence that can be cut in two.
+/// Sequence that can be split in two.
 pub(crate) trait Split: Sized + Send {
     type Item;
     type Iter: Iterator<Item = Self::Item>;
@@ -14,7 +14,7 @@ pub(crate) trait Split: Sized + Send {
     fn items(self) -> Self::Iter;
 }
 
-/// Items of a slice.
+/// Shared items of a slice.
 impl<'a, T: Sync> Split for &'a [T] {
     type Item = &'a T;
     type Iter = slice::Iter<'a, T>;
@@ -29,7 +29,7 @@ impl<'a, T: Sync> Split for &'a [T] {
     }
 }
 
-/// Items of a slice, to be changed.
+/// Mutable items of a slice.
 impl<'a, T: Send> Split for &'a mut [T] {
     type Item = &'a mut T;
     type Iter = slice::IterMut<'a, T>;
@@ -59,7 +59,7 @@ impl<T: Send> Split for Vec<T> {
     }
 }
 
-/// Runs of `size` items of a slice; the last may be shorter.
+/// Chunks of `size` items of a slice; the last may be shorter.
 #[derive(Clone)]
 pub(crate) struct Chunks<'a, T> {
     pub(crate) items: &'a [T],
@@ -81,7 +81,7 @@ impl<'a, T: Sync> Split for Chunks<'a, T> {
     }
 }
 
-/// Runs of `size` items of a slice, to be changed; the last may be shorter.
+/// Mutable chunks of `size` items of a slice; the last may be shorter.
 pub(crate) struct ChunksMut<'a, T> {
     pub(crate) items: &'a mut [T],
     pub(crate) size: usize,
@@ -125,7 +125,7 @@ macro_rules! split_ranges {
 
 split_ranges!(usize, u32, u64, u8);
 
-/// Two sources of one length that are walked together.
+/// Two sources of equal length that run together.
 #[derive(Clone)]
 pub(crate) struct Both<A, B>(pub A, pub B);
 

@@ -62,9 +62,9 @@ impl<'a, T: Send> IntoParallelIterator for &'a mut Vec<T> {
 /// Parallel loops over the items of a slice.
 pub(crate) trait ParallelSlice<T> {
     fn par_iter(&self) -> Parallel<&[T], Plain>;
-    /// Runs of `size` items; the last may be shorter.
+    /// Chunks of `size` items; the last may be shorter.
     fn par_chunks(&self, size: usize) -> Parallel<Chunks<'_, T>, Plain>;
-    /// Runs of neighbours for which `same` holds.
+    /// Chunks of consecutive items for which `same` holds.
     fn par_chunk_by(&self, same: impl FnMut(&T, &T) -> bool) -> Parallel<Vec<&[T]>, Plain>;
 }
 
@@ -80,10 +80,10 @@ impl<T: Sync> ParallelSlice<T> for [T] {
     }
 }
 
-/// Parallel loops over the items of a slice that change them.
+/// Parallel loops over mutable items of a slice.
 pub(crate) trait ParallelSliceMut<T> {
     fn par_iter_mut(&mut self) -> Parallel<&mut [T], Plain>;
-    /// Runs of `size` items; the last may be shorter.
+    /// Chunks of `size` items; the last may be shorter.
     fn par_chunks_mut(&mut self, size: usize) -> Parallel<ChunksMut<'_, T>, Plain>;
 }
 

@@ -1,8 +1,8 @@
-//! Steps of parallel loops: what happens to the items of a part on their way to the end.
+//! Steps of parallel loops: adapters between source and end.
 
 use super::sources::{Both, Split};
 
-/// A parallel loop that has not run: a source, the steps that its items pass, and the limits of its parts.
+/// Parallel loop before it runs: a source, its steps, and the limits of its parts.
 #[must_use]
 #[derive(Clone)]
 pub(crate) struct Parallel<S, F> {
@@ -12,14 +12,14 @@ pub(crate) struct Parallel<S, F> {
     pub(crate) max: usize,
 }
 
-/// A step, with all steps before it.
+/// A step, including all steps before it.
 pub(crate) trait Step<S: Split>: Sync {
     type Item;
-    /// The items that a part of the source gives; `first` items come before the part.
+    /// Items that result from a part of the source. `first` is the number of items before the part.
     fn pass(&self, part: S, first: usize) -> impl Iterator<Item = Self::Item>;
 }
 
-/// A value over whose items a parallel loop can run.
+/// Value that a parallel loop can run over.
 pub(crate) trait IntoParallelIterator {
     type Source: Split;
     type Step: Step<Self::Source>;
@@ -34,7 +34,7 @@ impl<S: Split, F: Step<S>> IntoParallelIterator for Parallel<S, F> {
     }
 }
 
-/// No step.
+/// Identity step.
 #[derive(Clone)]
 pub(crate) struct Plain;
 
@@ -45,7 +45,7 @@ impl<S: Split> Step<S> for Plain {
     }
 }
 
-/// A step that works by a function.
+/// Steps that apply a function or combine loops.
 #[derive(Clone)]
 pub(crate) struct Map<F, G>(F, G);
 #[derive(Clone)]
@@ -175,7 +175,7 @@ impl<S: Split, F: Step<S>> Parallel<S, F> {
         self.then(|step| FlatMap(step, function))
     }
 
-    /// The items of the items.
+    /// Flattens items that are collections.
     #[expect(clippy::type_complexity)]
     pub(crate) fn flatten_iter(self) -> Parallel<S, FlatMap<F, fn(F::Item) -> F::Item>>
     where
@@ -184,7 +184,7 @@ impl<S: Split, F: Step<S>> Parallel<S, F> {
         self.flat_map_iter(std::convert::identity)
     }
 
-    /// Numbers the items; the steps before must keep the number of items.
+    /// Numbers the items. Earlier steps must keep the number of items.
     pub(crate) fn enumerate(self) -> Parallel<S, Enumerate<F>> {
         self.then(Enumerate)
     }
@@ -196,7 +196,7 @@ impl<S: Split, F: Step<S>> Parallel<S, F> {
         self.then(Copied)
     }
 
-    /// Walks two loops together, to the end of the shorter; the steps before must keep the number of items.
+    /// Runs two loops together, up to the length of the shorter. Earlier steps must keep the number of items.
     pub(crate) fn zip<B: IntoParallelIterator>(
         self,
         other: B,
@@ -208,7 +208,7 @@ impl<S: Split, F: Step<S>> Parallel<S, F> {
         Parallel { source, step: Zip(self.step, other.step), min, max }
     }
 
-    /// Maps with a value that each part makes for itself, such as a buffer.
+    /// Maps with a value that each part creates once, such as a buffer.
     pub(crate) fn map_init<T, R, I: Fn() -> T + Sync, G: Fn(&mut T, F::Item) -> R + Sync>(
         self,
         init: I,

@@ -1,4 +1,4 @@
-//! Loops give what ordinary iterators give, with any number of threads.
+//! Parallel loops agree with ordinary iterators for any number of threads.
 
 use super::prelude::*;
 use super::{join, part_count};

@@ -1,4 +1,4 @@
-//! A little castle: a keep in a yard, four round towers, battlements, a gatehouse and its steps.
+//! A small castle: a keep in a yard, four round towers, battlements, a gatehouse and its steps.
 
 use std::f64::consts::PI;
 
@@ -13,11 +13,11 @@ use crate::geometry::part::{Part, together};
 use crate::geometry::solid::Solid;
 use crate::geometry::sweep::{block, pillar, prism, turned};
 
-/// Half the distance between the towers, and the wall's height.
+/// Half the distance between the towers, and the height of the walls.
 const HALF: f64 = 9.0;
 const WALL_TOP: f64 = 5.2;
 
-/// All parts, z up, the gate looking along -y.
+/// All parts, z up, with the gate facing -y.
 pub fn castle() -> Vec<Part> {
     let mut parts = vec![Part::new("ground", GRASS, ground())];
     walls(&mut parts);
@@ -28,12 +28,12 @@ pub fn castle() -> Vec<Part> {
     parts
 }
 
-/// A low round knoll.
+/// Low round hill.
 fn ground() -> Solid {
     turned(&[(0.0, -1.6), (17.0, -1.6), (17.0, -1.2), (15.8, -0.5), (14.6, 0.0), (0.0, 0.0)], 96)
 }
 
-/// The three plain curtain walls and the two beside the gate, each a battlement and a plinth.
+/// Three plain curtain walls and two next to the gate, each with battlements and a plinth.
 fn walls(parts: &mut Vec<Part>) {
     let sides = [("back", 0.0, 1.0), ("left", -1.0, 0.0), ("right", 1.0, 0.0)];
     for (name, x, y) in sides {
@@ -61,7 +61,7 @@ fn walls(parts: &mut Vec<Part>) {
     parts.push(Part::new("wall-stones", SANDSTONE, together(stones.into_iter().chain(sides))));
 }
 
-/// A cross-shaped arrow slit in the plane y = 0, its foot at the origin.
+/// Cross-shaped arrow slit in the plane y = 0, with its foot at the origin.
 fn slit() -> Solid {
     let (w, b) = (0.07, 0.3);
     let cross = [(w, 0.0), (w, 0.75), (b, 0.75), (b, 0.92), (w, 0.92), (w, 1.3)];
@@ -70,7 +70,7 @@ fn slit() -> Solid {
     upright(prism(&outline, &[], -0.02, 0.04))
 }
 
-/// Stands a prism over (x, z) upright, its height towards -y.
+/// Turns a prism over (x, z) upright, with its height towards -y.
 fn upright(solid: Solid) -> Solid {
     solid.moved(DAffine3::from_mat3(DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y)))
 }
@@ -104,7 +104,7 @@ fn towers(parts: &mut Vec<Part>) {
     }
 }
 
-/// As [`facing`], for any direction given by its angle from x.
+/// Like [`facing`], with a direction given by its angle from x.
 fn facing_angle(angle: f64) -> DAffine3 {
     facing(
         ligne::geometry::numbers::portable_math::cos(angle),
@@ -112,7 +112,7 @@ fn facing_angle(angle: f64) -> DAffine3 {
     )
 }
 
-/// Two half-round turrets, the arch between them, the gate with its bands, and the steps.
+/// Gatehouse: two half-round turrets, the arch between them, the gate with its bands, and the steps.
 fn gatehouse(parts: &mut Vec<Part>) {
     let front = -HALF - 1.1;
     let sill = at(0.0, 1.0);
@@ -159,7 +159,7 @@ fn gatehouse(parts: &mut Vec<Part>) {
         parts.push(Part::new(&format!("{name}-spike"), GOLD, place(ball)));
     }
 
-    // A flight of steps up to the gate: its side view, across the way.
+    // Flight of steps up to the gate, extruded from its side view.
     let mut side = vec![at(-3.0, -0.3), at(0.0, -0.3), at(0.0, 1.0)];
     for step in 0..5 {
         let (y, z) = (-0.6 * f64::from(step + 1), 1.0 - 0.2 * f64::from(step));
@@ -176,7 +176,7 @@ fn gatehouse(parts: &mut Vec<Part>) {
     parts.push(Part::new("steps", SANDSTONE, together([flight].into_iter().chain(cheeks))));
 }
 
-/// A heraldic shield about the origin's height: flat top, pointed foot.
+/// Heraldic shield around the origin, with a flat top and a pointed foot.
 fn shield() -> Vec<DVec2> {
     let mut outline = arc(at(-0.55, 0.9), 1.1, -PI / 3.0, 0.0, 10);
     outline.extend([at(0.55, 1.2), at(-0.55, 1.2)]);
@@ -185,7 +185,7 @@ fn shield() -> Vec<DVec2> {
     outline
 }
 
-/// The keep: a tall house with buttresses, battlements and a hipped roof behind them.
+/// Keep: a tall house with buttresses, battlements and a hipped roof.
 fn keep(parts: &mut Vec<Part>) {
     let (half, top) = (3.6, 10.6);
     let body = pillar(DVec3::new(0.0, 1.2, 0.0), DVec3::new(2.0 * half, 2.0 * half, top));
@@ -224,14 +224,14 @@ fn keep(parts: &mut Vec<Part>) {
     parts.push(Part::new("keep-frames", SANDSTONE, together(frames)));
 }
 
-/// Onto the keep's side that looks along (x, y), `along` from its middle.
+/// Shift onto the side of the keep that faces (x, y), `along` from its centre.
 fn facing_shift(x: f64, y: f64, along: f64, half: f64) -> DAffine3 {
     let onto = facing(x, y);
     let aside = onto.transform_vector3(DVec3::X) * along;
     DAffine3::from_translation(DVec3::new(half * x, 1.2 + half * y, 0.0) + aside) * onto
 }
 
-/// A four-sided pyramid with a small eave.
+/// Four-sided pyramid with small eaves.
 fn spire(width: f64, height: f64) -> Solid {
     let mut solid = Solid::default();
     let half = width / 2.0;
@@ -246,7 +246,7 @@ fn spire(width: f64, height: f64) -> Solid {
     solid
 }
 
-/// A few clipped trees on the knoll.
+/// A few clipped trees on the hill.
 fn trees() -> Solid {
     let places = [
         (-4.6, -12.4, 1.0),

@@ -1,4 +1,4 @@
-//! What the castle is built from: battlements, round towers, windows, flags and loose stones.
+//! Parts of the castle: battlements, round towers, windows, flags and quoins.
 
 use std::f64::consts::{PI, TAU};
 
@@ -25,21 +25,21 @@ pub const GOLD: Material = plain("gold", [0.86, 0.70, 0.28]);
 pub const FLAG: Material = plain("flag", [0.18, 0.36, 0.62]);
 pub const GRASS: Material = plain("grass", [0.46, 0.60, 0.34]);
 
-/// Sides of a round tower.
+/// Number of sides of a round tower.
 const SIDES: usize = 36;
 
-/// Turns what looks along -y so that it looks along (x, y), a unit vector.
+/// Rotation from -y to the direction (x, y), a unit vector.
 pub fn facing(x: f64, y: f64) -> DAffine3 {
     DAffine3::from_mat3(DMat3::from_cols(DVec3::new(-y, x, 0.0), DVec3::new(-x, -y, 0.0), DVec3::Z))
 }
 
-/// Stands a prism over (x, z) upright, its height towards -y.
+/// Turns a prism over (x, z) upright, with its height towards -y.
 fn upright(solid: Solid) -> Solid {
     solid.moved(DAffine3::from_mat3(DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y)))
 }
 
-/// A wall along x about the origin, with a parapet of so many merlons on its outer (-y) side and a
-/// walk behind it.
+/// Wall along x around the origin, with a parapet of `merlons` merlons on its outer (-y) side and a walkway
+/// behind it.
 pub fn battlement(length: f64, thickness: f64, height: f64, merlons: u32) -> Solid {
     let half = length / 2.0;
     let tooth = length / f64::from(2 * merlons - 1);
@@ -62,7 +62,7 @@ pub fn battlement(length: f64, thickness: f64, height: f64, merlons: u32) -> Sol
     together([wall, plinth, parapet])
 }
 
-/// The solids of a round tower by material, and where its tip is.
+/// Solids of a round tower by material, and the position of its tip.
 pub struct Tower {
     pub stone: Solid,
     pub trim: Solid,
@@ -70,7 +70,7 @@ pub struct Tower {
     pub top: f64,
 }
 
-/// A round tower about z: a battered foot, a corbelled parapet with merlons, a drum and a cone.
+/// Round tower about z: a battered foot, a corbelled parapet with merlons, a drum and a cone.
 pub fn round_tower(radius: f64, height: f64, cone: f64) -> Tower {
     let r = radius;
     let wide = r * 1.16;
@@ -116,7 +116,7 @@ pub fn round_tower(radius: f64, height: f64, cone: f64) -> Tower {
 
     let eave = height + 0.5;
     let (out, tip) = (r * 1.02, eave + cone);
-    // The foot of the cone flares, as roofs of shingles do.
+    // The foot of the cone flares, like a shingle roof.
     let roof = turned(
         &[
             (0.0, eave),
@@ -131,7 +131,7 @@ pub fn round_tower(radius: f64, height: f64, cone: f64) -> Tower {
     Tower { stone, trim, roof, top: tip - 0.15 }
 }
 
-/// A pane and its frame with a sill, in the plane y = 0 and looking along -y, foot at the origin.
+/// Pane and frame of a window with a sill, in the plane y = 0, facing -y, with the foot at the origin.
 pub fn window(width: f64, height: f64) -> (Solid, Solid) {
     let inner = arch(DVec2::ZERO, width, height, 10);
     let pane = upright(prism(&inner, &[], -0.1, 0.04));
@@ -144,7 +144,7 @@ pub fn window(width: f64, height: f64) -> (Solid, Solid) {
     (pane, together([hood, sill, bar]))
 }
 
-/// A pole with a knob, and a pennant that waves from its top, both from the origin up.
+/// Pole with a knob, and a waving pennant at its top. Both start at the origin.
 pub fn flag(height: f64, length: f64) -> (Solid, Solid) {
     let r = 0.05;
     let knob: Vec<(f64, f64)> =
@@ -177,7 +177,7 @@ pub fn flag(height: f64, length: f64) -> (Solid, Solid) {
     (pole, solid)
 }
 
-/// A number from 0 to 1 out of two whole ones.
+/// Pseudo-random number from 0 to 1 for two integers.
 fn chance(seed: u32, index: u32) -> f64 {
     let mut bits = seed.wrapping_mul(0x9E37_79B9) ^ index.wrapping_mul(0x85EB_CA6B);
     for _ in 0..2 {
@@ -186,7 +186,7 @@ fn chance(seed: u32, index: u32) -> f64 {
     f64::from(bits >> 8) / f64::from(1_u32 << 24)
 }
 
-/// Loose facing stones on a wall that looks along -y: about the origin along x, from z = 0 up.
+/// Loose facing stones on a wall that faces -y, around the origin along x, from z = 0 up.
 pub fn quoins(length: f64, height: f64, seed: u32) -> Solid {
     let courses = (height / 0.42) as u32;
     let slots = (length / 1.0) as u32;

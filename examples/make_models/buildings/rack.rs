@@ -1,11 +1,11 @@
-//! Rods with chamfered ends, of one ring of faces and of several, that stand behind a wall and look out above and beside it.
+//! Rods with chamfered ends, with one or several rings of faces, that project above and next to a wall.
 
 use glam::DVec3;
 
 use crate::geometry::solid::Solid;
 use crate::geometry::sweep::{block, turned};
 
-/// A rod from the ground up, with so many rings of faces between its ends.
+/// Rod from the ground up, with `rings` rings of faces between its ends.
 fn rod(radius: f64, length: f64, sides: usize, rings: usize) -> Solid {
     let chamfer = 0.15 * radius;
     let mut profile = vec![(0.0, 0.0), (radius - chamfer, 0.0)];
@@ -15,7 +15,7 @@ fn rod(radius: f64, length: f64, sides: usize, rings: usize) -> Solid {
     turned(&profile, sides)
 }
 
-/// A wall, three units behind it a row of rods, before it a short one, and one that lies behind; z up.
+/// A wall, a row of rods three units behind it, a short rod in front, and a long lying rod; z up.
 pub fn rack() -> Solid {
     let mut solid = block(DVec3::new(-10.0, -0.5, 0.0), DVec3::new(10.0, 0.5, 12.0));
     for (i, (sides, rings)) in [(32, 1), (32, 4), (24, 1), (12, 1), (48, 1)].into_iter().enumerate() {

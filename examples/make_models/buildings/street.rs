@@ -1,5 +1,5 @@
-//! A street of flat blocks: walls with open windows, floors, roofs, chimneys, stairs and fences, in some
-//! two hundred named pieces that share few meshes.
+//! A street of apartment blocks in about two hundred named parts that share few meshes: walls with open
+//! windows, floors, roofs, chimneys, stairs and fences.
 
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
@@ -26,21 +26,21 @@ const DEEP: f64 = 5.0;
 const STOREY: f64 = 3.0;
 const WALL: f64 = 0.3;
 
-/// Turned a quarter about z, for walls that run along y.
+/// Quarter turn about z, for walls along y.
 const ACROSS: DQuat = DQuat::from_xyzw(0.0, 0.0, FRAC_1_SQRT_2, FRAC_1_SQRT_2);
 const ALONG: DQuat = DQuat::IDENTITY;
 
-/// A wall along x, one storey high, with openings of (left, sill, width, height).
+/// Wall along x, one storey high, with openings of (left, sill, width, height).
 fn wall(length: f64, openings: &[(f64, f64, f64, f64)]) -> Solid {
     let holes: Vec<Vec<DVec2>> =
         openings.iter().map(|&(x, z, wide, high)| rectangle(at(x, z), at(x + wide, z + high))).collect();
     let flat = prism(&rectangle(DVec2::ZERO, at(length, STOREY)), &holes, 0.0, WALL);
-    // From upright in y to upright in z; the wall's outer face lies at y = 0.
+    // From upright in y to upright in z. The outer face of the wall lies at y = 0.
     flat.moved(glam::DAffine3::from_mat3(glam::DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y)))
         .shifted(0.0, WALL, 0.0)
 }
 
-/// A roof of two slopes over the house, or of four that meet in a point, overhanging.
+/// Overhanging roof with two slopes, or with four that meet in a point.
 fn roof(pointed: bool) -> Solid {
     if !pointed {
         let rim = [at(-0.4, 0.0), at(DEEP + 0.4, 0.0), at(DEEP / 2.0, 2.2)];
@@ -79,7 +79,7 @@ impl Yard {
     }
 }
 
-/// The street, metres and y up.
+/// The street, in metres and y up.
 pub fn street() -> Assembly {
     let mut yard = Yard::default();
     let windows = [(0.8, 0.9, 1.1, 1.5), (2.45, 0.9, 1.1, 1.5), (4.1, 0.9, 1.1, 1.5)];
@@ -87,7 +87,7 @@ pub fn street() -> Assembly {
     let fronts = [BRICK, PLASTER].map(|paint| {
         let upper = yard.mesh(&format!("front-{}", paint.name), paint, wall(WIDE, &windows));
         let lower = yard.mesh(&format!("shop-{}", paint.name), paint, wall(WIDE, &shop));
-        // A side stands between front and back, a hair away from both.
+        // A side wall stands between front and back with a small gap to both.
         let side = wall(DEEP - 2.0 * WALL - 0.02, &[(1.7, 0.9, 1.0, 1.4)]);
         [upper, lower, yard.mesh(&format!("side-{}", paint.name), paint, side)]
     });

@@ -1,5 +1,5 @@
-//! A vine in a pot on a trellis: cards that show a leaf, a panel that shows a hole again and again; what they show as clear
-//! is not there.
+//! A vine in a pot on a trellis, made of alpha-masked cards: leaves, and a panel with a repeated hole.
+//! Transparent texels are cut out.
 
 use std::fmt::Write as _;
 
@@ -9,16 +9,16 @@ use ligne::geometry::numbers::portable_math::{cos, sin};
 use crate::geometry::solid::Solid;
 use crate::geometry::sweep::turned;
 
-/// Texels along each side of both pictures.
+/// Side length of both textures, texels.
 const SIDE: usize = 64;
 
-/// Holes across the panel and up it.
+/// Number of holes across the panel and up it.
 const HOLES: [u32; 2] = [5, 7];
 
-/// Leaves on the vine.
+/// Number of leaves on the vine.
 const LEAVES: usize = 28;
 
-/// A picture of one grey that is as opaque as a function of the place says: beyond 0.5 by so many texels.
+/// Grey texture whose opacity follows a signed distance in texels: opaque where it is positive.
 fn picture(grey: u8, within: impl Fn(DVec2) -> f64) -> Vec<u8> {
     let at = |k: usize| DVec2::new((k % SIDE) as f64 + 0.5, (k / SIDE) as f64 + 0.5) / SIDE as f64;
     let opacity = |k: usize| (127.5 + 255.0 * SIDE as f64 * within(at(k))).clamp(0.0, 255.0) as u8;
@@ -31,12 +31,12 @@ fn picture(grey: u8, within: impl Fn(DVec2) -> f64) -> Vec<u8> {
     bytes
 }
 
-/// A plate with a round hole whose radius is three eighths of its side.
+/// Plate with a round hole whose radius is three eighths of its side.
 pub fn hole() -> Vec<u8> {
     picture(200, |p| p.distance(DVec2::splat(0.5)) - 0.375)
 }
 
-/// A pointed leaf on its stalk: where two circles meet.
+/// Pointed leaf with a stalk: the intersection of two circles.
 pub fn leaf() -> Vec<u8> {
     picture(120, |p| {
         let blade = [0.1, 0.9].map(|x| 0.58 - p.distance(DVec2::new(x, 0.44)));
@@ -45,7 +45,7 @@ pub fn leaf() -> Vec<u8> {
     })
 }
 
-/// The materials, which name the pictures.
+/// Materials that name the textures.
 pub fn library() -> &'static str {
     "# A vine on a trellis\n\
      newmtl clay\nKd 0.72 0.4 0.28\n\
@@ -53,7 +53,7 @@ pub fn library() -> &'static str {
      newmtl leaf\nKd 0.35 0.6 0.3\nmap_d trellis-leaf.png\n"
 }
 
-/// A square with its corners in order, and what it shows of its picture from its first corner to its third.
+/// Square with its corners in order, and the texture range from its first to its third corner.
 struct Card {
     corners: [DVec3; 4],
     shows: [u32; 2],
@@ -86,7 +86,7 @@ pub fn text() -> String {
     out
 }
 
-/// A leaf on a vine that winds up before the panel.
+/// Leaf on a vine that winds up in front of the panel.
 fn leaf_card(number: usize) -> Card {
     let along = number as f64 / LEAVES as f64;
     let turn = number as f64 * 2.4;
@@ -99,7 +99,7 @@ fn leaf_card(number: usize) -> Card {
 
 fn add_points(out: &mut String, points: &[DVec3]) {
     for p in points {
-        // Made z up, written y up.
+        // The model is built z up and written y up.
         let _ = writeln!(out, "v {:.4} {:.4} {:.4}", p.x, p.z, -p.y);
     }
 }

@@ -1,8 +1,8 @@
-//! A seated bear of soft blobs, in few triangles: what a smooth shape looks like when its mesh is coarse.
+//! A seated bear made of soft blobs: a smooth shape with a coarse mesh.
 //!
-//! Source: G. Wyvill, C. McPheeters and B. Wyvill, Data structure for soft objects, The Visual Computer
-//! 1986, for blobs of bounded reach; S. Gibson, Constrained elastic surface nets, MICCAI 1998, for the
-//! mesh with one vertex a cell, here moved onto the surface.
+//! Sources: G. Wyvill, C. McPheeters and B. Wyvill, Data structure for soft objects, The Visual Computer 1986
+//! (blobs of limited radius); S. Gibson, Constrained elastic surface nets, MICCAI 1998 (a mesh with one
+//! vertex per cell). Deviation: vertices are moved onto the surface.
 
 use std::collections::BTreeMap;
 
@@ -10,12 +10,12 @@ use glam::{DVec3, IVec3};
 
 use crate::geometry::solid::Solid;
 
-/// Edge of a cell.
+/// Edge length of a cell.
 const CELL: f64 = 0.27;
-/// Where the sum of all blobs is this, the surface lies.
+/// Iso-value of the surface in the sum of all blobs.
 const LEVEL: f64 = 0.3;
 
-/// A blob: middle and half-axes of what it reaches.
+/// Blob: centre and half-axes of its extent.
 type Blob = ([f64; 3], [f64; 3]);
 
 /// Blobs in the plane of symmetry: body, head, snout.
@@ -24,7 +24,7 @@ const MIDDLE: [Blob; 3] = [
     ([0.0, -0.08, 2.22], [0.95, 0.86, 0.86]),
     ([0.0, -0.64, 2.06], [0.5, 0.56, 0.46]),
 ];
-/// Blobs to the right, an ear, an arm and a leg; each has its twin on the left.
+/// Blobs on the right side: an ear, an arm and a leg. Each is mirrored to the left.
 const RIGHT: [Blob; 5] = [
     ([0.58, 0.05, 2.78], [0.5, 0.46, 0.5]),
     ([0.8, -0.12, 1.3], [0.62, 0.5, 0.46]),
@@ -33,7 +33,7 @@ const RIGHT: [Blob; 5] = [
     ([0.88, -1.02, 0.34], [0.58, 0.58, 0.68]),
 ];
 
-/// All blobs with the gradient of their sum; both in one, since the one follows from the other.
+/// Value and gradient of the sum of all blobs.
 fn field(at: DVec3) -> (f64, DVec3) {
     let twins = RIGHT.iter().flat_map(|(middle, axes)| {
         let [x, y, z] = *middle;
@@ -53,11 +53,11 @@ fn field(at: DVec3) -> (f64, DVec3) {
 }
 
 fn corner(cell: IVec3) -> DVec3 {
-    // Half a cell aside, so that the plane of symmetry runs through the middle of cells.
+    // Shifted by half a cell, so that the plane of symmetry runs through cell centres.
     (cell.as_dvec3() + DVec3::new(0.5, 0.37, 0.21)) * CELL
 }
 
-/// The vertex of a cell: the mean of where its edges are crossed, moved onto the surface.
+/// Vertex of a cell: the mean of the crossings of its edges, moved onto the surface.
 fn vertex(cell: IVec3) -> DVec3 {
     let mut crossed = (DVec3::ZERO, 0.0);
     for axis in IVec3::AXES {
@@ -80,7 +80,7 @@ fn vertex(cell: IVec3) -> DVec3 {
     at
 }
 
-/// The bear, z up and looking along −y, and its exact normals.
+/// The bear, z up and facing −y, with its exact normals.
 pub fn bear() -> (Solid, Vec<DVec3>) {
     let (low, high) = (IVec3::new(-9, -11, -3), IVec3::new(9, 8, 17));
     let mut solid = Solid::default();
@@ -94,7 +94,7 @@ pub fn bear() -> (Solid, Vec<DVec3>) {
                     if ends[0] == ends[1] {
                         continue;
                     }
-                    // Round the edge, counter-clockwise seen from its far end.
+                    // Around the edge, counter-clockwise as seen from its far end.
                     let (u, v) = (IVec3::AXES[(k + 1) % 3], IVec3::AXES[(k + 2) % 3]);
                     let mut quad = [cell - u - v, cell - v, cell, cell - u]
                         .map(|cell| *ids.entry(cell.to_array()).or_insert_with(|| solid.point(vertex(cell))));

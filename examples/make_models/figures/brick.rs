@@ -1,5 +1,7 @@
-//! A brick that flies past a man, who turns his head after it and shakes his fist, after figure 13 of Lake and others,
-//! "Stylized rendering techniques for scalable real-time 3D animation", 2000.
+//! A brick flies past a man, who turns his head and shakes his fist.
+//!
+//! Source: figure 13 of Lake and others, "Stylized rendering techniques for scalable real-time 3D animation",
+//! 2000.
 
 use std::f64::consts::TAU;
 
@@ -23,18 +25,18 @@ const TROUSERS: Material = matt("trousers", [0.36, 0.34, 0.38]);
 const FELT: Material = matt("felt", [0.35, 0.28, 0.22]);
 const STONE: Material = matt("stone", [0.74, 0.73, 0.7]);
 
-/// Corners round whatever is turned.
+/// Number of sides of turned solids.
 const ROUND: usize = 20;
 
-/// How long the brick flies, seconds.
+/// Duration of the flight, seconds.
 const FLIGHT: f64 = 1.5;
 
-/// A solid turned about the y axis: radii and heights from the bottom outwards and up.
+/// Solid turned about the y axis. The profile lists radii and heights from the bottom outward and up.
 fn upright(profile: &[(f64, f64)]) -> Solid {
     turned(profile, ROUND).moved(y_up_from_z_up())
 }
 
-/// A ball.
+/// Ball around the origin.
 fn ball(radius: f64) -> Solid {
     let rings = (0..=10).map(|k| {
         let angle = f64::from(k) / 20.0 * TAU;
@@ -44,7 +46,7 @@ fn ball(radius: f64) -> Solid {
     upright(&rings.collect::<Vec<_>>())
 }
 
-/// A limb that hangs from its joint: a ball there, then a cone with a round end.
+/// Limb that hangs from its joint: a ball, then a cone with a round end.
 fn limb(length: f64, from: f64, to: f64) -> Solid {
     upright(&[
         (0.0, -length - 0.9 * to),
@@ -56,7 +58,7 @@ fn limb(length: f64, from: f64, to: f64) -> Solid {
     ])
 }
 
-/// The man and the brick, in metres, y up, and the clip of the flight.
+/// The man and the brick, in metres, y up, with the clip of the flight.
 pub fn brick() -> Assembly {
     let mut meshes = Vec::new();
     let mut node = |name: &str, material: Material, solid: Solid, at: DVec3, children: Vec<Node>| {
@@ -103,7 +105,7 @@ pub fn brick() -> Assembly {
     let pavement = node("pavement", STONE, pavement, DVec3::ZERO, Vec::new());
     let root = Node::group("street corner", vec![pavement, man, flying]);
 
-    // The brick is thrown: how fast it rises falls evenly.
+    // The brick is thrown: its vertical speed decreases at a constant rate.
     let speed = |time: f64| DVec3::new(2.9, 2.0 - 2.6 * time, 0.0);
     let place = |time: f64| DVec3::new(-2.2 + 2.9 * time, 1.2 + (2.0 - 1.3 * time) * time, -0.42);
     let turns = |node: &str, axis: DVec3, degrees: &[(f64, f64)]| {

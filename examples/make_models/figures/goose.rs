@@ -1,5 +1,5 @@
-//! A goose of few faces: body, neck, wings and legs that stand in one another, whose outline may be drawn
-//! rounder than it is.
+//! A goose with few faces: body, neck, wings and legs that interpenetrate. Its outline can be drawn smoother
+//! than its mesh.
 
 use std::f64::consts::TAU;
 
@@ -13,11 +13,11 @@ const DOWN: Material = Material { name: "down", colour: [0.93, 0.93, 0.9], metal
 const ORANGE: Material =
     Material { name: "orange", colour: [0.92, 0.55, 0.15], metallic: 0.0, roughness: 0.6 };
 
-/// A place along a limb: its middle, and its half-axes sideways and across way and side.
+/// Cross-section of a limb: centre, half-axis sideways, and half-axis perpendicular to limb and side.
 type Slice = ([f64; 3], f64, f64);
 
-/// A closed skin of `sides` corners around the slices, all of which stand upright on the way in the plane of
-/// x and z; the first and the last are points.
+/// Closed surface with `sides` sides around cross-sections in the plane of x and z, perpendicular to the
+/// path. The first and the last are points.
 fn limb(slices: &[Slice], sides: usize) -> Solid {
     let mut solid = Solid::default();
     let middle = |i: usize| DVec3::from(slices[i].0);
@@ -32,7 +32,7 @@ fn limb(slices: &[Slice], sides: usize) -> Solid {
             let up = way.cross(DVec3::Y).normalize();
             let aside = way.cross(up);
             solid.ring((0..sides).map(|k| {
-                // Every other ring is turned by half a side: no row of edges runs along the limb.
+                // Every second ring is rotated by half a side, so no edge loop runs along the limb.
                 let turn = TAU * (k as f64 + 0.5 * (i % 2) as f64) / sides as f64;
                 middle(i) + up * (high * cos(turn)) + aside * (wide * sin(turn))
             }))
@@ -48,7 +48,7 @@ fn limb(slices: &[Slice], sides: usize) -> Solid {
             } else if c == d {
                 solid.faces.push(vec![a, b, c]);
             } else if i % 2 == 0 {
-                // The upper ring lags by half a side.
+                // The upper ring is rotated by half a side.
                 solid.faces.extend([vec![a, b, c], vec![a, c, d]]);
             } else {
                 solid.faces.extend([vec![a, b, d], vec![b, c, d]]);
@@ -99,7 +99,7 @@ fn beak() -> Solid {
     limb(&slices, 6)
 }
 
-/// The wing of the side `y`, which lies in the body with its root.
+/// Wing on the side `y`, whose root lies inside the body.
 fn wing(y: f64) -> Solid {
     let slices = [
         ([0.95, y, 1.75], 0.0, 0.0),
@@ -134,7 +134,7 @@ fn leg(y: f64) -> Solid {
     leg
 }
 
-/// The parts, z up and looking along x.
+/// The parts, z up and facing x.
 pub fn parts() -> Vec<Part> {
     let left = DAffine3::from_scale(DVec3::new(1.0, -1.0, 1.0));
     vec![

@@ -1,5 +1,5 @@
-//! A helmet: a smooth shell with straps, posts and a visor, several materials in one part, and normals that
-//! are smooth over every edge but the rims of the shell.
+//! A helmet as one part of several materials: a smooth shell with straps, posts and a visor. Normals are
+//! smooth over all edges except the rims of the shell.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -26,7 +26,7 @@ const INNER: f64 = 0.93;
 const SIDES: usize = 40;
 const STEPS: i32 = 10;
 
-/// A dome that is open below, with a wall of some thickness and a straight skirt of one ring.
+/// Dome with a thick wall, open at the bottom, with a straight skirt of one ring.
 fn shell() -> Solid {
     let mut profile = vec![(0.0, INNER)];
     let quarter = |i: i32| FRAC_PI_2 * f64::from(i) / f64::from(STEPS);
@@ -37,8 +37,8 @@ fn shell() -> Solid {
     turned(&profile, SIDES)
 }
 
-/// A band over the dome with bevelled edges, of a section at right angles to the arc it follows; `tilt`
-/// turns its plane about y, where its ends are.
+/// Strap over the dome with bevelled edges. Its section is perpendicular to the arc it follows. `tilt`
+/// rotates its plane about y, where its ends are.
 fn strap(half_width: f64, tilt: f64, [from, to]: [f64; 2]) -> Solid {
     let (low, high, bevel) = (0.985, 1.05, 0.02);
     let section = [
@@ -65,7 +65,7 @@ fn strap(half_width: f64, tilt: f64, [from, to]: [f64; 2]) -> Solid {
     tube(&rings).moved(DAffine3::from_mat3(lean))
 }
 
-/// A bent pane before the face: a piece of a ring, thick, on pivots at the sides.
+/// Curved pane before the face: a thick piece of a ring on pivots at the sides.
 fn visor() -> Solid {
     let reach = 1.05;
     let section = |turn: f64| {
@@ -78,7 +78,7 @@ fn visor() -> Solid {
     tube(&rings)
 }
 
-/// A short cylinder of one ring with chamfers, along y or up.
+/// Short cylinder of one ring with chamfers, along y or up.
 fn post(radius: f64, length: f64, sides: usize) -> Solid {
     let bevel = 0.18 * radius;
     let profile =
@@ -99,7 +99,7 @@ fn posts() -> Solid {
     solid
 }
 
-/// Pieces of one part, z up and looking along x, each with its material and normals.
+/// Pieces of one part, z up and facing x, each with its material and normals.
 pub fn parts() -> (Vec<Part>, Vec<Vec<DVec3>>) {
     let mut straps = strap(0.1, 0.0, [-0.35, PI + 0.35]);
     straps.append(&strap(0.06, 0.75, [0.3, PI - 0.3]));

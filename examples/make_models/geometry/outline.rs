@@ -1,36 +1,36 @@
-//! Outlines in the plane: circles, arcs, rounded polygons, slots and arches.
+//! 2-D outlines: circles, arcs, rounded polygons, slots and arches.
 
 use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 use ligne::geometry::numbers::portable_math::{acos, cos, sin, tan};
 
-/// A point from plain numbers.
+/// Point from two numbers.
 pub fn at(x: f64, y: f64) -> DVec2 {
     DVec2::new(x, y)
 }
 
-/// The point at an angle (radians, counter-clockwise from x) and distance from a centre.
+/// Point at an angle (radians, counter-clockwise from x) and a distance from a centre.
 pub fn polar(centre: DVec2, radius: f64, angle: f64) -> DVec2 {
     centre + radius * DVec2::new(cos(angle), sin(angle))
 }
 
-/// A counter-clockwise circle of `count` points.
+/// Counter-clockwise circle of `count` points.
 pub fn circle(centre: DVec2, radius: f64, count: usize) -> Vec<DVec2> {
     (0..count).map(|i| polar(centre, radius, TAU * i as f64 / count as f64)).collect()
 }
 
-/// An arc of `steps` pieces, both ends included.
+/// Arc of `steps` segments, including both ends.
 pub fn arc(centre: DVec2, radius: f64, from: f64, to: f64, steps: usize) -> Vec<DVec2> {
     (0..=steps).map(|i| polar(centre, radius, from + (to - from) * i as f64 / steps as f64)).collect()
 }
 
-/// A rectangle from its lower left to its upper right corner.
+/// Rectangle from its lower left to its upper right corner.
 pub fn rectangle(low: DVec2, high: DVec2) -> Vec<DVec2> {
     vec![low, at(high.x, low.y), high, at(low.x, high.y)]
 }
 
-/// A polygon whose corners are replaced by tangent arcs of the given radii (0 leaves it sharp).
+/// Polygon with tangent arcs of the given radii in place of its corners. A radius of 0 keeps a corner sharp.
 pub fn rounded(corners: &[(DVec2, f64)]) -> Vec<DVec2> {
     let count = corners.len();
     let mut outline = Vec::new();
@@ -54,14 +54,14 @@ pub fn rounded(corners: &[(DVec2, f64)]) -> Vec<DVec2> {
     outline
 }
 
-/// A rectangle with four equal round corners, about a centre.
+/// Rectangle around a centre, with four equal round corners.
 pub fn rounded_rectangle(centre: DVec2, size: DVec2, radius: f64) -> Vec<DVec2> {
     let [low, high] = [centre - size / 2.0, centre + size / 2.0];
     let corners: Vec<_> = rectangle(low, high).into_iter().map(|corner| (corner, radius)).collect();
     rounded(&corners)
 }
 
-/// A window or gate: upright sides under a half circle; `foot` is the middle of the sill.
+/// Window or gate: vertical sides below a half circle. `foot` is the centre of the sill.
 pub fn arch(foot: DVec2, width: f64, height: f64, steps: usize) -> Vec<DVec2> {
     let half = width / 2.0;
     let mut outline = vec![foot - at(half, 0.0), foot + at(half, 0.0)];

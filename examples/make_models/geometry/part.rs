@@ -1,15 +1,15 @@
-//! A named part with its colour, as the multi-part models are made of.
+//! A solid with a name and a material.
 
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::solid::Solid;
 
-/// A colour with a name; the channels are sRGB, 0 to 1.
+/// Named material. Colour channels are sRGB, 0 to 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Material {
     pub name: &'static str,
     pub colour: [f64; 3],
-    /// How metallic and how rough, 0 to 1, for formats that say so.
+    /// Metalness and roughness, 0 to 1, for formats that store them.
     pub metallic: f64,
     pub roughness: f64,
 }
@@ -28,7 +28,7 @@ impl Part {
     }
 }
 
-/// Several solids in one.
+/// Combines several solids.
 pub fn together(solids: impl IntoIterator<Item = Solid>) -> Solid {
     let mut all = Solid::default();
     for solid in solids {
@@ -37,7 +37,7 @@ pub fn together(solids: impl IntoIterator<Item = Solid>) -> Solid {
     all
 }
 
-/// From z up, as all models are made, to y up, as OBJ and PLY files are read.
+/// Rotation from z up, as all models are built, to y up, as OBJ and PLY files are read.
 pub fn y_up_from_z_up() -> DAffine3 {
     DAffine3::from_mat3(DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y))
 }

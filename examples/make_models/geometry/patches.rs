@@ -4,10 +4,10 @@ use glam::DVec3;
 
 use super::solid::Solid;
 
-/// The sixteen control points of a patch, row by row.
+/// Sixteen control points of a patch, row by row.
 pub type Net = [[DVec3; 4]; 4];
 
-/// The cubic Bernstein polynomials and their derivatives.
+/// Cubic Bernstein polynomials and their derivatives.
 fn bernstein(t: f64) -> ([f64; 4], [f64; 4]) {
     let s = 1.0 - t;
     (
@@ -16,8 +16,8 @@ fn bernstein(t: f64) -> ([f64; 4], [f64; 4]) {
     )
 }
 
-/// Point and normal (not of unit length; zero where the patch has a pole) at `u` along the rows and
-/// `v` down the columns.
+/// Point and unnormalised normal at `u` along the rows and `v` down the columns. The normal is zero at a
+/// pole.
 fn evaluate(net: &Net, u: f64, v: f64) -> (DVec3, DVec3) {
     let (across, across_slope) = bernstein(u);
     let (down, down_slope) = bernstein(v);
@@ -27,8 +27,8 @@ fn evaluate(net: &Net, u: f64, v: f64) -> (DVec3, DVec3) {
     (blend(&down, &across), blend(&down, &across_slope).cross(blend(&down_slope, &across)))
 }
 
-/// The patches with `steps` pieces a side, facing along the patches' own normals; points at the same
-/// place are one point, its normal the mean of those that meet there.
+/// Mesh of patches with `steps` segments per side, facing along the normals of the patches. Coincident points
+/// are welded, and their normals averaged.
 pub fn mesh(nets: &[Net], steps: usize) -> (Solid, Vec<DVec3>) {
     let mut soup = Solid::default();
     for net in nets {
@@ -42,8 +42,8 @@ pub fn mesh(nets: &[Net], steps: usize) -> (Solid, Vec<DVec3>) {
             for j in 0..steps {
                 let (a, b) = (rows[i][j], rows[i][j + 1]);
                 let (c, d) = (rows[i + 1][j + 1], rows[i + 1][j]);
-                // The diagonal leans the other way on the other side of the patch's middle, so that
-                // mirrored halves of the pot have mirrored triangles.
+                // The diagonal is mirrored at the centre of the patch, so mirrored halves of the pot have
+                // mirrored triangles.
                 let pair = if (2 * j < steps) == (2 * i < steps) {
                     [[a, b, c], [a, c, d]]
                 } else {
@@ -54,7 +54,7 @@ pub fn mesh(nets: &[Net], steps: usize) -> (Solid, Vec<DVec3>) {
         }
     }
     let mut solid = soup.welded(1e-6);
-    // At a pole a row of the patch is a single point, and every second triangle there has no area.
+    // At a pole a row of the patch is a single point, so every second triangle there is degenerate.
     solid.faces.retain(|face| face[0] != face[1] && face[1] != face[2] && face[2] != face[0]);
     let mut normals = vec![DVec3::ZERO; solid.points.len()];
     for face in &solid.faces {
@@ -71,7 +71,7 @@ pub fn mesh(nets: &[Net], steps: usize) -> (Solid, Vec<DVec3>) {
     (solid, normals)
 }
 
-/// The normals of the patches themselves at the points of the mesh; none at poles.
+/// Exact normals of the patches at the points of the mesh; none at poles.
 fn exact_normals(nets: &[Net], steps: usize, solid: &Solid) -> Vec<Option<DVec3>> {
     let key = |point: DVec3| (point / 1e-6).round().to_array().map(|value| value as i64);
     let places: std::collections::BTreeMap<_, _> =

@@ -1,7 +1,8 @@
-//! Cuts a flat polygon with holes into well-shaped triangles.
+//! Triangulates a flat polygon with holes.
 //!
-//! Holes are bridged to the rim around them, ears are cut off one by one, and diagonals are turned
-//! until the triangulation is Delaunay within the rims.
+//! 1. Holes are connected to the outer boundary by bridges.
+//! 2. Ears are clipped one by one.
+//! 3. Diagonals are flipped until the triangulation is constrained Delaunay.
 
 use std::collections::BTreeMap;
 
@@ -12,8 +13,8 @@ fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Triangles, counter-clockwise, of the area inside the first rim and outside the others; a rim
-/// lists indices into `points`.
+/// Counter-clockwise triangles of the area inside the first boundary and outside the others. A boundary lists
+/// indices into `points`.
 pub fn triangulate(points: &[DVec2], rims: Vec<Vec<usize>>) -> Vec<[usize; 3]> {
     let mut rims: Vec<Vec<usize>> = rims
         .into_iter()
@@ -47,7 +48,7 @@ fn signed_area(points: &[DVec2], rim: &[usize]) -> f64 {
     (0..rim.len()).map(|i| points[rim[i]].perp_dot(points[rim[(i + 1) % rim.len()]])).sum()
 }
 
-/// Where in `polygon` the nearest corner is that sees `corner` of the hole.
+/// Position in `polygon` of the nearest corner that is visible from `corner` of the hole.
 fn bridge(
     points: &[DVec2],
     polygon: &[usize],
@@ -93,11 +94,11 @@ fn cut_ears(points: &[DVec2], mut polygon: Vec<usize>) -> Vec<[usize; 3]> {
         let corners_at = |i: usize| [(i + count - 1) % count, i, (i + 1) % count].map(|k| polygon[k]);
         let found =
             (0..count).map(|step| (start + step) % count).find(|&i| is_ear(points, &polygon, corners_at(i)));
-        // No ear at all: the rims cross. The rest is dropped, and the test of closedness shows it.
+        // Without an ear the boundaries cross. The rest is dropped, and the test for closed solids fails.
         let Some(i) = found else { return triangles };
         triangles.push(corners_at(i));
         polygon.remove(i);
-        // Going on beyond the ear keeps the triangles from becoming one fan.
+        // Continuing after the ear avoids a single fan.
         start = i + 1;
     }
     triangles.extend(<[usize; 3]>::try_from(polygon));
@@ -114,7 +115,7 @@ fn is_ear(points: &[DVec2], polygon: &[usize], corners: [usize; 3]) -> bool {
             .all(|p| turn(a, b, p) < 0.0 || turn(b, c, p) < 0.0 || turn(c, a, p) < 0.0)
 }
 
-/// Turns every diagonal that is not Delaunay, at most one a triangle; false when none was left.
+/// Flips diagonals that are not Delaunay, at most one per triangle. Returns false if none was left.
 fn turn_diagonals(points: &[DVec2], triangles: &mut [[usize; 3]]) -> bool {
     let mut sides: BTreeMap<[usize; 2], Vec<(usize, usize)>> = BTreeMap::new();
     for (place, triangle) in triangles.iter().enumerate() {
@@ -145,11 +146,11 @@ fn turn_diagonals(points: &[DVec2], triangles: &mut [[usize; 3]]) -> bool {
     any
 }
 
-/// Whether `d` lies clearly inside the circle through `a`, `b` and `c`.
+/// Whether `d` lies inside the circle through `a`, `b` and `c`, with a margin.
 fn is_in_circle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> bool {
     let [a, b, c] = [a - d, b - d, c - d];
     let [aa, bb, cc] = [a, b, c].map(DVec2::length_squared);
     let value = aa * b.perp_dot(c) + bb * c.perp_dot(a) + cc * a.perp_dot(b);
-    // The margin, relative to the terms, keeps co-circular corners from turning for ever.
+    // The margin is relative to the terms. It prevents endless flips of co-circular corners.
     value > 1e-9 * (aa * bb * cc).max(1e-30).sqrt() * (aa + bb + cc).sqrt()
 }

@@ -1,4 +1,4 @@
-//! Normals that are smooth over gentle edges and split at sharp ones, as renderers want them.
+//! Vertex normals that are smooth over gentle edges and split at sharp ones, as renderers need them.
 
 use std::collections::BTreeMap;
 
@@ -6,17 +6,17 @@ use glam::DVec3;
 
 use super::solid::Solid;
 
-/// Cosine of the angle (35 degrees) beyond which an edge stays sharp.
+/// Cosine of the minimum angle of a sharp edge, 35 degrees.
 const SHARP_COSINE: f64 = 0.819;
 
-/// One vertex for each point and normal that occur together.
+/// Vertices: one per distinct pair of point and normal.
 pub struct Vertices {
     pub positions: Vec<DVec3>,
     pub normals: Vec<DVec3>,
     pub triangles: Vec<[u32; 3]>,
 }
 
-/// The corner normals of a solid: the mean, by area, of the faces around that lie within the angle.
+/// Corner normals of a solid: the area-weighted mean of the adjacent faces within the angle.
 pub fn vertices(solid: &Solid) -> Vertices {
     let faces: Vec<[u32; 3]> = solid.triangles().collect();
     let areas: Vec<DVec3> = faces

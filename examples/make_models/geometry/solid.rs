@@ -1,10 +1,10 @@
-//! A solid under construction: points and the polygons between them, sharing corners by index.
+//! A solid under construction: points and polygons, which share corners by index.
 
 use glam::{DAffine3, DVec2, DVec3};
 
 use super::polygon;
 
-/// Points and flat (or nearly flat) faces; seen from outside each face runs counter-clockwise.
+/// Points and flat or nearly flat faces, counter-clockwise as seen from outside.
 #[derive(Debug, Clone, Default)]
 pub struct Solid {
     pub points: Vec<DVec3>,
@@ -12,7 +12,7 @@ pub struct Solid {
 }
 
 impl Solid {
-    /// Adds one point and returns its index.
+    /// Adds a point and returns its index.
     pub fn point(&mut self, position: DVec3) -> u32 {
         self.points.push(position);
         self.points.len() as u32 - 1
@@ -23,8 +23,8 @@ impl Solid {
         positions.into_iter().map(|position| self.point(position)).collect()
     }
 
-    /// Joins two rings of equally many points with quads; outside is right of the way along `lower`
-    /// when `upper` is above. A ring of one point is a pole.
+    /// Joins two rings of equal size with quads. With `upper` above, the outside is to the right of the
+    /// direction of `lower`. A ring of one point is a pole.
     pub fn band(&mut self, lower: &[u32], upper: &[u32]) {
         let count = lower.len().max(upper.len());
         for i in 0..count {
@@ -32,7 +32,7 @@ impl Solid {
         }
     }
 
-    /// As [`Solid::band`], for two open rows of points.
+    /// Like [`Solid::band`], for two open rows of points.
     pub fn strip(&mut self, lower: &[u32], upper: &[u32]) {
         for i in 1..lower.len().max(upper.len()) {
             self.patch(lower, upper, i - 1, i);
@@ -49,7 +49,7 @@ impl Solid {
         self.faces.push(face);
     }
 
-    /// Adds a flat face with holes, cut into triangles; it faces where `outer` runs counter-clockwise.
+    /// Adds a flat face with holes, triangulated. It faces the side where `outer` runs counter-clockwise.
     pub fn plate(&mut self, outer: &[u32], holes: &[&[u32]]) {
         let corners: Vec<u32> =
             outer.iter().chain(holes.iter().flat_map(|hole| hole.iter())).copied().collect();
@@ -72,7 +72,7 @@ impl Solid {
         }
     }
 
-    /// Twice the area of a closed loop, along its normal.
+    /// Area vector of a closed loop: twice its area along its normal.
     fn area_vector(&self, outer: &[u32]) -> DVec3 {
         let origin = self.points[outer[0] as usize];
         outer
@@ -83,7 +83,7 @@ impl Solid {
             .sum()
     }
 
-    /// The same solid elsewhere; a mirroring turns the faces, so that they still look outwards.
+    /// The solid with a transform. Mirroring reverses the faces, so they still face outward.
     #[must_use]
     pub fn moved(mut self, world_from_local: DAffine3) -> Solid {
         for point in &mut self.points {
@@ -97,20 +97,20 @@ impl Solid {
         self
     }
 
-    /// The same solid shifted.
+    /// The solid with a translation.
     #[must_use]
     pub fn shifted(self, x: f64, y: f64, z: f64) -> Solid {
         self.moved(DAffine3::from_translation(DVec3::new(x, y, z)))
     }
 
-    /// Adds all of another solid, without joining anything.
+    /// Adds another solid without joining points.
     pub fn append(&mut self, other: &Solid) {
         let base = self.points.len() as u32;
         self.points.extend_from_slice(&other.points);
         self.faces.extend(other.faces.iter().map(|face| face.iter().map(|corner| corner + base).collect()));
     }
 
-    /// Joins points that lie within `grain` of the same grid point, and drops what then is unused.
+    /// Welds points in the same cell of a grid of size `grain`.
     #[must_use]
     pub fn welded(self, grain: f64) -> Solid {
         let mut places = std::collections::BTreeMap::new();
@@ -134,7 +134,7 @@ impl Solid {
         Solid { points, faces }
     }
 
-    /// All faces as triangles, larger ones as fans.
+    /// All faces as triangles. Larger faces become fans.
     pub fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
         self.faces
             .iter()

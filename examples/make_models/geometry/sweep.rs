@@ -8,7 +8,7 @@ use ligne::geometry::numbers::portable_math::{cos, sin};
 use super::outline::rectangle;
 use super::solid::Solid;
 
-/// A prism along z from `low` to `high` over an outline with holes, in any sense of rotation.
+/// Prism along z from `low` to `high` over an outline with holes, in either orientation.
 pub fn prism(outer: &[DVec2], holes: &[Vec<DVec2>], low: f64, high: f64) -> Solid {
     let mut solid = Solid::default();
     let mut bottoms = Vec::new();
@@ -33,19 +33,19 @@ pub fn prism(outer: &[DVec2], holes: &[Vec<DVec2>], low: f64, high: f64) -> Soli
     solid
 }
 
-/// A box between two corners.
+/// Box between two corners.
 pub fn block(low: DVec3, high: DVec3) -> Solid {
     prism(&rectangle(low.truncate(), high.truncate()), &[], low.z, high.z)
 }
 
-/// A box of a size standing on the middle of its bottom.
+/// Box of a size, centred on the middle of its bottom.
 pub fn pillar(foot: DVec3, size: DVec3) -> Solid {
     let half = DVec3::new(size.x / 2.0, size.y / 2.0, 0.0);
     block(foot - half, foot + half + DVec3::Z * size.z)
 }
 
-/// A part turned about z: the profile lists (radius, z) from the bottom outwards and up. It begins
-/// and ends on the axis, or else closes into a ring.
+/// Solid turned about z. The profile lists (radius, z) from the bottom outward and up. It begins and ends on
+/// the axis, or closes into a ring.
 pub fn turned(profile: &[(f64, f64)], count: usize) -> Solid {
     let mut solid = Solid::default();
     let rings: Vec<Vec<u32>> = profile
@@ -69,7 +69,8 @@ pub fn turned(profile: &[(f64, f64)], count: usize) -> Solid {
     solid
 }
 
-/// A skin over rings that follow one another, each counter-clockwise seen against the way, with flat ends.
+/// Surface over a sequence of rings with flat ends. Each ring runs counter-clockwise as seen against the
+/// direction of the sequence.
 pub fn tube(rings: &[Vec<DVec3>]) -> Solid {
     let mut solid = Solid::default();
     let rings: Vec<Vec<u32>> = rings.iter().map(|ring| solid.ring(ring.iter().copied())).collect();
@@ -84,7 +85,7 @@ pub fn tube(rings: &[Vec<DVec3>]) -> Solid {
     solid
 }
 
-/// A skin over rings that come back to the first one.
+/// Surface over a closed sequence of rings.
 pub fn torus(rings: &[Vec<DVec3>]) -> Solid {
     let mut solid = Solid::default();
     let rings: Vec<Vec<u32>> = rings.iter().map(|ring| solid.ring(ring.iter().copied())).collect();
@@ -94,7 +95,7 @@ pub fn torus(rings: &[Vec<DVec3>]) -> Solid {
     solid
 }
 
-/// A sector of a ring about z: between two radii, two angles (radians) and two heights.
+/// Sector of a ring about z: two radii, two angles (radians) and two heights.
 pub fn sector(radii: [f64; 2], angles: [f64; 2], heights: [f64; 2], steps: usize) -> Solid {
     let mut outline = super::outline::arc(DVec2::ZERO, radii[1], angles[0], angles[1], steps);
     outline.extend(super::outline::arc(DVec2::ZERO, radii[0], angles[1], angles[0], steps));

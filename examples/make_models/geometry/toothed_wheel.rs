@@ -1,5 +1,4 @@
-//! Plain toothed wheels: straight or helical prisms over an outline of straight-sided teeth, for gears that
-//! need no involutes.
+//! Plain toothed wheels: straight or helical prisms with straight-sided teeth, for gears without involutes.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +9,7 @@ use super::outline::{circle, polar};
 use super::solid::Solid;
 use super::sweep::prism;
 
-/// The outline of a wheel, counter-clockwise: four points a tooth, the first tooth at angle 0.
+/// Outline of a wheel, counter-clockwise: four points per tooth, with the first tooth at angle 0.
 pub fn outline(teeth: usize, root: f64, tip: f64) -> Vec<DVec2> {
     let step = TAU / teeth as f64;
     (0..teeth)
@@ -21,13 +20,13 @@ pub fn outline(teeth: usize, root: f64, tip: f64) -> Vec<DVec2> {
         .collect()
 }
 
-/// A wheel about z with a round bore of so many sides.
+/// Wheel about z with a round bore. `bore` is its radius and number of sides.
 pub fn wheel(teeth: usize, [root, tip]: [f64; 2], bore: (f64, usize), [low, high]: [f64; 2]) -> Solid {
     prism(&outline(teeth, root, tip), &[circle(DVec2::ZERO, bore.0, bore.1)], low, high)
 }
 
-/// A prism about z between two outlines, counter-clockwise both, that turns by `twist` radians on its way up,
-/// in so many layers of faces.
+/// Prism about z between two counter-clockwise outlines, twisted by `twist` radians over its height, in
+/// `layers` layers of faces.
 pub fn helical(outer: &[DVec2], inner: &[DVec2], [low, high]: [f64; 2], twist: f64, layers: usize) -> Solid {
     let mut solid = Solid::default();
     let mut rims = [outer, inner].map(|rim| {

@@ -1,6 +1,9 @@
-//! Blocks with bevelled edges whose normals are smooth over the bevels: one rounded in three narrow strips
-//! with exact normals, one with a single chamfer and normals that are the plain mean of the faces, as
-//! programs write them that shade a bevelled block smoothly; and an angle with a fillet.
+//! Blocks with smooth normals over bevelled edges.
+//!
+//! - A block rounded in three narrow strips, with exact normals.
+//! - A block with a single chamfer, whose normals are the plain mean of the faces, as modelling programs
+//!   write them.
+//! - An angle with a fillet.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -15,8 +18,8 @@ const IVORY: Material = Material { name: "ivory", colour: [0.9, 0.86, 0.75], met
 const SLATE: Material = Material { name: "slate", colour: [0.35, 0.4, 0.45], metallic: 0.0, roughness: 0.7 };
 const RED: Material = Material { name: "red", colour: [0.7, 0.2, 0.15], metallic: 0.0, roughness: 0.5 };
 
-/// A box about the origin whose edges are rounded in `strips` strips each: a sphere of parallels and
-/// meridians whose octants are moved apart.
+/// Box around the origin whose edges are rounded in `strips` strips. It is a sphere of parallels and
+/// meridians with its octants moved apart.
 fn rounded_box(half: DVec3, radius: f64, strips: usize) -> Solid {
     let inner = half - DVec3::splat(radius);
     let mut solid = Solid::default();
@@ -24,7 +27,7 @@ fn rounded_box(half: DVec3, radius: f64, strips: usize) -> Solid {
     for (side, i) in [-1.0, 1.0].into_iter().flat_map(|side| (0..=strips).map(move |i| (side, i))) {
         let from_rim = if side < 0.0 { strips - i } else { i };
         let tilt = FRAC_PI_2 * from_rim as f64 / strips as f64;
-        // The flat faces above and below have one point a corner.
+        // The flat faces above and below have one point per corner.
         let (out, up) = if from_rim == strips { (0.0, 1.0) } else { (cos(tilt), sin(tilt)) };
         let mut ring = Vec::new();
         for corner in 0..4 {
@@ -45,7 +48,7 @@ fn rounded_box(half: DVec3, radius: f64, strips: usize) -> Solid {
     without_empty_sides(solid.welded(1e-6))
 }
 
-/// Faces without corners that stand twice, and without those that have too few left.
+/// Removes repeated corners of faces, and faces with fewer than three corners left.
 fn without_empty_sides(mut solid: Solid) -> Solid {
     for face in &mut solid.faces {
         face.dedup();
@@ -57,13 +60,13 @@ fn without_empty_sides(mut solid: Solid) -> Solid {
     solid
 }
 
-/// What the rounded box is round about: exact normals.
+/// Exact normals of the rounded box.
 fn exact_normals(solid: &Solid, half: DVec3, radius: f64) -> Vec<DVec3> {
     let inner = half - DVec3::splat(radius);
     solid.points.iter().map(|point| (*point - point.clamp(-inner, inner)).normalize()).collect()
 }
 
-/// The mean of the faces around each point, each counted alike: narrow chamfers outvote wide faces.
+/// Unweighted mean of the face normals around each point. Narrow chamfers and wide faces have equal weight.
 pub fn mean_normals(solid: &Solid) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; solid.points.len()];
     for face in &solid.faces {
@@ -74,7 +77,7 @@ pub fn mean_normals(solid: &Solid) -> Vec<DVec3> {
     sums.into_iter().map(|sum| sum.normalize_or(DVec3::Z)).collect()
 }
 
-/// An angle along y with a fillet of four strips inside; sides and ends have points and normals of their own.
+/// Angle along y with an inner fillet of four strips. Sides and ends have separate points and normals.
 fn angle() -> (Solid, Vec<DVec3>) {
     let mut rim = vec![at(0.0, 0.0), at(42.0, 0.0), at(42.0, 8.0)];
     rim.extend(arc(at(20.0, 20.0), 12.0, 3.0 * FRAC_PI_2, 2.0 * FRAC_PI_2, 4));
@@ -85,7 +88,7 @@ fn angle() -> (Solid, Vec<DVec3>) {
     let count = rim.len();
     let way = |i: usize| (rim[(i + 1) % count] - rim[i % count]).normalize();
     for i in 0..count {
-        // Sharp corners split the normals, the fillet does not.
+        // Sharp corners split the normals, and the fillet does not.
         let outward = |way: DVec2| DVec3::new(way.y, 0.0, -way.x);
         let smooth = |i: usize| way((i + count - 1) % count).dot(way(i)) > 0.8;
         let own = outward(way(i));
@@ -110,7 +113,7 @@ fn angle() -> (Solid, Vec<DVec3>) {
     (solid, normals)
 }
 
-/// The parts with their normals, one list a part, in mm.
+/// The parts, in mm, and their normals, one list per part.
 pub fn parts() -> (Vec<Part>, Vec<Vec<DVec3>>) {
     let half = DVec3::new(40.0, 26.0, 18.0);
     let mut rounded = rounded_box(half, 5.0, 3);

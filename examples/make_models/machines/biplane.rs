@@ -1,5 +1,5 @@
-//! A biplane whose skins are doubled: wings that stand twice back to back, tail planes that stand twice the
-//! same way, and a cowling that two parts hold alike.
+//! A biplane with doubled surfaces: wings and tail planes with back-to-back faces, and a cowling that two
+//! parts share.
 
 use glam::{DVec2, DVec3};
 use ligne::geometry::numbers::portable_math::{cos, sin};
@@ -16,7 +16,7 @@ const METAL: Material = Material { name: "metal", colour: [0.7, 0.71, 0.74], met
 const CHORD_STEPS: usize = 6;
 const SPAN_STEPS: usize = 10;
 
-/// An arched sheet about the origin: chord along x, span along y, rounded at its tips.
+/// Arched sheet around the origin: chord along x, span along y, rounded tips.
 fn sheet(chord: f64, span: f64, arch: f64) -> Solid {
     let mut solid = Solid::default();
     let rows: Vec<Vec<u32>> = (0..=SPAN_STEPS)
@@ -35,8 +35,8 @@ fn sheet(chord: f64, span: f64, arch: f64) -> Solid {
     solid
 }
 
-/// Every face a second time, on the same points, with its back to the first; both begin at the same corner,
-/// so that they are cut along the same diagonal.
+/// Adds the reverse of every face on the same points. Both begin at the same corner, so they are split along
+/// the same diagonal.
 fn back_to_back(mut solid: Solid) -> Solid {
     let back = |face: &Vec<u32>| face[..1].iter().chain(face[1..].iter().rev()).copied().collect();
     let backs: Vec<Vec<u32>> = solid.faces.iter().map(back).collect();
@@ -44,14 +44,14 @@ fn back_to_back(mut solid: Solid) -> Solid {
     solid
 }
 
-/// Every face a second time, on points of its own, looking the same way.
+/// Doubles every face on separate points, with the same orientation.
 fn twice(solid: &Solid) -> Solid {
     let mut double = solid.clone();
     double.append(solid);
     double
 }
 
-/// A closed body of rings along x: (x, half width, half height, height of the middle).
+/// Closed body of rings along x. Each ring: x, half width, half height, height of the centre.
 fn fuselage() -> Solid {
     let slices = [
         (-3.6, 0.1, 0.28, 0.22),
@@ -66,7 +66,7 @@ fn fuselage() -> Solid {
     tube(&rings)
 }
 
-/// A profile turned about x instead of z.
+/// Profile turned about x instead of z.
 fn along_x(profile: &[(f64, f64)], count: usize) -> Solid {
     turned(profile, count).moved(glam::DAffine3::from_mat3(glam::DMat3::from_cols(
         DVec3::Y,
@@ -79,7 +79,7 @@ fn cowling() -> Solid {
     along_x(&[(0.0, 1.45), (0.62, 1.45), (0.66, 1.6), (0.66, 2.1), (0.5, 2.25), (0.18, 2.3), (0.0, 2.3)], 24)
 }
 
-/// A thin rod of one ring between two points.
+/// Thin rod between two points, with one ring of faces.
 fn rod(from: DVec3, to: DVec3, radius: f64) -> Solid {
     let way = (to - from).normalize();
     let u = way.any_orthonormal_vector();
@@ -117,7 +117,7 @@ fn wheels() -> Solid {
     solid
 }
 
-/// Two blades in one twisted sheet.
+/// Two blades as one twisted sheet.
 fn propeller() -> Solid {
     let mut solid = Solid::default();
     let rows: Vec<Vec<u32>> = (0..=8)

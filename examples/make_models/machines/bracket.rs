@@ -1,4 +1,4 @@
-//! An angle bracket: a bent plate with a rib, a bearing boss on the wall and pads on the base.
+//! An angle bracket: a bent plate with a rib, a bearing boss on the wall, and pads on the base.
 
 use std::f64::consts::PI;
 
@@ -7,7 +7,7 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 use crate::geometry::outline::{arc, at, circle};
 use crate::geometry::solid::Solid;
 
-// All lengths in mm; x runs across, y out along the base, z up the wall.
+// All lengths in mm. x runs across, y outward along the base, z up the wall.
 const WIDTH: f64 = 64.0;
 const LENGTH: f64 = 72.0;
 const HEIGHT: f64 = 88.0;
@@ -18,10 +18,10 @@ const BASE_CORNER: f64 = 12.0;
 const WALL_CORNER: f64 = 26.0;
 const RIB: [f64; 2] = [28.0, 36.0];
 const RIB_REACH: f64 = 21.0;
-/// Pieces of a quarter circle.
+/// Number of segments of a quarter circle.
 const QUARTER: usize = 18;
 
-/// Where the flat parts of base and wall begin on the inside of the bend.
+/// Start of the flat parts of base and wall on the inside of the bend.
 const INSIDE: f64 = THICKNESS + INNER_BEND;
 
 /// The bracket.
@@ -36,21 +36,21 @@ pub fn bracket() -> Solid {
     solid.welded(1e-6)
 }
 
-/// A plate's outline from (0, `foot`) across and up to `far`, with round far corners.
+/// Outline of a plate from (0, `foot`) across and up to `far`, with round far corners.
 fn plate(foot: &[DVec2], far: f64, corner: f64) -> Vec<DVec2> {
     let mut outline = foot.to_vec();
     outline.extend(end(far, corner));
     outline
 }
 
-/// The round far end of a plate alone, from its right to its left side.
+/// Round far end of a plate, from its right to its left side.
 fn end(far: f64, corner: f64) -> Vec<DVec2> {
     let mut outline = arc(at(WIDTH - corner, far - corner), corner, 0.0, PI / 2.0, QUARTER);
     outline.extend(arc(at(corner, far - corner), corner, PI / 2.0, PI, QUARTER));
     outline
 }
 
-/// The inner foot of a plate, which goes around the foot of the rib.
+/// Inner foot of a plate, which runs around the foot of the rib.
 fn notched_foot() -> Vec<DVec2> {
     let [low, high] = RIB;
     let reach = INSIDE + RIB_REACH;
@@ -93,17 +93,17 @@ fn slices(rings: &[Vec<u32>]) -> Vec<&[u32]> {
     rings.iter().map(Vec::as_slice).collect()
 }
 
-/// The inner fillet from the base's flat to the wall's, as (y, z).
+/// Inner fillet from the flat of the base to the flat of the wall, as (y, z).
 fn inner_arc() -> Vec<DVec2> {
     arc(at(INSIDE, INSIDE), INNER_BEND, 1.5 * PI, PI, QUARTER)
 }
 
-/// The outer round of the bend from the wall to the base, as (y, z).
+/// Outer fillet of the bend from the wall to the base, as (y, z).
 fn outer_arc() -> Vec<DVec2> {
     arc(at(OUTER_BEND, OUTER_BEND), OUTER_BEND, PI, 1.5 * PI, QUARTER)
 }
 
-/// The two L-shaped sides and the rounds between them.
+/// The two L-shaped sides and the fillets between them.
 fn bend(solid: &mut Solid) {
     let row = |x: f64| move |point: DVec2| DVec3::new(x, point.x, point.y);
     let mut profile = outer_arc();
@@ -123,7 +123,7 @@ fn bend(solid: &mut Solid) {
     }
 }
 
-/// The stiffening rib in the bend: two flat sides and a slope.
+/// Stiffening rib in the bend: two flat sides and a slope.
 fn rib(solid: &mut Solid) {
     let reach = INSIDE + RIB_REACH;
     let row = |x: f64| move |point: DVec2| DVec3::new(x, point.x, point.y);
@@ -139,7 +139,8 @@ fn rib(solid: &mut Solid) {
     solid.strip(&near, &far);
 }
 
-/// Turned walls about the frame's z axis along a profile of (radius, height); returns first and last ring.
+/// Walls turned about the z axis of `frame` along a profile of (radius, height). Returns the first and the
+/// last ring.
 fn turned(solid: &mut Solid, frame: DAffine3, profile: &[DVec2], count: usize) -> (Vec<u32>, Vec<u32>) {
     let rings: Vec<Vec<u32>> = profile
         .iter()
@@ -157,12 +158,12 @@ fn turned(solid: &mut Solid, frame: DAffine3, profile: &[DVec2], count: usize) -
     (rings[0].clone(), rings[rings.len() - 1].clone())
 }
 
-/// The fillet around the foot of a boss of a radius, from the plate up.
+/// Fillet around the foot of a boss, from the plate up.
 fn foot_fillet(radius: f64, fillet: f64) -> Vec<DVec2> {
     arc(at(radius + fillet, fillet), fillet, 1.5 * PI, PI, 4)
 }
 
-/// Two round pads with counterbored holes on the base; returns their rings in its top and bottom.
+/// Two round pads with counterbored holes on the base. Returns their rings in its top and bottom.
 fn base_bosses(solid: &mut Solid) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
     [14.0, WIDTH - 14.0]
         .into_iter()
@@ -176,10 +177,10 @@ fn base_bosses(solid: &mut Solid) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
         .unzip()
 }
 
-/// The bearing boss on the wall with its bore and four holes around it.
+/// Bearing boss on the wall with its bore and four holes around it.
 fn wall_boss(solid: &mut Solid) -> (Vec<Vec<u32>>, Vec<Vec<u32>>) {
     let centre = DVec3::new(WIDTH / 2.0, THICKNESS, 61.0);
-    // Out of the wall is +y; across stays x, so that the frame is right-handed with -z second.
+    // +y points out of the wall. x stays across, and -z is second, so the frame is right-handed.
     let axes = DMat3::from_cols(DVec3::X, DVec3::NEG_Z, DVec3::Y);
     let mut profile = foot_fillet(15.0, 2.0);
     profile.extend([at(15.0, 12.8), at(13.8, 14.0), at(11.2, 14.0), at(10.0, 12.8)]);

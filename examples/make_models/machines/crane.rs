@@ -1,4 +1,4 @@
-//! A crane that moves: a cab turns on its base, and boom, jib and hook turn in one another.
+//! A moving crane: a cab on its base, with rotating boom, jib and hook.
 
 use std::f64::consts::TAU;
 
@@ -15,18 +15,18 @@ const YELLOW: Material =
 const GREY: Material = Material { name: "grey", colour: [0.45, 0.47, 0.5], metallic: 0.0, roughness: 0.6 };
 const GLASS: Material = Material { name: "window", colour: [0.6, 0.8, 0.9], metallic: 0.0, roughness: 0.1 };
 
-/// Lengths of the boom and of the jib.
+/// Lengths of the boom and the jib.
 const BOOM: f64 = 4.0;
 const JIB: f64 = 2.6;
 
-/// A turn about an axis, in degrees; sines and cosines are the same everywhere.
+/// Rotation about an axis by an angle in degrees. Sines and cosines are equal on all machines.
 pub fn turn(axis: DVec3, degrees: f64) -> DQuat {
     let half = degrees / 720.0 * TAU;
     let v = axis * sin(half);
     DQuat::from_xyzw(v.x, v.y, v.z, cos(half))
 }
 
-/// A beam along x with a boss round its pivot, which lies across; y up.
+/// Beam along x with a boss around its pivot, which lies across; y up.
 fn beam(length: f64, high: f64, deep: f64) -> Solid {
     let boss = turned(
         &[(0.0, -0.6 * deep), (0.6 * high, -0.6 * deep), (0.6 * high, 0.6 * deep), (0.0, 0.6 * deep)],
@@ -37,7 +37,7 @@ fn beam(length: f64, high: f64, deep: f64) -> Solid {
     together([body, boss])
 }
 
-/// The crane, in metres, y up, and its clip of four seconds.
+/// The crane, in metres, y up, with a clip of four seconds.
 pub fn crane() -> Assembly {
     let mut meshes = Vec::new();
     let mut node = |name: &str, material: Material, solid: Solid, at: DVec3, children: Vec<Node>| {
@@ -77,7 +77,7 @@ pub fn crane() -> Assembly {
         DVec3::ZERO,
         vec![cab],
     );
-    // Each turns about its own axis from one second to the next.
+    // Each node turns about one axis, with a key per second.
     let turning = |node: &str, axis: DVec3, degrees: [f64; 5]| {
         let keys = degrees.iter().enumerate().map(|(k, degrees)| (k as f64, turn(axis, *degrees)));
         Moving { node: node.to_owned(), way: Way::Turns(keys.collect()) }

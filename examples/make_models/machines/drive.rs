@@ -1,6 +1,8 @@
-//! A cycloidal drive: two toothed discs on eccentrics roll along a ring of pins and take the pins of the output flange with them.
+//! A cycloidal drive: two toothed discs on eccentrics roll along a ring of pins and drive the pins of the
+//! output flange.
 //!
-//! Lengths in mm; the shafts are the x axis, the input comes from the left, z is up. Eleven lobes in twelve pins: 11 : 1.
+//! Lengths in mm. The shafts lie along x, the input is on the left, and z is up. Eleven lobes and twelve pins
+//! give a ratio of 11 : 1.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI, TAU};
 
@@ -15,20 +17,20 @@ use crate::geometry::sweep::{block, prism, turned};
 use crate::machines::pump::pump_parts::{along_x, shaft_turned};
 use crate::writers::glb::{Assembly, Node};
 
-/// Pins of the ring, the circle of their middles, and their radius.
+/// Number of ring pins, radius of their circle, and radius of a pin.
 const PINS: u32 = 12;
 const RING: f64 = 50.0;
 const PIN: f64 = 4.0;
 
-/// How far the discs are off the middle; room between them and the pins.
+/// Eccentricity of the discs, and play between discs and pins.
 const OFF: f64 = 2.0;
 const PLAY: f64 = 0.1;
 
-/// The circle of the pins of the output flange, and their radius.
+/// Radius of the circle of the output pins, and radius of a pin.
 const CARRIED: f64 = 31.0;
 const CARRIER_PIN: f64 = 4.5;
 
-/// The circle of the screws of the input cover, and of those of the output cover.
+/// Radii of the screw circles of the input cover and the output cover.
 const SCREWS: f64 = 66.0;
 const CAP_SCREWS: f64 = 39.0;
 
@@ -38,7 +40,7 @@ const OUTWARDS: DQuat = DQuat::from_xyzw(0.0, 0.0, 1.0, 0.0);
 
 const ROUND: usize = 48;
 
-/// The toothed outline of a disc: the curve that stays at one distance from the way of the pins past it.
+/// Toothed outline of a disc: the curve at a constant distance from the path of the pins.
 fn lobes() -> Vec<DVec2> {
     let (count, radius) = (f64::from(PINS), PIN + PLAY);
     let steps = 12 * (PINS - 1);
@@ -48,7 +50,7 @@ fn lobes() -> Vec<DVec2> {
         let lean = atan2(sin(lean), RING / (OFF * count) - cos(lean));
         let x = RING * cos(turn) - radius * cos(turn + lean) - OFF * cos(count * turn);
         let y = -RING * sin(turn) + radius * sin(turn + lean) + OFF * sin(count * turn);
-        // Clockwise as it is written; turned over.
+        // The formula runs clockwise, so y is negated.
         at(x, -y)
     };
     (0..steps).map(point).collect()
@@ -62,12 +64,12 @@ fn disc() -> Solid {
     along_x(prism(&lobes(), &holes, 0.0, 12.0))
 }
 
-/// A ring about x between two radii and two places.
+/// Ring about x between two radii and two positions.
 fn ring(inner: f64, outer: f64, low: f64, high: f64) -> Solid {
     shaft_turned(&[(inner, low), (outer, low), (outer, high), (inner, high)])
 }
 
-/// A ball bearing about x from 0 on: rings and balls.
+/// Ball bearing about x, starting at 0: rings and balls.
 fn bearing([bore, inner, outer, outside]: [f64; 4], width: f64, balls: u32) -> Solid {
     let (middle, radius) = ((inner + outer) / 2.0, (outer - inner) / 2.0);
     let half: Vec<(f64, f64)> =
@@ -79,13 +81,13 @@ fn bearing([bore, inner, outer, outside]: [f64; 4], width: f64, balls: u32) -> S
     together([ring(bore, inner, 0.0, width), ring(outer, outside, 0.0, width)].into_iter().chain(balls))
 }
 
-/// Circles evenly round the middle.
+/// Circles evenly spaced around the centre.
 fn holes(count: u32, on: f64, radius: f64) -> Vec<Vec<DVec2>> {
     let middle = |k: u32| polar(DVec2::ZERO, on, TAU * f64::from(k) / f64::from(count));
     (0..count).map(|k| circle(middle(k), radius, 24)).collect()
 }
 
-/// A solid about z under construction, of rings that lie across it.
+/// Solid about z under construction, made of rings perpendicular to z.
 #[derive(Default)]
 struct Turning(Solid);
 
@@ -94,7 +96,8 @@ impl Turning {
         self.0.ring(outline.iter().map(|p| p.extend(z)))
     }
 
-    /// Rings about z, each a (radius, z), joined by walls that look outwards on the way up and inwards on the way down.
+    /// Rings about z along a profile of (radius, z). Walls face outward on the way up and inward on the way
+    /// down.
     fn walls(&mut self, profile: &[(f64, f64)]) -> [Vec<u32>; 2] {
         let rings: Vec<Vec<u32>> =
             profile.iter().map(|(radius, z)| self.ring(&circle(DVec2::ZERO, *radius, ROUND), *z)).collect();
@@ -102,7 +105,7 @@ impl Turning {
         [rings[0].clone(), rings[rings.len() - 1].clone()]
     }
 
-    /// The walls of holes from one height to another, and their rims there.
+    /// Walls of holes between two heights. Returns their rims.
     fn drill(&mut self, holes: &[Vec<DVec2>], [low, high]: [f64; 2]) -> [Vec<Vec<u32>>; 2] {
         let mut rims = [Vec::new(), Vec::new()];
         for hole in holes {
@@ -114,7 +117,7 @@ impl Turning {
         rims
     }
 
-    /// A face across z with holes, that looks up or down.
+    /// Face perpendicular to z with holes, facing up or down.
     fn face(&mut self, outer: &[u32], holes: &[Vec<u32>], looks_up: bool) {
         let mut outer = outer.to_vec();
         if !looks_up {
@@ -141,7 +144,7 @@ fn housing() -> Solid {
     in_end.push(bore);
     case.face(&end, &in_end, true);
     case.face(&deep, &[shoulder], false);
-    // Feet under a saddle; in (y, z), with thickness along x.
+    // Feet under a saddle, as an outline in (y, z) with thickness along x.
     let mut outline = vec![at(-75.0, -84.0), at(75.0, -84.0), at(75.0, -74.0)];
     outline.extend(arc(DVec2::ZERO, 59.0, -PI * 0.22, -PI * 0.78, 24));
     outline.push(at(-75.0, -74.0));
@@ -212,7 +215,7 @@ fn output_flange() -> Solid {
     ])
 }
 
-/// A socket screw: its head from x = -5 to 0, its shank from there on.
+/// Socket screw: the head from x = -5 to 0, and the shank from there.
 fn screw() -> Solid {
     shaft_turned(&[
         (0.0, -3.0),
@@ -228,7 +231,7 @@ fn screw() -> Solid {
     ])
 }
 
-/// The drive, metres and y up as glTF has it.
+/// The drive, in metres and y up, as glTF requires.
 pub fn drive() -> Assembly {
     let mut shop = Shop::default();
     let screw = shop.mesh("screw", ZINC, screw());

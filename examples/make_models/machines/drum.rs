@@ -1,4 +1,4 @@
-//! A planetary gear set with helical teeth inside a closed drum: of all the teeth nothing may be seen.
+//! A planetary gear set with helical teeth inside a closed drum. All teeth are hidden.
 
 use std::f64::consts::TAU;
 
@@ -13,11 +13,11 @@ use crate::geometry::toothed_wheel;
 const PAINT: Material = Material { name: "paint", colour: [0.72, 0.35, 0.22], metallic: 0.0, roughness: 0.6 };
 const STEEL: Material = Material { name: "steel", colour: [0.74, 0.75, 0.78], metallic: 1.0, roughness: 0.4 };
 
-/// How far the teeth of sun and planets turn on their way up, and in how many layers of faces.
+/// Twist of the teeth of sun and planets, radians, and number of layers of faces.
 const TWIST: f64 = 0.35;
 const LAYERS: usize = 3;
 
-/// The cup of the drum, closed below, in one ring of faces a step.
+/// Cup of the drum, closed at the bottom, with one ring of faces per step.
 fn cup() -> Solid {
     let profile = [
         (0.0, -32.0),
@@ -33,7 +33,7 @@ fn cup() -> Solid {
     turned(&profile, 56)
 }
 
-/// The lid lies on the rim with a hair of room between, and closes the drum.
+/// Lid on the rim with a small gap, which closes the drum.
 fn lid() -> Solid {
     let profile = [
         (0.0, 20.0),
@@ -51,18 +51,18 @@ fn lid() -> Solid {
     turned(&profile, 56)
 }
 
-/// A shaft that grows out of the lid.
+/// Shaft that extends from the lid.
 fn output() -> Solid {
     turned(&[(0.0, 41.0), (8.0, 41.0), (9.0, 42.0), (9.0, 72.0), (7.5, 73.5), (0.0, 73.5)], 28)
 }
 
-/// Sun and planet are alike but for the side to which their teeth wind.
+/// Sun and planets differ only in the direction of their teeth.
 fn gear(twist: f64) -> Solid {
     let bore = circle(DVec2::ZERO, 6.0, 24);
     toothed_wheel::helical(&toothed_wheel::outline(15, 13.0, 16.5), &bore, [-14.0, 8.0], twist, LAYERS)
 }
 
-/// The ring has its teeth inside.
+/// Ring gear with teeth on the inside.
 fn ring() -> Solid {
     let rim = circle(DVec2::ZERO, 54.0, 56);
     toothed_wheel::helical(&rim, &toothed_wheel::outline(45, 49.0, 45.5), [-14.0, 8.0], -TWIST / 3.0, LAYERS)
@@ -84,7 +84,7 @@ fn bolt() -> Solid {
     prism(&head, &[], 31.0, 34.0)
 }
 
-/// Places on a circle about z.
+/// Points on a circle about z.
 fn around(radius: f64, count: u32) -> impl Iterator<Item = DVec2> {
     (0..count).map(move |i| polar(DVec2::ZERO, radius, TAU * f64::from(i) / f64::from(count)))
 }

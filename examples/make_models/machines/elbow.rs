@@ -1,5 +1,5 @@
-//! A pipe elbow: a bend between two straight pieces of one ring each, and two flanges with bolt holes, in
-//! one closed solid.
+//! A pipe elbow as one closed solid: a bend between two straight pieces of one ring each, and two flanges
+//! with bolt holes.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -22,7 +22,7 @@ const BOLTS: u32 = 6;
 const BOLT_CIRCLE: f64 = 26.5;
 const BOLT_HOLE: f64 = 4.2;
 
-/// A place on the axis with the directions across it; all frames share y.
+/// Point on the axis with the two directions across it. All frames share y.
 #[derive(Clone, Copy)]
 struct Frame {
     middle: DVec3,
@@ -34,13 +34,13 @@ impl Frame {
         self.middle + self.across * point.x + DVec3::Y * point.y
     }
 
-    /// A ring, counter-clockwise about the way along the axis.
+    /// Ring around the axis, counter-clockwise about its direction.
     fn ring(self, solid: &mut Solid, centre: DVec2, radius: f64, count: usize) -> Vec<u32> {
         solid.ring(circle(centre, radius, count).into_iter().map(|point| self.at(point)))
     }
 }
 
-/// From the mouth below up, round the bend, and out along x.
+/// Frames from the lower mouth up, around the bend, and out along x.
 fn frames() -> Vec<Frame> {
     let up = |z: f64| Frame { middle: DVec3::Z * z, across: DVec3::X };
     let out = |x: f64| Frame {
@@ -57,10 +57,10 @@ fn frames() -> Vec<Frame> {
     frames
 }
 
-/// The rim, the holes and the two faces of a flange from `low` to `high` along the way; `foot` and
-/// `mouth` are the rings of the tube in its lower and its upper face.
+/// Rim, holes and both faces of a flange from `low` to `high`. `foot` and `mouth` are the rings of the tube
+/// in its lower and upper face.
 fn flange(solid: &mut Solid, [low, high]: [Frame; 2], foot: &[u32], mouth: &[u32]) {
-    // A chamfer of 45 degrees above and below.
+    // Chamfers of 45 degrees at both ends.
     let way = (high.middle - low.middle).normalize() * CHAMFER;
     let inside = |frame: Frame, way: DVec3| Frame { middle: frame.middle + way, ..frame };
     let steps = [(low, CHAMFER), (inside(low, way), 0.0), (inside(high, -way), 0.0), (high, CHAMFER)];
@@ -83,12 +83,13 @@ fn flange(solid: &mut Solid, [low, high]: [Frame; 2], foot: &[u32], mouth: &[u32
     solid.plate(&rims[3], &above);
 }
 
-/// The elbow, one mouth below and one to the side, in mm.
+/// The elbow, with one mouth below and one to the side, in mm.
 pub fn elbow() -> Solid {
     let mut solid = Solid::default();
     let frames = frames();
     let last = frames.len() - 1;
-    // The bore has one ring of faces from mouth to bend: what lies at a flange's inner face is left out.
+    // The bore has one ring of faces from mouth to bend, so the frames at the inner faces of the flanges are
+    // skipped.
     let stops = frames.iter().enumerate().filter(|(i, _)| *i != 1 && *i != last - 1);
     let bore: Vec<Vec<u32>> =
         stops.map(|(_, frame)| frame.ring(&mut solid, DVec2::ZERO, INNER, SIDES)).collect();

@@ -9,7 +9,7 @@ use crate::geometry::outline::{arc, at, circle, polar};
 use crate::geometry::solid::Solid;
 
 const TEETH: usize = 24;
-/// Pitch diameter over teeth, in mm.
+/// Pitch diameter divided by the number of teeth, mm.
 const MODULE: f64 = 4.0;
 const PRESSURE_ANGLE: f64 = 20.0 * PI / 180.0;
 const FILLET: f64 = 1.1;
@@ -22,13 +22,13 @@ const RIM_RADIUS: f64 = 36.5;
 const HUB_RADIUS: f64 = 17.0;
 const BORE_RADIUS: f64 = 9.5;
 
-/// How far an involute has turned where it is `radius` from the centre.
+/// Involute angle, radians, at a distance of `radius` from the centre.
 fn involute(base: f64, radius: f64) -> f64 {
     let pressure = acos(base / radius);
     tan(pressure) - pressure
 }
 
-/// One side of a tooth from the root to the tip, as (radius, angle from the tooth's middle).
+/// One side of a tooth from root to tip, as (radius, angle from the centre of the tooth).
 fn flank() -> Vec<(f64, f64)> {
     let pitch = MODULE * TEETH as f64 / 2.0;
     let base = pitch * cos(PRESSURE_ANGLE);
@@ -36,7 +36,7 @@ fn flank() -> Vec<(f64, f64)> {
     let half_at_pitch = PI / (2.0 * TEETH as f64);
     let angle_at = |radius: f64| half_at_pitch + involute(base, pitch) - involute(base, radius.max(base));
     let start = root + FILLET;
-    // The root fillet is a quarter of an ellipse from the root circle to the flank.
+    // The root fillet is a quarter ellipse from the root circle to the flank.
     let fillet = (0..18).map(|i| {
         let angle = PI / 2.0 * f64::from(i) / 18.0;
         let out = 1.0 - cos(angle);
@@ -53,7 +53,7 @@ fn flank() -> Vec<(f64, f64)> {
     fillet.chain(involute).collect()
 }
 
-/// The toothed outline, counter-clockwise.
+/// Toothed outline, counter-clockwise.
 fn teeth() -> Vec<DVec2> {
     let flank = flank();
     let mut outline = Vec::new();
@@ -76,7 +76,7 @@ fn teeth() -> Vec<DVec2> {
     outline
 }
 
-/// The bore with its keyway, counter-clockwise.
+/// Bore with keyway, counter-clockwise.
 fn bore() -> Vec<DVec2> {
     let (half_key, key_top) = (3.0, 12.3);
     let edge = acos(half_key / BORE_RADIUS);
@@ -85,8 +85,8 @@ fn bore() -> Vec<DVec2> {
     outline
 }
 
-/// Rings about the axis, one a (radius, z) of the profile, joined by bands that face right of the
-/// way along the profile when it goes up.
+/// Rings about the axis along a profile of (radius, z). The bands between them face right of an upward
+/// profile.
 fn rings(solid: &mut Solid, profile: &[(f64, f64)]) -> (Vec<u32>, Vec<u32>) {
     let rings: Vec<Vec<u32>> = profile
         .iter()
@@ -100,7 +100,7 @@ fn rings(solid: &mut Solid, profile: &[(f64, f64)]) -> (Vec<u32>, Vec<u32>) {
     (rings[0].clone(), rings[rings.len() - 1].clone())
 }
 
-/// A quarter circle as (radius, z).
+/// Quarter circle as (radius, z).
 fn quarter(centre: (f64, f64), radius: f64, from: f64, to: f64) -> Vec<(f64, f64)> {
     arc(at(centre.0, centre.1), radius, from, to, 18).into_iter().map(|point| (point.x, point.y)).collect()
 }
@@ -116,11 +116,11 @@ pub fn gear() -> Solid {
         .collect();
     let mut sides = Vec::new();
     for sign in [-1.0, 1.0] {
-        // The lower side is made as the upper one and then turned over.
+        // The upper half is built first, then mirrored to the lower side.
         let mut half = Solid::default();
         let outline = half.ring(teeth.iter().map(lift(RIM_HALF)));
         let blend = 2.0;
-        // This wall looks inwards, so it is listed from the top down.
+        // This wall faces inward, so it is listed from the top down.
         let rim = [(RIM_RADIUS + 0.8, RIM_HALF), (RIM_RADIUS, RIM_HALF - 0.8), (RIM_RADIUS, WEB_HALF)];
         let (rim_top, rim_foot) = rings(&mut half, &rim);
         let hub = quarter((HUB_RADIUS + blend, WEB_HALF + blend), blend, 1.5 * PI, PI);
@@ -142,7 +142,7 @@ pub fn gear() -> Solid {
     }
     if let [(low_teeth, low_holes, low_key), (high_teeth, high_holes, high_key)] = sides.as_slice() {
         solid.band(low_teeth, high_teeth);
-        // The walls of holes look inwards.
+        // Walls of holes face inward.
         solid.band(high_key, low_key);
         for (low, high) in low_holes.iter().zip(high_holes) {
             solid.band(high, low);

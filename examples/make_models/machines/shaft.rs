@@ -1,5 +1,5 @@
-//! A stepped shaft with chamfers in its bearing and motor: turned parts of one ring a step, with long thin
-//! faces, that stand in one another.
+//! A stepped shaft with chamfers in its bearing and motor. Turned parts with long thin faces that
+//! interpenetrate.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,12 +17,13 @@ const BRASS: Material = Material { name: "brass", colour: [0.85, 0.68, 0.33], me
 
 const SIDES: usize = 32;
 
-/// From the axis along z, where parts are turned, to the axis along x.
+/// Rotates a turned part from the z axis to the x axis.
 fn lying(solid: Solid) -> Solid {
     solid.moved(DAffine3::from_mat3(DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X)))
 }
 
-/// Each step is one ring of faces; two steps end in a chamfer of 45 degrees, one grows out of a cone.
+/// Shaft with one ring of faces per step. Two steps end in a chamfer of 45 degrees, and one starts with a
+/// cone.
 fn shaft() -> Solid {
     turned(
         &[
@@ -42,7 +43,7 @@ fn shaft() -> Solid {
     )
 }
 
-/// A pillow block around the thick step, with room between.
+/// Pillow block around the thick step, with a gap.
 fn bearing() -> Solid {
     let mut rim = vec![at(-46.0, -36.0), at(46.0, -36.0), at(46.0, -25.0), at(27.0, -25.0)];
     rim.extend(arc(DVec2::ZERO, 27.0, 0.0, PI, 20));
@@ -50,7 +51,7 @@ fn bearing() -> Solid {
     prism(&rim, &[circle(DVec2::ZERO, 12.0, SIDES)], -20.0, 16.0)
 }
 
-/// A cup with chamfered rims that takes in the thin end.
+/// Cup with chamfered rims around the thin end.
 fn motor() -> Solid {
     let profile = [
         (0.0, -120.0),
@@ -76,7 +77,7 @@ fn bolt(foot: DVec3) -> Solid {
     bolt.shifted(foot.x, foot.y, foot.z)
 }
 
-/// The parts, axis along x, in mm.
+/// The parts, with the axis along x, in mm.
 pub fn parts() -> Vec<Part> {
     let feet = [-36.0, 36.0].map(|y| bolt(DVec3::new(-2.0, y, -25.0)));
     let stand = block(DVec3::new(-112.0, -22.0, -36.0), DVec3::new(-56.0, 22.0, -20.0));

@@ -1,4 +1,4 @@
-//! What assemblies are made with: paints, turns, meshes that are kept, and nodes that show them.
+//! Tools for assemblies: paints, rotations, a list of meshes, and nodes that show them.
 
 use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
@@ -30,32 +30,32 @@ pub const TO_FRONT: DQuat = DQuat::from_xyzw(0.0, -FRAC_1_SQRT_2, 0.0, FRAC_1_SQ
 pub const TO_SIDE: DQuat = DQuat::from_xyzw(FRAC_1_SQRT_2, 0.0, 0.0, FRAC_1_SQRT_2);
 pub const HALF_TURN: DQuat = DQuat::from_xyzw(0.0, 0.0, 1.0, 0.0);
 
-/// Meshes that nodes show by number.
+/// Meshes that nodes refer to by index.
 #[derive(Default)]
 pub struct Shop {
     pub meshes: Vec<Part>,
 }
 
 impl Shop {
-    /// Keeps a mesh for later and returns its number.
+    /// Adds a mesh and returns its index.
     pub fn mesh(&mut self, name: &str, material: Material, solid: Solid) -> usize {
         self.meshes.push(Part::new(name, material, solid));
         self.meshes.len() - 1
     }
 
-    /// A mesh that is shown once, where it was made.
+    /// Adds a mesh and a node that shows it without a transform.
     pub fn part(&mut self, name: &str, material: Material, solid: Solid) -> Node {
         let mesh = self.mesh(name, material, solid);
         place(name, mesh, DVec3::ZERO, UP)
     }
 }
 
-/// A node that shows a mesh at a place, turned.
+/// Node that shows a mesh with a translation and a rotation.
 pub fn place(name: &str, mesh: usize, translation: DVec3, rotation: DQuat) -> Node {
     Node { translation, rotation, mesh: Some(mesh), ..Node::group(name, Vec::new()) }
 }
 
-/// Instances of a mesh, named by their place in the list.
+/// Instances of a mesh, numbered in list order.
 pub fn several(
     name: &str,
     mesh: usize,
@@ -66,7 +66,7 @@ pub fn several(
     numbered.map(|(i, at)| place(&format!("{name}-{}", i + 1), mesh, at, rotation)).collect()
 }
 
-/// Points on a circle about the shaft at `x`, the first at `start` of a step.
+/// Points on a circle about the shaft at `x`. The first one is offset by `start` steps.
 pub fn around(x: f64, radius: f64, count: u32, start: f64) -> impl Iterator<Item = DVec3> {
     (0..count).map(move |i| {
         let place = polar(DVec2::ZERO, radius, TAU * (f64::from(i) + start) / f64::from(count));

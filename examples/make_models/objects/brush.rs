@@ -1,11 +1,11 @@
-//! The picture of a stroke with a brush that runs dry: full of ink where it is set down, streaks of bristles where it is lifted.
+//! Picture of a stroke with a drying brush: full ink at the start, streaks of bristles at the end.
 
 use ligne::geometry::numbers::noise::{hash, smooth, unit};
 
 const WIDTH: usize = 640;
 const HEIGHT: usize = 64;
 
-/// A PNG file, dark on white.
+/// PNG file, dark on white.
 pub fn dry() -> Vec<u8> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, WIDTH as u32, HEIGHT as u32);
@@ -19,12 +19,12 @@ pub fn dry() -> Vec<u8> {
 
 fn shade(column: usize, row: usize) -> u8 {
     let (x, y) = ((column as f64 + 0.5) / WIDTH as f64, (row as f64 + 0.5) / HEIGHT as f64 - 0.5);
-    // Neighbouring bristles stick together; each has so much ink, and loses it unevenly.
+    // Neighbouring bristles stick together. Each has a different amount of ink and loses it unevenly.
     let bristle = row as f64 / 2.6;
     let load = 0.75 * smooth(1, bristle) + 0.25 * (2.0 * unit(hash(2, &[row as u64])) - 1.0);
     let uneven = smooth(3 + (row / 2) as u64, column as f64 / 42.0);
     let wet = 0.95 + 0.55 * load + 0.3 * uneven - 1.35 * ((x - 0.18).max(0.0) / 0.82);
-    // The edges of the stroke: round where it is set down, ragged where it is dry.
+    // Edges of the stroke: round at the start, ragged where it is dry.
     let round = (x / 0.045).min(1.0);
     let half = 0.46 * (round * (2.0 - round)).sqrt();
     let ragged = 0.03 * smooth(90 + u64::from(y > 0.0), column as f64 / 30.0);

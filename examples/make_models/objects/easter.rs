@@ -1,4 +1,4 @@
-//! An egg and a block on which the colours of vertices pass into each other: regions and lines come from them alone.
+//! An egg and a block with vertex colours. Regions and lines depend on these colours only.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
@@ -8,10 +8,10 @@ use ligne::geometry::numbers::portable_math::{cos, sin};
 const AROUND: usize = 28;
 const UP: usize = 18;
 
-/// A point and its colour, as it is written (sRGB).
+/// Position and colour (sRGB) of a vertex.
 type Vertex = ([f64; 3], [f64; 3]);
 
-/// The egg: pink at its foot, yellow in the middle, blue at the top, with waves between them.
+/// Egg: pink at the bottom, yellow in the middle, blue at the top, with waves in between.
 fn egg() -> (Vec<Vertex>, Vec<Vec<usize>>) {
     let mut vertices = Vec::new();
     for j in 0..=UP {
@@ -39,7 +39,7 @@ fn egg() -> (Vec<Vertex>, Vec<Vec<usize>>) {
     (vertices, faces)
 }
 
-/// The colour of the egg at a height.
+/// Colour of the egg at a height from 0 to 1.
 fn blend(level: f64) -> [f64; 3] {
     const STOPS: [[f64; 3]; 3] = [[0.93, 0.35, 0.5], [0.98, 0.86, 0.4], [0.25, 0.45, 0.8]];
     let place = level.clamp(0.0, 1.0) * 2.0;
@@ -48,7 +48,7 @@ fn blend(level: f64) -> [f64; 3] {
     [0, 1, 2].map(|k| STOPS[first][k] + (STOPS[first + 1][k] - STOPS[first][k]) * share)
 }
 
-/// The block: a colour of its own at each corner.
+/// Block with a different colour at each corner.
 fn block() -> (Vec<Vertex>, Vec<Vec<usize>>) {
     let corner = |k: usize| {
         let side = [k & 1, k >> 1 & 1, k >> 2 & 1].map(|bit| bit as f64);
@@ -59,7 +59,7 @@ fn block() -> (Vec<Vertex>, Vec<Vec<usize>>) {
     ((0..8).map(corner).collect(), faces.map(|face| face.to_vec()).to_vec())
 }
 
-/// The model as OBJ, its vertices with colours.
+/// The model as OBJ with vertex colours.
 pub fn text() -> String {
     let mut text = "# An egg and a block with coloured vertices\n".to_owned();
     let mut before = 0;

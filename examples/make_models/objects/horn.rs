@@ -1,5 +1,5 @@
-//! A post horn: a flared bell, open and of no thickness, whose tube winds in straight pieces of one ring and
-//! narrow bends and passes behind it.
+//! A post horn: an open bell without thickness, and a tube of straight pieces and narrow bends that passes
+//! behind it.
 
 use std::f64::consts::PI;
 
@@ -17,7 +17,7 @@ const SILVER: Material = Material { name: "silver", colour: [0.8, 0.8, 0.82], me
 const SIDES: usize = 28;
 const BEND_STEPS: usize = 16;
 const TUBE: f64 = 0.62;
-/// Half the height of the coil, half the length of its straight pieces, and how far a turn goes to the back.
+/// Half the height of the coil, half the length of its straight pieces, and the shift of a turn to the back.
 const BEND: f64 = 3.6;
 const HALF_STRAIGHT: f64 = 4.2;
 const BACK: f64 = 2.8;
@@ -25,10 +25,10 @@ const BELL_LENGTH: f64 = 13.0;
 const BELL_STEPS: usize = 14;
 const MOUTH: f64 = 4.6;
 
-/// Middles and radii of the rings from the mouth piece to the mouth of the bell, z up and the bell along x.
+/// Centres and radii of the rings from the mouthpiece to the mouth of the bell, z up, with the bell along x.
 fn path() -> Vec<(DVec3, f64)> {
     let mut path = Vec::new();
-    // Half a turn a bend, always the same way; the straight pieces between lead to the front.
+    // Each bend is half a turn in the same direction. The straight pieces between them lead to the front.
     for half_turn in 0..3 {
         let side = if half_turn % 2 == 0 { 1.0 } else { -1.0 };
         let y = BACK * (1.0 - f64::from(half_turn) / 2.0);
@@ -41,19 +41,19 @@ fn path() -> Vec<(DVec3, f64)> {
             (DVec3::new(side * HALF_STRAIGHT, y, 0.0) + round, TUBE)
         }));
     }
-    // The last bend ends below on the right; the bell leads from there to the left.
+    // The last bend ends at the lower right, and the bell leads to the left.
     let foot = DVec3::new(HALF_STRAIGHT - 2.0, -0.3, -BEND);
     path.extend((0..=BELL_STEPS).map(|i| {
         let t = i as f64 / BELL_STEPS as f64;
         let flare = TUBE + 0.5 * t + (MOUTH - TUBE - 0.5) * pow(t, 5.0);
-        // Rings stand closer where the bell opens.
+        // Rings are closer together where the bell opens.
         let along = 1.0 - (1.0 - t) * (1.0 - t) * 0.6 - (1.0 - t) * 0.4;
         (foot + along * DVec3::new(-BELL_LENGTH, -2.0, 0.0), flare)
     }));
     path
 }
 
-/// The whole skin of tube and bell, open at both ends.
+/// Surface of tube and bell, open at both ends.
 fn skin() -> Solid {
     let path = path();
     let mut solid = Solid::default();
@@ -74,7 +74,7 @@ fn skin() -> Solid {
     solid
 }
 
-/// A funnel on the first ring, closed.
+/// Closed funnel on the first ring.
 fn mouth_piece() -> Solid {
     let profile =
         [(0.0, 0.0), (0.3, 0.0), (0.45, 1.2), (1.0, 1.9), (1.15, 2.1), (1.15, 2.3), (0.9, 2.4), (0.0, 1.8)];
@@ -86,7 +86,7 @@ fn mouth_piece() -> Solid {
     lying.shifted(-HALF_STRAIGHT - 1.2, BACK, BEND)
 }
 
-/// A closed cylinder of one ring with a narrower button, through the tubes.
+/// Closed cylinder of one ring with a narrower button, through the tubes.
 fn valve(x: f64) -> Solid {
     let profile = [
         (0.0, -4.9),

@@ -1,4 +1,4 @@
-//! A jar of glass with three marbles in it, on a board between two boxes: its library says how opaque it is.
+//! A glass jar with three marbles, on a board between two boxes. The material library defines its opacity.
 
 use glam::DVec3;
 use ligne::geometry::numbers::portable_math::{cos, sin};
@@ -21,13 +21,13 @@ const MARBLES: [Material; 3] = [
     material("green", [0.3, 0.6, 0.32]),
 ];
 
-/// How opaque the glass is.
+/// Opacity of the glass.
 const OPACITY: f64 = 0.35;
 
 fn marble([x, y, z]: [f64; 3], radius: f64) -> Solid {
     let turn = |k: i32| std::f64::consts::PI * f64::from(k) / 24.0;
     let at = |k: i32| {
-        // On the axis at both poles.
+        // Points at the poles lie exactly on the axis.
         let away = if k == 0 || k == 24 { 0.0 } else { radius * sin(turn(k)) };
         (away, -radius * cos(turn(k)))
     };
@@ -54,7 +54,7 @@ pub fn parts() -> Vec<Part> {
     parts
 }
 
-/// The materials.
+/// Material library with the opacity of the glass.
 pub fn library(title: &str, parts: &[Part]) -> String {
     let plain = crate::writers::obj::library(title, parts);
     plain.replace("newmtl glass\n", &format!("newmtl glass\nd {OPACITY}\n"))

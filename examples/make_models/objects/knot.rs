@@ -1,4 +1,4 @@
-//! A trefoil: a round tube along a torus knot that winds twice around and three times through.
+//! A trefoil: a round tube along a torus knot with two turns around and three turns through.
 
 use std::f64::consts::TAU;
 
@@ -16,7 +16,8 @@ const TUBE_RADIUS: f64 = 0.46;
 const STEPS: usize = 240;
 const SIDES: usize = 24;
 
-/// The axis of the tube, for a parameter from 0 to 2π, and the middle of the torus beside it.
+/// Point on the axis of the tube for a parameter from 0 to 2π, and the nearest point on the axis of the
+/// torus.
 fn axis(t: f64) -> (DVec3, DVec3) {
     let outwards = DVec3::new(cos(AROUND * t), sin(AROUND * t), 0.0);
     let middle = RING_RADIUS * outwards;
@@ -24,7 +25,7 @@ fn axis(t: f64) -> (DVec3, DVec3) {
     (middle + offset, middle)
 }
 
-/// The tube and its exact normals.
+/// The tube with its exact normals.
 pub fn knot() -> (Solid, Vec<DVec3>) {
     let mut normals = Vec::new();
     let rings: Vec<Vec<DVec3>> = (0..STEPS)

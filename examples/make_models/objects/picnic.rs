@@ -1,29 +1,29 @@
-//! A beach ball on a checked cloth: what is painted on both is in pictures, that of the cloth again and again.
+//! A beach ball on a checked cloth, both textured. The texture of the cloth repeats.
 
 use std::fmt::Write as _;
 
 use glam::DVec3;
 use ligne::geometry::numbers::portable_math::{cos, sin};
 
-/// Meridians and parallels of the ball.
+/// Number of meridians and parallels of the ball.
 const ROUND: u32 = 64;
 const HIGH: u32 = 32;
 
-/// The radius of the ball and half the side of the cloth, metres.
+/// Radius of the ball and half side of the cloth, metres.
 const RADIUS: f64 = 0.25;
 const HALF: f64 = 0.5;
 
-/// How often the cloth shows its picture along each side.
+/// Repeats of the texture along each side of the cloth.
 const CHECKS: u32 = 5;
 
 const CREAM: [f64; 3] = [246.0, 239.0, 224.0];
 const SECTORS: [[f64; 3]; 6] =
     [[214.0, 66.0, 52.0], CREAM, [240.0, 180.0, 41.0], CREAM, [45.0, 110.0, 178.0], CREAM];
 
-/// The caps of the ball begin at this part of the way from a pole to the other.
+/// Size of the caps of the ball, as a share of the distance between the poles.
 const CAP: f64 = 1.0 / 12.0;
 
-/// A picture of the colours that a function of the place, 0 to 1 from the upper left corner, has in the mean over each texel.
+/// Picture of a colour function over the unit square (origin at the upper left), averaged over each texel.
 fn picture(width: u32, height: u32, colour: impl Fn(f64, f64) -> [f64; 3]) -> Vec<u8> {
     const PARTS: u32 = 4;
     let mut pixels = Vec::new();
@@ -46,7 +46,7 @@ fn picture(width: u32, height: u32, colour: impl Fn(f64, f64) -> [f64; 3]) -> Ve
     bytes
 }
 
-/// Six sectors between two caps, all round and from the upper pole to the lower.
+/// Texture of the ball: six sectors between two caps.
 pub fn sectors() -> Vec<u8> {
     picture(300, 180, |u, v| {
         let is_cap = !(CAP..1.0 - CAP).contains(&v);
@@ -54,7 +54,7 @@ pub fn sectors() -> Vec<u8> {
     })
 }
 
-/// Two stripes across each other: darker where both are, and no colour where none is.
+/// Texture of the cloth: two crossing stripes, darker at the crossing, on almost white.
 pub fn checks() -> Vec<u8> {
     picture(50, 50, |u, v| match (u < 0.5, v < 0.5) {
         (true, true) => [52.0, 122.0, 84.0],
@@ -63,7 +63,7 @@ pub fn checks() -> Vec<u8> {
     })
 }
 
-/// The materials, which name the pictures.
+/// Materials that name the textures.
 pub fn library() -> &'static str {
     "# A ball on a cloth\n\
      newmtl ball\nKd 1 1 1\nmap_Kd picnic-ball.png\n\

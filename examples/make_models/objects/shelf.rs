@@ -1,5 +1,5 @@
-//! A vase with the noise of a scan beside a machined gear, in one mesh: what is round and what is not can
-//! only be told piece by piece.
+//! A vase with scanner noise next to a machined gear, in one mesh. Smooth and flat shapes can only be
+//! distinguished by component.
 
 use std::f64::consts::TAU;
 
@@ -12,10 +12,10 @@ use crate::geometry::toothed_wheel;
 
 const AROUND: usize = 52;
 const UP: usize = 46;
-/// How far the scanner errs, in parts of the vase's height.
+/// Amplitude of the scanner noise, as a share of the vase's height.
 const NOISE: f64 = 0.0012;
 
-/// A number from −1 to 1 for a place of the grid: the same on every machine.
+/// Pseudo-random number from −1 to 1 for a grid position, equal on all machines.
 fn chance(i: usize, j: usize, salt: usize) -> f64 {
     let mut word = (i * 7919 + j * 104_729 + salt * 1_299_709) as u64;
     for _ in 0..2 {
@@ -25,12 +25,12 @@ fn chance(i: usize, j: usize, salt: usize) -> f64 {
     (word >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
-/// The outside of the vase at a height from 0 to 1.
+/// Outer radius of the vase at a height from 0 to 1.
 fn radius(height: f64) -> f64 {
     0.2 + 0.13 * sin(TAU * (0.85 * height - 0.1)) + 0.05 * height
 }
 
-/// A closed vase of height 1 with ribs, all its points a little off.
+/// Closed vase of height 1 with ribs and noise.
 fn vase() -> Solid {
     let mut solid = Solid::default();
     let mut rings = vec![vec![solid.point(DVec3::ZERO)]];
@@ -51,7 +51,7 @@ fn vase() -> Solid {
     solid
 }
 
-/// A stepped gear wheel with a bore, and its hub of one ring.
+/// Stepped gear wheel with a bore, and its hub of one ring.
 fn gear() -> Solid {
     let mut gear = toothed_wheel::wheel(22, [0.27, 0.33], (0.12, 28), [0.06, 0.16]);
     let hub = [(0.085, 0.0), (0.14, 0.0), (0.15, 0.01), (0.15, 0.21), (0.14, 0.22), (0.085, 0.22)];

@@ -1,9 +1,9 @@
 //! The teapot of Martin Newell, from its published control points.
 //!
-//! Source: M. Newell, The utilization of procedure models in digital image synthesis, University of
-//! Utah, 1975; with the bottom added later, as F. Crow lists it (The origins of the teapot, IEEE
-//! Computer Graphics and Applications 7(1), 1987). The round parts are four quarters each, so that a
-//! row of their control points is told by its radius, its height and where the tangents end.
+//! Source: M. Newell, The utilization of procedure models in digital image synthesis, University of Utah,
+//! 1975. The bottom was added later, as listed by F. Crow (The origins of the teapot, IEEE Computer Graphics
+//! and Applications 7(1), 1987). Round parts consist of four quarters, so each row of control points is given
+//! by radius, tangent end and height.
 
 use glam::{DVec2, DVec3};
 
@@ -15,7 +15,7 @@ const STEPS: usize = 10;
 const PORCELAIN: Material =
     Material { name: "porcelain", colour: [0.93, 0.91, 0.86], metallic: 0.0, roughness: 0.3 };
 
-/// A row of a round part: radius, where its tangents end, height.
+/// Row of a round part: radius, end of its tangents, height.
 type Row = (f64, f64, f64);
 
 const BODY: [[Row; 4]; 4] = [
@@ -68,23 +68,23 @@ fn round(rows: &[[Row; 4]]) -> Vec<Net> {
     rows.iter().flat_map(quarters).collect()
 }
 
-/// The four patches of handle or spout: two along, each with its mirror image across y = 0.
+/// The four patches of handle or spout: two along it, each with its mirror image across y = 0.
 fn bent(rows: &[HalfRow; 7]) -> Vec<Net> {
     let side = |first: usize, sign: f64| -> Net {
         std::array::from_fn(|i| {
             let (inner, outer, half) = rows[first + i];
             let row = [(inner, 0.0), (inner, half), (outer, half), (outer, 0.0)]
                 .map(|([x, z], y)| DVec3::new(x, sign * y, z));
-            // The mirror image runs the other way round, so that it faces outwards too.
+            // Rows of the mirror image are reversed, so that it faces outward, too.
             if sign < 0.0 { [row[3], row[2], row[1], row[0]] } else { row }
         })
     };
     [0, 3].into_iter().flat_map(|first| [side(first, 1.0), side(first, -1.0)]).collect()
 }
 
-/// Body, lid, handle and spout, z up, with one normal a point.
+/// Body, lid, handle and spout, z up, with one normal per point.
 pub fn teapot() -> (Vec<Part>, Vec<Vec<DVec3>>) {
-    // A net faces outwards when its rows run counter-clockwise from above while they go down.
+    // A net faces outward if its rows run counter-clockwise from above and go down.
     let named =
         [("body", round(&BODY)), ("lid", round(&LID)), ("handle", bent(&HANDLE)), ("spout", bent(&SPOUT))];
     named

@@ -1,4 +1,4 @@
-//! Binary glTF 2.0: meshes with materials, a tree of named nodes, and a camera.
+//! Writer of binary glTF 2.0: meshes with materials, a tree of named nodes, a camera, and a clip.
 
 use glam::{DMat3, DQuat, DVec3};
 use serde_json::{Value, json};
@@ -6,22 +6,22 @@ use serde_json::{Value, json};
 use crate::geometry::part::{Material, Part};
 use crate::geometry::smooth_normals;
 
-/// A node of the assembly: where it stands in its parent, and what it shows.
+/// Node of an assembly: its transform and its mesh.
 #[derive(Debug, Clone)]
 pub struct Node {
     pub name: String,
     pub translation: DVec3,
     pub rotation: DQuat,
     pub scale: f64,
-    /// Which of the assembly's meshes.
+    /// Index of its mesh in the assembly.
     pub mesh: Option<usize>,
-    /// Whether the file says that it leaves motion lines.
+    /// Whether the file marks the node for motion lines.
     pub leaves_lines: bool,
     pub children: Vec<Node>,
 }
 
 impl Node {
-    /// A node without a mesh that holds others.
+    /// Node without a mesh, with children.
     pub fn group(name: &str, children: Vec<Node>) -> Node {
         let (translation, rotation) = (DVec3::ZERO, DQuat::IDENTITY);
         Node {
@@ -36,32 +36,32 @@ impl Node {
     }
 }
 
-/// Meshes, the tree that shows them, and a camera in world space.
+/// Meshes, the tree of nodes that shows them, and a camera in world space.
 pub struct Assembly {
     pub meshes: Vec<Part>,
     pub root: Node,
-    /// Whether the file says normals, split at sharp edges.
+    /// Whether the file contains normals, split at sharp edges.
     pub with_normals: bool,
     pub eye: DVec3,
     pub target: DVec3,
-    /// Vertical field of view in radians.
+    /// Vertical field of view, radians.
     pub fov_y: f64,
     pub aspect: f64,
-    /// The name of a clip and what moves in it.
+    /// Name of the clip, and the nodes that move in it.
     pub clip: Option<(String, Vec<Moving>)>,
 }
 
-/// How a node moves.
+/// Movement of a node.
 pub struct Moving {
     pub node: String,
     pub way: Way,
 }
 
-/// What changes of a node, at times in seconds.
+/// Animated property of a node, with times in seconds.
 pub enum Way {
-    /// How it is turned.
+    /// Rotation.
     Turns(Vec<(f64, DQuat)>),
-    /// Where it is and how fast it goes there, metres a second.
+    /// Position and velocity, metres per second.
     Flies(Vec<(f64, DVec3, DVec3)>),
 }
 
@@ -70,7 +70,7 @@ const SHORT: u32 = 5123;
 const VERTICES: u32 = 34962;
 const INDICES: u32 = 34963;
 
-/// Colour channels as glTF wants them, linear, rounded so that the text is short.
+/// Linear value of an sRGB colour channel, as glTF requires, rounded to keep the text short.
 fn linear(channel: f64) -> f64 {
     let value = if channel <= 0.04045 {
         channel / 12.92
@@ -111,7 +111,7 @@ impl Buffers {
         self.add(&bytes, VERTICES, accessor)
     }
 
-    /// Numbers of a clip, so many an element.
+    /// Adds the numbers of a clip, `width` per element. Returns the accessor.
     fn keys(&mut self, shape: &str, width: usize, numbers: &[f64]) -> usize {
         let numbers: Vec<f32> = numbers.iter().map(|value| *value as f32).collect();
         let bytes: Vec<u8> = numbers.iter().flat_map(|value| value.to_le_bytes()).collect();
@@ -128,7 +128,7 @@ impl Buffers {
         self.accessors.len() - 1
     }
 
-    /// A clip in which nodes move from key to key.
+    /// Clip of nodes that move from key to key.
     fn clip(&mut self, (name, moving): &(String, Vec<Moving>), nodes: &[Value]) -> Value {
         let (mut samplers, mut channels) = (Vec::new(), Vec::new());
         for Moving { node, way } in moving {
@@ -140,7 +140,7 @@ impl Buffers {
                 }
                 Way::Flies(keys) => {
                     let times: Vec<f64> = keys.iter().map(|(time, ..)| *time).collect();
-                    // Each key has its speed before it and behind it.
+                    // Each key has its velocity as incoming and outgoing tangent.
                     let ways = keys.iter().flat_map(|(_, at, speed)| [*speed, *at, *speed]);
                     let ways: Vec<f64> = ways.flat_map(|vector| vector.to_array()).collect();
                     let input = self.keys("SCALAR", 1, &times);
@@ -176,7 +176,7 @@ impl Buffers {
     }
 }
 
-/// Adds a node after its children; returns its index.
+/// Adds a node after its children. Returns its index.
 fn flatten(node: &Node, nodes: &mut Vec<Value>) -> usize {
     let children: Vec<usize> = node.children.iter().map(|child| flatten(child, nodes)).collect();
     let mut record = json!({ "name": node.name });
@@ -202,7 +202,7 @@ fn flatten(node: &Node, nodes: &mut Vec<Value>) -> usize {
     nodes.len() - 1
 }
 
-/// The whole file.
+/// Bytes of the file.
 pub fn bytes(title: &str, assembly: &Assembly) -> Vec<u8> {
     let mut materials: Vec<Material> = Vec::new();
     let mut buffers = Buffers::default();

@@ -1,4 +1,4 @@
-//! Wavefront OBJ and MTL text.
+//! Writer of Wavefront OBJ and MTL.
 
 use std::fmt::Write as _;
 
@@ -6,14 +6,15 @@ use glam::DVec3;
 
 use crate::geometry::part::{Material, Part, y_up_from_z_up};
 
-/// A number of `places` decimals, without trailing zeros or a negative zero.
+/// Number with `places` decimals, without trailing zeros or a negative zero.
 fn number(value: f64, places: usize) -> String {
     let text = format!("{value:.places$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// One object a part, or one for all that follow one another under one name, turned to y up; with `normals` (one list a part, one a point) the corners refer to them.
+/// Text of an OBJ file, turned to y up, with one object per part. Consecutive parts of the same name form one
+/// object. `normals` has one list per part and one entry per point; corners refer to them.
 pub fn text(title: &str, library: Option<&str>, parts: &[Part], normals: &[Vec<DVec3>]) -> String {
     let mut out = format!("# {title}\n");
     if let Some(library) = library {
@@ -50,7 +51,7 @@ pub fn text(title: &str, library: Option<&str>, parts: &[Part], normals: &[Vec<D
     out
 }
 
-/// The material library of some parts, each material once, in order of first use.
+/// Text of the material library, with each material once, in order of first use.
 pub fn library(title: &str, parts: &[Part]) -> String {
     let mut out = format!("# {title}\n");
     let mut written: Vec<Material> = Vec::new();

@@ -1,11 +1,11 @@
-//! Binary little-endian PLY bytes.
+//! Writer of binary little-endian PLY.
 
 use glam::DVec3;
 
 use crate::geometry::part::y_up_from_z_up;
 use crate::geometry::solid::Solid;
 
-/// The triangles of a solid, turned to y up, with one normal a point or none at all.
+/// Triangles of a solid, turned to y up, with one normal per point or none.
 pub fn bytes(title: &str, solid: &Solid, normals: &[DVec3]) -> Vec<u8> {
     let triangles: Vec<[u32; 3]> = solid.triangles().collect();
     let mut out = format!(

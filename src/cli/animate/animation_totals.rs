@@ -1,4 +1,4 @@
-//! [`Total`]: what all frames took and what they hold.
+//! [`Total`]: times, counts and warnings summed over all frames.
 
 use std::collections::BTreeMap;
 
@@ -9,26 +9,26 @@ use crate::error::Error;
 use crate::pipeline::Report;
 use crate::pipeline::report::drawing_report::{Counts, StagesMs};
 
-/// What all frames took and what they hold.
+/// Times, counts and warnings of an animation. The report is this structure as JSON.
 #[derive(Debug, Default, Serialize)]
 pub(crate) struct Total {
-    /// Frames, and those of them that were drawn.
+    /// Number of frames, and of distinct drawings.
     pub(crate) frames: u64,
     pub(crate) drawings: u64,
     pub(crate) fps: f64,
     pub(crate) stages_ms: StagesMs,
     pub(crate) counts: Counts,
-    /// The most faces that each drawing might have, where that was asked for, and how long each took.
+    /// Face limit of each drawing, if there is one, and drawing time of each in ms.
     pub(crate) faces: Vec<u64>,
     pub(crate) drawing_ms: Vec<f64>,
     pub(crate) warnings: Vec<String>,
-    /// In how many drawings there was each warning.
+    /// Number of drawings with each warning.
     #[serde(skip)]
     pub(crate) warned: BTreeMap<String, usize>,
 }
 
 impl Total {
-    /// Adds what a drawing took and holds.
+    /// Adds the report of one drawing.
     pub(crate) fn add(&mut self, report: &Report, ms: f64) {
         self.drawings += 1;
         self.drawing_ms.push(ms);
@@ -40,7 +40,7 @@ impl Total {
     }
 }
 
-/// Under `--strict` warnings are errors.
+/// Turns the first warning into an error under `--strict`.
 pub(crate) fn refuse_warnings<'a>(
     request: &DrawRequest,
     mut warnings: impl Iterator<Item = &'a String>,

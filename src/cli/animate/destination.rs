@@ -1,4 +1,4 @@
-//! [`Destination`]: where frames go, each to a file of its own or all to one.
+//! [`Destination`]: output of an animation, as numbered files, one film, or one sheet.
 
 use std::path::{Path, PathBuf};
 
@@ -6,36 +6,36 @@ use crate::cli::output::numbered_files::Numbered;
 use crate::cli::output::output_files::{Output, is_stdout};
 use crate::error::Error;
 
-/// Endings of numbered files and of films.
+/// Names of numbered files and endings of films, for messages.
 const NUMBERED: &str = "frames/%04d.svg, .png or .pdf";
 const FILMS: &str = ".svg, .gif, .png, .webp, .mp4 or .webm";
 
-/// Where frames go.
+/// Output of an animation.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Destination {
-    /// A file for each.
+    /// One file per frame.
     Numbered(Numbered),
-    /// One file of this kind.
+    /// One film in this format.
     Film(PathBuf, FilmFormat),
-    /// One sheet of a few moments.
+    /// One contact sheet of a few moments.
     Sheet(Output),
 }
 
-/// One file of all frames.
+/// Format of a film.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum FilmFormat {
     Svg,
     Gif,
     Apng,
     Webp,
-    /// By ffmpeg: H.264 in MP4.
+    /// H.264 in MP4, written by ffmpeg.
     Mp4,
-    /// By ffmpeg: VP9 in WebM.
+    /// VP9 in WebM, written by ffmpeg.
     Webm,
 }
 
 impl Destination {
-    /// Tells it by the name.
+    /// Reads the destination from the file name.
     pub(crate) fn of(path: &Path) -> Result<Self, Error> {
         if is_stdout(path) {
             return Err(

@@ -1,4 +1,4 @@
-//! Frames with as many faces as asked for, as there is time for, or as a file says.
+//! Number of faces of each frame: unlimited, a maximum, a time budget, or a list from a file.
 
 use std::path::Path;
 
@@ -6,20 +6,20 @@ use serde_json::Value;
 
 use crate::error::Error;
 
-/// How many faces frames have.
+/// Limit on the number of faces of frames.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Faces {
-    /// All.
+    /// No limit.
     All,
-    /// No more than so many.
+    /// Maximum number of faces, the same for all drawings.
     Most(u64),
-    /// As many as can be drawn in so many milliseconds.
+    /// Drawing time per frame in ms; the number of faces adapts to it.
     Budget(f64),
-    /// Each drawing its own.
+    /// Maximum number of faces of each drawing, one entry per drawing.
     Listed(Vec<u64>),
 }
 
-/// A time a frame: `33ms`, `0.1s`, or milliseconds.
+/// Reads the time for a frame, in ms: `33ms`, `0.1s`, or a number of milliseconds.
 pub(crate) fn budget(text: &str) -> Result<f64, String> {
     let (number, factor) = match (text.strip_suffix("ms"), text.strip_suffix('s')) {
         (Some(number), _) => (number, 1.0),
@@ -30,7 +30,7 @@ pub(crate) fn budget(text: &str) -> Result<f64, String> {
     ms.filter(|ms| ms.is_finite() && *ms > 0.0).ok_or_else(|| "write a time, such as 33ms".to_owned())
 }
 
-/// The levels of a file: a list of numbers of faces, one a drawing.
+/// Reads the face counts of a file written by `--save-levels`, one per drawing.
 pub(crate) fn read_levels(path: &Path, drawings: usize) -> Result<Vec<u64>, Error> {
     let remedy = "write one with --budget TIME --save-levels FILE";
     let text =
@@ -49,7 +49,7 @@ pub(crate) fn read_levels(path: &Path, drawings: usize) -> Result<Vec<u64>, Erro
     Ok(faces)
 }
 
-/// The file that [`read_levels`] reads.
+/// Bytes of a file that [`read_levels`] reads.
 pub(crate) fn written_levels(faces: &[u64], ms: f64) -> Vec<u8> {
     let list: Vec<String> = faces.iter().map(u64::to_string).collect();
     format!("{{\"budget_ms\": {ms}, \"faces\": [{}]}}\n", list.join(", ")).into_bytes()

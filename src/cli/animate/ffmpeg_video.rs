@@ -1,4 +1,4 @@
-//! [`Video`]: frames as MP4 or WebM, by ffmpeg if it is there.
+//! [`Video`]: frames as MP4 or WebM, encoded by ffmpeg.
 
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
@@ -13,14 +13,14 @@ const PROGRAM: &str = "ffmpeg";
 
 const REMEDY: &str = "install ffmpeg, or write .webp, .gif, .png or .svg";
 
-/// What ffmpeg said last, in messages.
+/// Maximum length of the end of ffmpeg's messages in an error, bytes.
 const LAST_WORDS: usize = 400;
 
-/// A running ffmpeg.
+/// Film encoded by ffmpeg, which starts with the first frame.
 pub(crate) struct Video {
     fps: f64,
     format: FilmFormat,
-    /// Where it writes.
+    /// Path that ffmpeg writes to.
     path: PathBuf,
     running: Option<Running>,
 }
@@ -33,10 +33,10 @@ struct Running {
 }
 
 impl Video {
-    /// A film that goes to `path`.
+    /// Prepares a film at `path`.
     ///
     /// # Errors
-    /// If there is no ffmpeg.
+    /// If ffmpeg is not installed.
     pub(crate) fn new(path: &Path, format: FilmFormat, fps: f64) -> Result<Self, Error> {
         let mut asked = Command::new(PROGRAM);
         asked.arg("-version").stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
@@ -49,10 +49,10 @@ impl Video {
         Ok(Self { fps, format, path: path.to_path_buf(), running: None })
     }
 
-    /// Adds a frame that is shown for so many ticks.
+    /// Adds a frame that is shown for a number of ticks.
     ///
     /// # Errors
-    /// If ffmpeg ends before its time, or if the frame is of another size than the first.
+    /// If ffmpeg stops early, or if the size differs from the first frame.
     pub(crate) fn push(&mut self, pixels: &Pixels, ticks: u32) -> Result<(), Error> {
         if self.running.is_none() {
             self.running = Some(self.start([pixels.width, pixels.height])?);
@@ -61,7 +61,7 @@ impl Video {
         if running.size != [pixels.width, pixels.height] {
             return Err(Error::new("a frame has another size than the first"));
         }
-        // Films know no clear pixels that all players show.
+        // Transparent video is not supported by all players.
         let paper = pixels.on_white();
         for _ in 0..ticks {
             if running.frames.write_all(&paper.rgba).is_err() {
@@ -71,10 +71,10 @@ impl Video {
         Ok(())
     }
 
-    /// Ends the film.
+    /// Finishes the film.
     ///
     /// # Errors
-    /// If ffmpeg could not write it.
+    /// If ffmpeg cannot write it.
     pub(crate) fn end(&mut self) -> Result<(), Error> {
         let Some(Running { mut child, frames, words, .. }) = self.running.take() else {
             return Err(Error::new("a film needs at least one frame"));
@@ -93,11 +93,11 @@ impl Video {
 
     fn start(&self, size: [u32; 2]) -> Result<Running, Error> {
         let mut command = Command::new(PROGRAM);
-        // One thread and no time of day: the same frames give the same bytes.
+        // One thread and no time stamps, so the same frames give the same bytes.
         command.args(["-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgba"]);
         command.args(["-s", &format!("{}x{}", size[0], size[1]), "-r", &format!("{}", self.fps), "-i", "-"]);
         command.args(["-threads", "1", "-fflags", "+bitexact", "-flags:v", "+bitexact"]);
-        // Both codecs want even sides.
+        // Both codecs need even sizes.
         command.args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white,format=yuv420p"]);
         match self.format {
             FilmFormat::Webm => {
@@ -114,7 +114,7 @@ impl Video {
         let lost = || Error::new("cannot send frames to ffmpeg").remedy(REMEDY);
         let frames = child.stdin.take().ok_or_else(lost)?;
         let words = child.stderr.take().ok_or_else(lost)?;
-        // Read all the while: a program whose words nobody reads stands still.
+        // Read in a separate thread, because a full pipe would block ffmpeg.
         Ok(Running { child, frames, words: std::thread::spawn(move || all(words)), size })
     }
 }
@@ -122,7 +122,7 @@ impl Video {
 impl Drop for Video {
     fn drop(&mut self) {
         if let Some(mut running) = self.running.take() {
-            // The film is given up; nothing is left to be told.
+            // The film is abandoned, so failures do not matter.
             let _ = running.child.kill();
             let _ = running.child.wait();
         }

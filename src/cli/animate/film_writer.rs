@@ -1,4 +1,4 @@
-//! [`Film`]: the one file that frames are put into as they come.
+//! [`Film`]: one film file that receives frames in order.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -14,10 +14,10 @@ use crate::error::Error;
 use crate::export::Pixels;
 use crate::export::film::{ApngFilm, GifFilm, SvgFilm, WebpFilm};
 
-/// The file, beside its place until the film is whole.
+/// Film that is being written to a staged file.
 pub(crate) struct Film {
     writer: Writer,
-    /// What was written, for films that are written at the end.
+    /// The staged file, which is renamed when the film is finished.
     staging: Staging,
     file: Option<File>,
 }
@@ -30,24 +30,24 @@ enum Writer {
     Video(Video),
 }
 
-/// A frame as the film needs it.
+/// Frame in the form that the film format needs.
 pub(crate) enum Frame {
     Vector(Box<Drawing>),
     Pixels(Pixels),
 }
 
 impl FilmFormat {
-    /// Whether frames are drawings, and not pixels.
+    /// Whether the film stores vector drawings instead of pixels.
     pub(crate) const fn is_vector(self) -> bool {
         matches!(self, Self::Svg)
     }
 }
 
 impl Film {
-    /// Begins a film of so many frames.
+    /// Begins a film of `frames` frames.
     ///
     /// # Errors
-    /// If nothing can be written there, or if what writes it is missing.
+    /// If the file cannot be written, or if ffmpeg is needed and missing.
     pub(crate) fn new(
         path: &Path,
         format: FilmFormat,
@@ -57,7 +57,7 @@ impl Film {
     ) -> Result<Self, Error> {
         let mut staging = Staging::default();
         if let FilmFormat::Mp4 | FilmFormat::Webm = format {
-            // Asked for before anything is made.
+            // Fails before any frame is drawn if ffmpeg is missing.
             Video::new(path, format, fps)?;
         }
         let file = staging.create(path)?;
@@ -74,10 +74,10 @@ impl Film {
         Ok(Self { writer, staging, file: Some(file) })
     }
 
-    /// Adds a frame that is shown for so many ticks.
+    /// Adds a frame that is shown for a number of ticks.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// If the frame cannot be written.
     pub(crate) fn push(&mut self, frame: &Frame, ticks: u32) -> Result<(), Error> {
         match (&mut self.writer, frame) {
             (Writer::Svg(film), Frame::Vector(drawing)) => film.push(drawing, ticks),
@@ -92,15 +92,15 @@ impl Film {
         Ok(())
     }
 
-    /// How many frames the film has no time for.
+    /// Number of frames that are dropped because the format limits the frame rate.
     pub(crate) fn left_out(&self) -> u64 {
         if let Writer::Gif(film) = &self.writer { film.left_out() } else { 0 }
     }
 
-    /// Ends the film and puts it in its place; gives its bytes' number.
+    /// Finishes the film and renames it to its path. Returns the number of bytes.
     ///
     /// # Errors
-    /// If it cannot be written.
+    /// If the film cannot be written.
     pub(crate) fn finish(self) -> Result<u64, Error> {
         let Self { writer, staging, mut file } = self;
         let mut write = |bytes: &[u8]| match &mut file {

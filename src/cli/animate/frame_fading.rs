@@ -1,4 +1,4 @@
-//! [`Around`]: drawings that are kept until no frame looks at them any more, so that strokes fade by what the frames around have.
+//! [`Around`]: drawings of neighbouring frames, kept while they are needed to fade strokes in and out.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -11,13 +11,13 @@ use crate::error::Error;
 use crate::motion::FadeBy;
 use crate::pipeline::Report;
 
-/// A frame as it is drawn, what that took, and how long, ms.
+/// Drawing of a frame, its report, and its drawing time in ms.
 pub(crate) type Drawn = (Drawing, Report, f64);
 
-/// Drawings of the frames around those that are made.
+/// Window of drawings around the frames that are being finished.
 pub(crate) struct Around<'a> {
     course: &'a Course,
-    /// So many drawings before and behind each are looked at.
+    /// Number of drawings before and after each frame that its fading uses.
     frames: u32,
     by: FadeBy,
     kept: BTreeMap<usize, (Drawn, Trace)>,
@@ -28,7 +28,7 @@ impl<'a> Around<'a> {
         Self { course, frames, by, kept: BTreeMap::new() }
     }
 
-    /// Draws what is missing for some frames, and forgets what they do not look at.
+    /// Draws the missing frames of the windows around `frames`, and drops drawings outside them.
     pub(crate) fn look_at(
         &mut self,
         frames: &[usize],
@@ -49,7 +49,7 @@ impl<'a> Around<'a> {
         Ok(())
     }
 
-    /// A frame that was looked at, with strokes that fade.
+    /// Drawing of a prepared frame with fading strokes; none if the frame is not in the window.
     pub(crate) fn faded(&self, frame: usize) -> Option<Drawn> {
         let ((drawing, report, ms), _) = self.kept.get(&frame)?;
         let trace = |frame: Option<usize>| self.kept.get(&frame?).map(|(_, trace)| trace);
@@ -59,7 +59,7 @@ impl<'a> Around<'a> {
         Some((drawing, report.clone(), *ms))
     }
 
-    /// The frames before and behind one, the nearest first.
+    /// Neighbours before and after a frame, nearest pair first.
     fn pairs(&self, frame: usize) -> impl Iterator<Item = [Option<usize>; 2]> + use<'a> {
         let course = self.course;
         (1..=self.frames as isize).map(move |far| [-far, far].map(|by| course.beside(frame, by)))

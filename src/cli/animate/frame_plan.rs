@@ -1,4 +1,4 @@
-//! [`Plan`]: what each frame shows.
+//! [`Plan`]: pose, camera and page of each frame.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -19,42 +19,42 @@ use crate::drawing::Page;
 use crate::error::Error;
 use crate::scene::Camera;
 
-/// What each frame shows.
+/// Pose, camera and page of each frame.
 #[derive(Debug)]
 pub(crate) struct Plan {
     pub(crate) course: Course,
     eye: Eye,
     paper: Paper,
     pub(crate) warnings: Vec<String>,
-    /// Choices made for the user, in words.
+    /// Notes on choices made for the user.
     pub(crate) notes: Vec<String>,
 }
 
-/// What moves, and when.
+/// Timeline with everything that moves on it.
 #[derive(Debug)]
 pub(crate) struct Course {
     pub(crate) timeline: Timeline,
-    /// The clips that play, if any do.
+    /// Clips that play, if any.
     clips: Option<Blend>,
     turntable: Option<Turntable>,
 }
 
-/// From where frames are seen.
+/// Camera of the frames.
 #[derive(Debug)]
 enum Eye {
-    /// All from one place, unless the model is turned.
+    /// One camera for all frames, moved by a turntable if there is one.
     Still(Camera),
-    /// By a camera of the model, which may move.
+    /// Animated camera of the model, by name.
     OfModel(String),
-    /// Each by its own.
+    /// One camera per frame.
     Path(Vec<Camera>),
 }
 
 impl Plan {
-    /// Decides it.
+    /// Plans the frames of an animation.
     ///
     /// # Errors
-    /// If nothing moves, if a clip or a camera is not there, if a time is none.
+    /// If nothing moves, if a clip or a camera does not exist, or if a time is invalid.
     pub(crate) fn new(args: &AnimateArgs, request: &DrawRequest, rigged: &Rigged) -> Result<Self, Error> {
         let clips = &rigged.rig.clips;
         let moves = args.turntable.is_some() || args.path.is_some();
@@ -109,10 +109,10 @@ impl Plan {
         Ok(Self { course, eye, paper, warnings, notes })
     }
 
-    /// What a frame shows.
+    /// Pose, camera and page of a frame.
     ///
     /// # Errors
-    /// If a pose leads beyond all numbers.
+    /// If a pose is not finite.
     pub(crate) fn moment(
         &self,
         rigged: &Rigged,
@@ -140,8 +140,8 @@ impl Plan {
 }
 
 impl Course {
-    /// The drawing so many drawings behind one, or before it; none beyond the begin and the end, unless the last is followed
-    /// by the first: where the model is turned and does nothing else.
+    /// Drawing `by` drawings after (negative: before) the one at frame `drawn`; none outside the animation. A
+    /// turntable without other animation wraps around.
     pub(crate) fn beside(&self, drawn: usize, by: isize) -> Option<usize> {
         let (hold, drawings) = (self.timeline.hold(), self.timeline.drawn().count());
         let number = (drawn / hold).checked_add_signed(by).filter(|number| *number < drawings);
@@ -158,7 +158,8 @@ impl Course {
         self.clips.as_ref().map_or_else(Vec::new, |clips| clips.playing(time))
     }
 
-    /// All points that are to be in the frame, as the first camera sees them.
+    /// World points that must fit into the frame over the whole animation, turned into the view of the first
+    /// camera.
     fn reach(&self, rigged: &Rigged) -> Result<Vec<glam::DVec3>, Error> {
         let moved = |frame| match self.turntable {
             Some(table) => table.turn(table.steps - frame % table.steps),
@@ -169,17 +170,17 @@ impl Course {
     }
 }
 
-/// The moments of a contact sheet: evenly spread, the first and the last at the ends.
+/// Timeline of a contact sheet: evenly spaced moments including both ends.
 fn moments(from: f64, to: f64) -> Result<Timeline, Error> {
     if from == to {
         return Timeline::of_frames(1, from, 1.0);
     }
-    // This refuses times that are none.
+    // Refuses invalid times.
     Timeline::between(from, to, 1.0)?;
     Timeline::of_frames(PICTURES, from, (PICTURES - 1) as f64 / (to - from))
 }
 
-/// Frames have times of their own.
+/// Removes `--time` from a remedy, since `ligne animate` does not accept it.
 fn without_time(error: Error) -> Error {
     match error.remedy.as_deref() {
         Some("leave out --animation and --time") => error.remedy("leave out --animation"),
@@ -187,7 +188,7 @@ fn without_time(error: Error) -> Error {
     }
 }
 
-/// The cameras of a path: a list of camera records.
+/// Reads the cameras of a path: a JSON list of camera records.
 fn open_path(path: &Path) -> Result<Vec<Camera>, Error> {
     let remedy = "write a list of camera records: [{\"type\": \"perspective\", …}, …]";
     let text =

@@ -1,4 +1,4 @@
-//! [`Stage`]: all that frames are drawn with, and where they go from there.
+//! [`Stage`]: draws frames in parallel and writes them in order.
 
 use std::path::Path;
 
@@ -28,30 +28,30 @@ use crate::export::{DxfOptions, PngOptions, Resolution};
 use crate::pipeline::{Report, Stopwatch};
 use crate::style::Style;
 
-/// All that frames are drawn with.
+/// Everything that the frames share.
 pub(crate) struct Stage<'a> {
     pub(crate) args: &'a AnimateArgs,
     pub(crate) request: &'a DrawRequest,
     pub(crate) plan: &'a Plan,
     pub(crate) rigged: &'a Rigged,
     pub(crate) style: &'a Style,
-    /// The levels of detail of the model, where any but the finest may be asked for.
+    /// Levels of detail, if frames may have fewer faces than the model.
     pub(crate) detail: Option<&'a Detail>,
     pub(crate) faces: Faces,
     pub(crate) progress: &'a Progress,
 }
 
-/// A frame that was made.
+/// Finished frame.
 struct Made {
-    /// None if it is written already.
+    /// The frame for a film; none if it is already written to a file.
     frame: Option<Frame>,
     report: Report,
-    /// How long it took until it was drawn.
+    /// Drawing time, ms.
     ms: f64,
 }
 
 impl Stage<'_> {
-    /// A file for each frame, written as soon as it is drawn.
+    /// Draws the frames and writes one file per frame.
     pub(crate) fn numbered(&self, numbered: &Numbered, total: &mut Total) -> Result<(), Error> {
         let folder = &numbered.folder;
         if !folder.as_os_str().is_empty() && !folder.is_dir() {
@@ -89,7 +89,7 @@ impl Stage<'_> {
         self.in_order(&frames, one, |_, _| Ok(0.0), total)
     }
 
-    /// All frames in one file.
+    /// Draws all frames into one film.
     pub(crate) fn film(&self, path: &Path, format: FilmFormat, total: &mut Total) -> Result<(), Error> {
         let timeline = self.plan.course.timeline;
         let frames: Vec<usize> = timeline.drawn().collect();
@@ -133,7 +133,7 @@ impl Stage<'_> {
         Ok(())
     }
 
-    /// Draws the frame of a number.
+    /// Draws one frame.
     pub(crate) fn draw(&self, animator: &Animator, frame: usize) -> Result<Drawn, Error> {
         let mut watch = Stopwatch::start();
         let moment = self.plan.moment(self.rigged, frame, self.style.background)?;
@@ -152,7 +152,7 @@ impl Stage<'_> {
         self.request.dpi.unwrap_or(model_drawing::default_dpi(drawing.page.unit))
     }
 
-    /// Makes frames and takes them in their order, with as many faces as each may have.
+    /// Draws frames within their face limits and passes them on in order.
     fn in_order(
         &self,
         frames: &[usize],
@@ -187,7 +187,7 @@ impl Stage<'_> {
             }
             return Ok(());
         };
-        // One after another: what another frame does meanwhile would be in the time of each.
+        // Drawn one by one, because frames drawn at the same time would distort the measured times.
         let mut budget = Budget::new(ms, model_drawing::triangles(&self.rigged.scene));
         let mut left = frames;
         while !left.is_empty() {
@@ -206,7 +206,7 @@ impl Stage<'_> {
         Ok(())
     }
 
-    /// Makes frames, as many at once as there are threads, and takes them in their order.
+    /// Draws as many frames in parallel as there are threads, and passes them on in order.
     fn at_once(
         &self,
         animator: &Animator,

@@ -49,10 +49,10 @@ use crate::pipeline::{Stopwatch, hatched_for, trailed};
 use crate::scene::cameras::framing::world_points;
 use crate::style::Style;
 
-/// How contours are drawn where time counts: along the edges of the faces that are left.
+/// Style setting for limited face counts: contours along mesh edges, which are faster than smooth curves.
 const HURRIED: &str = "lines.contours=mesh";
 
-/// Draws all frames, and says so in one line.
+/// Draws all frames and prints a summary.
 pub(crate) fn run(mut args: AnimateArgs) -> Result<(), Error> {
     let watch = Stopwatch::start();
     split_levels(&mut args)?;
@@ -95,7 +95,7 @@ fn split_levels(args: &mut AnimateArgs) -> Result<(), Error> {
     Ok(())
 }
 
-/// Refuses contradictions before any work.
+/// Refuses contradictory options before any work.
 fn check(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) -> Result<(), Error> {
     if request.time.is_some() {
         return Err(Error::new("an animation has no single moment")
@@ -144,7 +144,7 @@ fn check(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) -
 }
 
 fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) -> Result<Total, Error> {
-    // A smooth curve takes as long on few faces as on many; what is typed goes before this.
+    // A smooth contour takes equally long on few and on many faces. Settings of the user come later and win.
     let hurried = args.budget.is_some() || args.levels.is_some();
     let sets: Vec<String> =
         hurried.then(|| HURRIED.to_owned()).into_iter().chain(request.sets.iter().cloned()).collect();
@@ -163,7 +163,7 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     let mut watch = Stopwatch::start();
     let mut rigged = open_rigged(&request.model, &request.step)?;
     let coarse = args.budget.is_some() || args.levels.is_some() || request.faces.is_some();
-    // Levels of detail are of the model as it is stored, whatever is shown of it.
+    // Levels of detail belong to the stored model, before any part is removed.
     let detail = coarse.then(|| {
         let fewest = if args.budget.is_none() { request.faces } else { None };
         lod::detail(&request.model, &mut rigged.scene, fewest.unwrap_or(0))
@@ -230,7 +230,7 @@ fn draw(args: &AnimateArgs, request: &DrawRequest, destination: &Destination) ->
     Ok(total)
 }
 
-/// Cuts the model open and takes it apart, once for all frames.
+/// Cuts and explodes the model once for all frames.
 fn open_up(
     request: &DrawRequest,
     rigged: &mut Rigged,
@@ -267,7 +267,7 @@ fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
     staging.commit()
 }
 
-/// `48 frames, 24 drawings, 91.2 kB, 1.30 s, 18.5 drawings a second`
+/// Summary line: `48 frames, 24 drawings, 91.2 kB, 1.30 s, 18.5 drawings a second`
 fn summary(total: &Total, seconds: f64) -> String {
     let Total { frames, drawings, counts, faces, drawing_ms, .. } = total;
     let held = if frames == drawings {

@@ -1,4 +1,4 @@
-//! `ligne animate --contact-sheet`: the moments of an animation side by side.
+//! `ligne animate --contact-sheet`: moments of an animation on one sheet.
 
 use super::animation_totals::Total;
 use super::frame_renderer::Stage;
@@ -9,7 +9,7 @@ use crate::cli::output::output_files::Output;
 use crate::error::Error;
 
 impl Stage<'_> {
-    /// All frames on one sheet, with their times as captions.
+    /// Draws all frames on one sheet, with their times as captions.
     pub(crate) fn sheet(&self, output: &Output, total: &mut Total) -> Result<(), Error> {
         let timeline = self.plan.course.timeline;
         let animator = Animator::new(self.rigged, self.style);

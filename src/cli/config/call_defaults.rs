@@ -1,6 +1,6 @@
-//! What was typed, completed by environment variables and by `ligne.toml`.
+//! Completes the words of a call with environment variables and `ligne.toml`.
 //!
-//! A flag wins over a variable, a variable over the file, and the file over what is built in.
+//! Precedence: option, environment variable, file, built-in default.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -13,23 +13,23 @@ use super::toml_options::{Given, displace, fault_of, word};
 use crate::error::Error;
 use crate::style::Style;
 
-/// Variables that stand for options, in every command that has the option.
+/// Environment variables and the options that they set, in every command with that option.
 pub(crate) const VARIABLES: [(&str, &str); 3] =
     [("LIGNE_STYLE", "style"), ("LIGNE_THREADS", "threads"), ("LIGNE_STEP_CONVERTER", "step-converter")];
 
-/// What surrounds a call.
+/// Environment of a call.
 #[derive(Debug, Default)]
 pub(crate) struct Surroundings {
     /// The working folder.
     pub(crate) folder: Option<PathBuf>,
-    /// The values of [`VARIABLES`].
+    /// Values of [`VARIABLES`].
     pub(crate) variables: [Option<String>; VARIABLES.len()],
-    /// Whether no person is at work, but a machine that checks what people did.
+    /// Whether the call runs in continuous integration (`CI` is set).
     pub(crate) is_ci: bool,
 }
 
 impl Surroundings {
-    /// Those of this process.
+    /// Environment of this process.
     pub(crate) fn of_process() -> Self {
         let value = |(name, _)| std::env::var_os(name).map(|value| value.to_string_lossy().into_owned());
         Self {
@@ -40,11 +40,10 @@ impl Surroundings {
     }
 }
 
-/// The words of a call with those that variables and the file add, just behind the command's name.
+/// Inserts the options from variables and the file after the command name.
 ///
 /// # Errors
-/// Where a variable or the file is wrong. Where the call itself is wrong it is left as it is, for
-/// the parser to say so.
+/// If a variable or the file is wrong. A wrong call is returned unchanged, for the parser to report.
 pub(crate) fn complete(
     mut words: Vec<OsString>,
     program: &Command,
@@ -63,7 +62,8 @@ pub(crate) fn complete(
         .filter_map(|option| option.get_long().map(ToOwned::to_owned))
         .collect();
 
-    // Options of `ligne styles` are of its sheet only, which shows all styles unless some are typed.
+    // Drawing options of `ligne styles` apply to its sheet only, which shows all styles unless some are
+    // typed.
     let mut variables = if name == "styles" { Vec::new() } else { of_variables(command, surroundings) };
     displace(command, &mut variables, &known);
     known.extend(variables.iter().map(|given| given.option.clone()));
@@ -75,14 +75,14 @@ pub(crate) fn complete(
         displace(command, &mut configured, &known);
     }
     let added = configured.into_iter().chain(variables).flat_map(|given| given.words).map(OsString::from);
-    // Nothing but switches stands before the name of the command.
+    // Only switches can precede the command name.
     if let Some(at) = words.iter().skip(1).position(|word| word == OsStr::new(name)) {
         words.splice(at + 2..at + 2, added);
     }
     Ok(words)
 }
 
-/// What variables say to a command; an empty one says nothing.
+/// Options that variables set for a command. Empty variables are ignored.
 fn of_variables(command: &Command, surroundings: &Surroundings) -> Vec<Given> {
     let pairs = VARIABLES.iter().zip(&surroundings.variables);
     let said = pairs.filter_map(|((_, option), value)| Some((*option, value.as_deref()?)));
@@ -96,7 +96,7 @@ fn of_variables(command: &Command, surroundings: &Surroundings) -> Vec<Given> {
         .collect()
 }
 
-/// Refuses variables that would be refused as options.
+/// Refuses values of variables that the option would refuse.
 fn check(command: &Command, variables: &[Given]) -> Result<(), Error> {
     for given in variables {
         let name = VARIABLES.iter().find(|(_, option)| *option == given.option).map_or("", |(name, _)| name);
@@ -118,17 +118,18 @@ fn check(command: &Command, variables: &[Given]) -> Result<(), Error> {
     Ok(())
 }
 
-/// What the file says to a command.
+/// Options that the file sets for a command.
 fn of_file(command: &str, folder: Option<&Path>) -> Result<Vec<Given>, Error> {
     let find = || folder.map_or(Ok(None), Config::find);
     Ok(match command {
         "draw" => find()?.map(|config| config.draw),
-        // Frames have times of their own.
+        // Each frame has its own time.
         "animate" => {
             find()?.map(|config| config.draw.into_iter().filter(|given| given.option != "time").collect())
         }
         "diff" => find()?.map(Config::diff),
-        // How STEP models are read is the same in all commands. These read nothing else from the file, and stand other faults in it.
+        // STEP options apply to all commands that read models. These commands use no other keys, so they
+        // ignore errors in the file.
         "page" | "info" | "lod" => find().unwrap_or_default().map(|config| {
             config.draw.into_iter().filter(|given| given.option.starts_with("step-")).collect()
         }),

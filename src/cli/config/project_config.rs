@@ -1,7 +1,7 @@
-//! `ligne.toml`: what a project draws with unless told otherwise.
+//! Defaults of a project from `ligne.toml`.
 //!
-//! It is looked for in the working folder and then in each folder above. The table `[draw]` holds how
-//! models are drawn, the table `[diff]` the tolerance within which drawings count as the same.
+//! The file is searched in the working folder and its parents. The table `[draw]` holds options of drawings.
+//! The table `[diff]` holds the tolerance for comparisons.
 
 use std::path::{Path, PathBuf};
 
@@ -14,23 +14,23 @@ use crate::cli::options::draw_args::HowArgs;
 use crate::diff::Tolerances;
 use crate::error::Error;
 
-/// The name of the file.
+/// Name of the file.
 const NAME: &str = "ligne.toml";
 
-/// The tables of the file.
+/// Tables of the file.
 const TABLES: [&str; 2] = ["draw", "diff"];
 
-/// What a `ligne.toml` says.
+/// Contents of a `ligne.toml`.
 #[derive(Debug, Default)]
 pub(crate) struct Config {
-    /// How models are drawn.
+    /// Options of drawings.
     pub(crate) draw: Vec<Given>,
-    /// Within which drawings count as the same, as one would type it.
+    /// Tolerance for comparisons, in the form of the option `--tolerance`.
     pub(crate) tolerance: Option<String>,
 }
 
 impl Config {
-    /// Finds the file upward from a folder and reads it.
+    /// Finds the file in a folder or its parents, and reads it.
     pub(crate) fn find(folder: &Path) -> Result<Option<Self>, Error> {
         let mut above = PathBuf::new();
         for candidate in folder.ancestors() {
@@ -72,7 +72,7 @@ impl Config {
         Ok(config)
     }
 
-    /// What it says to `ligne diff`, which draws models as well; but what differs is said aloud.
+    /// Options for `ligne diff`: the tolerance and the drawing options, except `quiet`.
     pub(crate) fn diff(self) -> Vec<Given> {
         let words = |text: &String| vec![word("tolerance", Some(text))];
         let given = |text| Given { option: "tolerance".to_owned(), words: words(text), span: 0..0 };
@@ -81,8 +81,7 @@ impl Config {
     }
 }
 
-/// A tolerance as it is typed: of text, or of a table whose keys are layers, classes, `lines`, `fills`
-/// and `default`.
+/// Reads a tolerance from text, or from a table with layers, classes, `lines`, `fills` and `default` as keys.
 pub(crate) fn tolerance(file: &File, value: &Spanned<DeValue<'_>>) -> Result<String, Error> {
     let check = |text: String, value: &Spanned<DeValue<'_>>| match Tolerances::parse(&text) {
         Ok(_) => Ok(text),

@@ -1,7 +1,7 @@
-//! Options of a command as keys of a TOML table, turned into the words one would have typed.
+//! Options of a command as keys of a TOML table, converted to words of a call.
 //!
-//! A key is the long name of an option. Its words are parsed like typed ones, so that a file and the
-//! command line mean the same and refuse the same.
+//! A key is the long name of an option. Its words are parsed like typed words, so a file and the command line
+//! accept the same values.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -15,21 +15,21 @@ use crate::error::Error;
 use crate::error::spelling::british;
 use crate::style::{self, Style, sheet_errors};
 
-/// Options that mean something only beside another one.
+/// Options that need another option, with that option.
 const NEEDS: [(&str, &str); 2] = [("landscape", "page"), ("scale", "page")];
 
-/// A TOML file whose keys are read.
+/// TOML file whose keys are options.
 #[derive(Debug, Clone)]
 pub(crate) struct File {
-    /// How errors name it.
+    /// Path of the file in errors.
     pub(crate) path: PathBuf,
-    /// The folder that paths in it are relative to.
+    /// Folder that relative paths in the file start from.
     pub(crate) folder: PathBuf,
     pub(crate) text: String,
 }
 
 impl File {
-    /// Reads a file; `what` is its name in errors.
+    /// Reads a file. `what` names it in errors.
     pub(crate) fn read(path: &Path, what: &str) -> Result<Self, Error> {
         let bytes = std::fs::read(path).map_err(|error| {
             Error::io(format!("cannot read {what}"), error).in_file(path).remedy("check the path")
@@ -44,24 +44,24 @@ impl File {
         Ok(Self { path: path.to_path_buf(), folder, text })
     }
 
-    /// The keys with their places.
+    /// The keys and values with their positions in the text.
     pub(crate) fn table(&self) -> Result<DeTable<'_>, Error> {
         let parsed = DeTable::parse(&self.text).map(Spanned::into_inner);
         parsed.map_err(|error| sheet_errors::in_sheet(&self.text, &error.into()).in_file(&self.path))
     }
 
-    /// The keys as plain values.
+    /// The keys and values without positions.
     pub(crate) fn values(&self) -> Result<Table, Error> {
         toml::from_str(&self.text)
             .map_err(|error| sheet_errors::in_sheet(&self.text, &error.into()).in_file(&self.path))
     }
 
-    /// An error about a place in the file.
+    /// Error at a position of the file.
     pub(crate) fn fault(&self, span: &Range<usize>, message: &str, advice: Option<&str>) -> Error {
         sheet_errors::at_span(&self.text, span, message, advice).in_file(&self.path)
     }
 
-    /// An error about a key that nothing knows.
+    /// Error about an unknown key.
     pub(crate) fn unknown(&self, key: &Spanned<impl AsRef<str>>, known: &[&str]) -> Error {
         let word = key.get_ref().as_ref();
         let advice = match sheet_errors::nearest(word, known) {
@@ -71,7 +71,7 @@ impl File {
         self.fault(&key.span(), &format!("unknown key `{word}`"), Some(&advice))
     }
 
-    /// An error about a value that is of the wrong sort.
+    /// Error about a value of the wrong type.
     pub(crate) fn misfit(&self, value: &Spanned<DeValue<'_>>, wanted: &str) -> Error {
         let found = match value.get_ref() {
             DeValue::String(_) => "text",
@@ -84,41 +84,41 @@ impl File {
         self.fault(&value.span(), &format!("{found} does not fit here"), Some(&format!("write {wanted}")))
     }
 
-    /// An error told of a place in this file.
+    /// Moves an error to a position of this file.
     pub(crate) fn adopt(&self, error: &Error, span: &Range<usize>) -> Error {
         let message = match &error.file {
             Some(file) => format!("{}: {}", file.display(), error.message),
             None => error.message.clone(),
         };
-        // A remedy may go on with a picture of another text.
+        // Further lines of a remedy may show an excerpt of another file.
         let advice = error.remedy.as_deref().and_then(|remedy| remedy.lines().next());
         self.fault(span, &message, advice)
     }
 }
 
-/// An option that was given other than by typing it.
+/// Option that was set by a file or variable.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Given {
-    /// Its long name.
+    /// Long name of the option.
     pub(crate) option: String,
-    /// What one would have typed.
+    /// Equivalent words of a call.
     pub(crate) words: Vec<String>,
-    /// Where its value stands in the file.
+    /// Position of the value in the file.
     pub(crate) span: Range<usize>,
 }
 
-/// What keys a table may hold.
+/// Keys that a table may hold.
 pub(crate) struct Keys<'a> {
-    /// The command whose options they are.
+    /// Command with the options.
     pub(crate) command: &'a Command,
-    /// Options that are no keys.
+    /// Options that are excluded.
     pub(crate) without: &'a [&'a str],
-    /// Keys that are no options, read by others.
+    /// Additional keys that the caller reads.
     pub(crate) others: &'a [&'a str],
 }
 
 impl Keys<'_> {
-    /// Reads a table: `table` with places, `values` the same without.
+    /// Reads a table. `table` has positions, and `values` the same entries without positions.
     pub(crate) fn read(&self, file: &File, table: &DeTable<'_>, values: &Table) -> Result<Vec<Given>, Error> {
         let mut given = Vec::new();
         for (key, value) in table {
@@ -147,7 +147,7 @@ impl Keys<'_> {
             }
             given.push(Given { option: name.to_owned(), words, span: value.span() });
         }
-        // The keys came in the order of the alphabet.
+        // The parser returns keys in alphabetical order.
         given.sort_by_key(|given: &Given| given.span.start);
         self.refuse_contradictions(file, &given)?;
         Ok(given)
@@ -180,7 +180,7 @@ impl Keys<'_> {
     }
 }
 
-/// Refuses options that mean something only beside another one, where that is not there.
+/// Refuses options whose required option is missing.
 pub(crate) fn refuse_alone(file: &File, given: &[Given]) -> Result<(), Error> {
     for Given { option, words, span } in given {
         let mut needs = NEEDS.iter().filter(|(needing, _)| needing == option).map(|(_, needed)| *needed);
@@ -194,8 +194,8 @@ pub(crate) fn refuse_alone(file: &File, given: &[Given]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Leaves out what typed options displace: the same option, unless it may be given again and adds
-/// up, and those that it conflicts with; and what needs an option that is then missing.
+/// Removes options that typed options override: the same option, except `set`, which accumulates, and
+/// conflicting options. Also removes options whose required option is then missing.
 pub(crate) fn displace(command: &Command, given: &mut Vec<Given>, typed: &[String]) {
     given
         .retain(|g| typed.iter().all(|t| (*t != g.option || t == "set") && !conflict(command, t, &g.option)));
@@ -216,12 +216,12 @@ fn conflict(command: &Command, a: &str, b: &str) -> bool {
     excludes(a, b) || excludes(b, a)
 }
 
-/// An option as one would type it.
+/// Option as a word of a call.
 pub(crate) fn word(option: &str, value: Option<&str>) -> String {
     value.map_or_else(|| format!("--{option}"), |value| format!("--{option}={value}"))
 }
 
-/// What is wrong with an option's value, and advice; `None` where it may be typed like that.
+/// Checks the value of an option with the parser. Returns a message and advice; none if the value is valid.
 pub(crate) fn fault_of(
     command: &Command,
     option: &str,
@@ -247,12 +247,12 @@ pub(crate) fn fault_of(
             };
             Some((format!("unknown value `{shown}`"), advice))
         }
-        // Whatever else is amiss is due to the words that are not there.
+        // Other errors come from required words that this call omits.
         _ => None,
     }
 }
 
-/// The message of a number parser in plain words; other messages stay.
+/// Rewrites the message of a number parser in plain words. Other messages stay.
 fn plain_advice(text: &str) -> String {
     if let Some((_, range)) = text.split_once(" is not in ")
         && let Some((low, high)) = range.split_once("..")
@@ -274,7 +274,7 @@ fn plain_advice(text: &str) -> String {
 
 type Text = (Option<String>, Range<usize>);
 
-/// The values of an option as one would type them; none for a switch that is off.
+/// Values of an option as typed text, with their positions. A switch that is off has none.
 fn texts(
     file: &File,
     option: &Arg,
@@ -305,7 +305,7 @@ fn texts(
     }
 }
 
-/// What is wanted where an option may be given again.
+/// Expected value of a repeatable option, for messages.
 const TEXTS: &str = "text, or a list of texts";
 
 fn text(file: &File, value: &Spanned<DeValue<'_>>, wanted: &str) -> Result<Text, Error> {
@@ -315,7 +315,7 @@ fn text(file: &File, value: &Spanned<DeValue<'_>>, wanted: &str) -> Result<Text,
     }
 }
 
-/// The value with its paths relative to what the path of the file is relative to.
+/// Resolves paths in a value against the folder of the file.
 fn placed(
     file: &File,
     name: &str,
@@ -330,7 +330,7 @@ fn placed(
         "style" => {
             let is_path = value.ends_with(".toml") || value.contains(['/', '\\']) || beside.is_file();
             let style = if Style::sheet_text(&value).is_none() && is_path { beside_text() } else { value };
-            // What is wrong inside a sheet is told of the sheet.
+            // An error inside a style sheet keeps the position in that sheet.
             Style::load(&style, &[]).map_err(|error| match error.place {
                 Some(_) => error,
                 None => file.adopt(&error, span),

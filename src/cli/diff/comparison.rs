@@ -1,17 +1,17 @@
-//! [`Told`]: what became of one drawing.
+//! [`Told`]: result of comparing one pair of files.
 
 use crate::diff::Diff;
 
-/// What became of one drawing.
+/// Result of comparing one pair of files.
 pub(crate) enum Told {
-    /// It is in both.
+    /// The file exists on both sides.
     Both(Box<Diff>),
-    /// It is in one folder only, the first or the second.
+    /// The file exists on one side only: 0 before, 1 after.
     Only(usize),
 }
 
 impl Told {
-    /// Whether it is in both, and the same.
+    /// Whether the file exists on both sides without differences.
     pub(crate) fn is_same(&self) -> bool {
         matches!(self, Self::Both(diff) if diff.is_same())
     }

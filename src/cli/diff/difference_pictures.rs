@@ -1,4 +1,4 @@
-//! Pictures of what differs.
+//! Pictures of differences (`--image`).
 
 use std::path::{Path, PathBuf};
 
@@ -10,17 +10,17 @@ use crate::diff::{Diff, View};
 use crate::error::Error;
 use crate::export::SvgOptions;
 
-/// Pixels to the inch in PNG.
+/// Resolution of PNG pictures, pixels per inch.
 const DPI: f64 = 96.0;
 
-/// Where the pictures go.
+/// Output of the pictures.
 pub(crate) enum Images {
     File(Output),
     Folder(PathBuf),
 }
 
 impl Images {
-    /// The place, checked before any work is done.
+    /// Reads the output path and checks it before any work is done.
     pub(crate) fn new(path: &Path, pairing: &Pairing) -> Result<Self, Error> {
         if pairing.folders {
             if path.is_dir() {
@@ -40,7 +40,7 @@ impl Images {
         }
     }
 
-    /// Writes what differs beside its place.
+    /// Stages a picture of each difference.
     pub(crate) fn add(
         &self,
         told: &[(String, Told)],

@@ -1,16 +1,16 @@
-//! The drawings and models of a folder.
+//! Drawings and models of a folder, searched recursively.
 
 use std::path::{Path, PathBuf};
 
 use crate::error::Error;
 
-/// Endings of models.
+/// File endings of models.
 pub(crate) const MODELS: [&str; 7] = ["obj", "gltf", "glb", "stl", "ply", "step", "stp"];
 
-/// Folders within folders, at most: links may lead round.
+/// Maximum depth of nested folders. Stops at cyclic links.
 const DEEPEST: usize = 32;
 
-/// The files of a folder and of those in it that can be compared, by their paths in it with `/`.
+/// Comparable files of a folder and its sub-folders. Returns the relative path with `/`, and the path.
 pub(crate) fn drawings(folder: &Path) -> Result<Vec<(String, PathBuf)>, Error> {
     let mut found = Vec::new();
     let mut open = vec![(folder.to_path_buf(), 0)];

@@ -1,4 +1,4 @@
-//! What is compared with what: two files, or the files of two folders by their names.
+//! Pairs of files to compare: two files, or the files of two folders by name.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -11,14 +11,14 @@ use crate::diff::Picture;
 use crate::error::Error;
 use crate::export::encoding::gzip;
 
-/// Files larger than this are no drawings that a person keeps.
+/// Maximum size of a drawing file, bytes.
 const MOST_BYTES: u64 = 1 << 30;
 
-/// The files to compare, by name.
+/// Files to compare, by name.
 #[derive(Debug)]
 pub(crate) struct Pairing {
     pub(crate) names: BTreeMap<String, [Option<PathBuf>; 2]>,
-    /// Whether they are of two folders.
+    /// Whether the inputs are folders.
     pub(crate) folders: bool,
 }
 
@@ -26,7 +26,7 @@ impl Pairing {
     /// Pairs two files, or the files of two folders.
     ///
     /// # Errors
-    /// Where the one is a folder and the other is not, or there is nothing to compare.
+    /// If one input is a folder and the other is not, or if there is nothing to compare.
     pub(crate) fn new(before: &Path, after: &Path) -> Result<Self, Error> {
         match (before.is_dir(), after.is_dir()) {
             (false, false) => {
@@ -59,7 +59,7 @@ impl Pairing {
     }
 }
 
-/// Both drawings. Models are drawn, the second one as the first one is seen.
+/// Reads both drawings. Models are drawn, the second from the view of the first.
 pub(crate) fn pictures(before: &Path, after: &Path, how: &HowArgs) -> Result<[Picture; 2], Error> {
     let request = |path: &Path| -> Result<DrawRequest, Error> {
         let mut request = DrawRequest::of_model(path.to_path_buf(), how.clone())?;
@@ -74,7 +74,7 @@ pub(crate) fn pictures(before: &Path, after: &Path, how: &HowArgs) -> Result<[Pi
         }
         let request = DrawRequest { view: seen, ..request(after)? };
         let second = picture(after, &String::from_utf8_lossy(&model_drawing::encoded(&request)?))?;
-        // A model that names no part has the name of its file.
+        // A model without named parts takes the name of its file, which would count as a difference.
         let stems = [before, after].map(|path| path.file_stem().unwrap_or_default().to_string_lossy());
         return Ok([first, second.with_part_renamed(&stems[1], &stems[0])]);
     }
@@ -95,7 +95,7 @@ fn is_model(path: &Path) -> bool {
     path.extension().is_some_and(|e| MODELS.iter().any(|model| e.eq_ignore_ascii_case(model)))
 }
 
-/// The text of a drawing.
+/// Reads a drawing as text, and unpacks it if necessary.
 fn text(path: &Path) -> Result<String, Error> {
     let unread = |error: std::io::Error| {
         Error::io("cannot read the drawing", error).in_file(path).remedy("check the path")

@@ -87,7 +87,7 @@ fn ignore(text: &str) -> Result<Ignore, String> {
     Ignore::parse(text).map_err(|error| error.to_string())
 }
 
-/// Compares, tells, and draws what differs.
+/// Compares the inputs, prints the differences, and draws them if requested.
 pub(crate) fn run(args: &DiffArgs) -> Result<ExitCode, Error> {
     let pairing = Pairing::new(&args.before, &args.after)?;
     let images = args.image.as_deref().map(|path| Images::new(path, &pairing)).transpose()?;
@@ -117,7 +117,7 @@ pub(crate) fn run(args: &DiffArgs) -> Result<ExitCode, Error> {
     })
 }
 
-/// What became of each drawing, by name.
+/// Compares all pairs. Returns the results by name.
 fn told(args: &DiffArgs, pairing: &Pairing, options: &DiffOptions) -> Result<Vec<(String, Told)>, Error> {
     let mut told = Vec::new();
     for (name, sides) in &pairing.names {

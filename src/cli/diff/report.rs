@@ -1,4 +1,4 @@
-//! What differs, for people, programs and pull requests.
+//! Report of differences as text, JSON and Markdown.
 
 use std::io::IsTerminal;
 
@@ -9,7 +9,7 @@ use super::comparison::Told;
 use super::input_pairs::Pairing;
 use crate::diff::Verdict;
 
-/// Lines for people. One drawing is told by its findings; of many, each that differs has a heading.
+/// Text for a terminal: the findings of one drawing, or a heading and findings for each drawing of a folder.
 pub(crate) fn text(told: &[(String, Told)], pairing: &Pairing, all: bool) -> String {
     let coloured = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     let mut out = String::new();
@@ -41,7 +41,7 @@ pub(crate) fn text(told: &[(String, Told)], pairing: &Pairing, all: bool) -> Str
     out
 }
 
-/// A line whose verdict has its colour.
+/// Colours the verdict at the start of a line.
 fn paint(line: &str) -> String {
     let verdict = Verdict::ALL.into_iter().find(|verdict| line.starts_with(verdict.name()));
     let code = match verdict {
@@ -56,11 +56,11 @@ fn paint(line: &str) -> String {
     format!("\x1b[{code}m{word}\x1b[0m{rest}")
 }
 
-/// One object for one drawing, a list for folders.
+/// JSON: one object for a single drawing, a list for folders.
 pub(crate) fn json(told: &[(String, Told)], pairing: &Pairing) -> String {
     let value = |told: &Told| match told {
         Told::Only(side) => json!({ "same": false, "only": if *side == 0 { "before" } else { "after" } }),
-        // It is JSON that this crate wrote.
+        // The JSON comes from this crate, so parsing succeeds.
         Told::Both(diff) => serde_json::from_str(&diff.to_json()).unwrap_or(Value::Null),
     };
     let document = if pairing.folders {
@@ -70,11 +70,11 @@ pub(crate) fn json(told: &[(String, Told)], pairing: &Pairing) -> String {
     } else {
         told.first().map_or(Value::Null, |(_, told)| value(told))
     };
-    // Values can always be written.
+    // Serialising values cannot fail.
     serde_json::to_string_pretty(&document).unwrap_or_default() + "\n"
 }
 
-/// A section a drawing that differs.
+/// Markdown with a section for each drawing that differs.
 pub(crate) fn markdown(told: &[(String, Told)], args: &DiffArgs) -> String {
     let differ = told.iter().filter(|(_, told)| !told.is_same()).count();
     let (before, after) = (args.before.display(), args.after.display());

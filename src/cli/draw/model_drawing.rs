@@ -1,4 +1,4 @@
-//! `ligne draw`: one drawing of one model, in one or several formats.
+//! `ligne draw`: draws one model from one or several views, in one or several formats.
 
 use std::borrow::Cow;
 
@@ -26,31 +26,31 @@ use crate::scene::cameras::framing::world_points;
 use crate::scene::{Camera, Scene};
 use crate::style::Style;
 
-/// Pixels to the inch in PNG: a px is a pixel, and a page is as fine as print.
+/// Default resolution of PNG, pixels per inch: one pixel per px, and print resolution on a page in mm.
 const SCREEN_DPI: f64 = 96.0;
 const PRINT_DPI: f64 = 300.0;
 
-/// A drawing in all its formats, not yet written.
+/// Drawing encoded in all its formats, not yet written.
 pub(crate) struct Drawn {
     drawing: Drawing,
-    /// From where it was seen.
+    /// The camera and sheet of the drawing.
     seen: View,
     pub(crate) report: Report,
-    /// Hints and choices made for the user. Not warnings: `--strict` accepts them.
+    /// Hints and choices made for the user. They are not warnings, so `--strict` accepts them.
     pub(crate) notes: Vec<String>,
-    /// One an output, in their order.
+    /// Encoded bytes, one entry per output.
     pub(crate) encoded: Vec<Vec<u8>>,
     maps: Option<MapFiles>,
 }
 
 impl Drawn {
-    /// The drawing alone.
+    /// The drawing without its report and encoded bytes.
     pub(crate) fn into_drawing(self) -> Drawing {
         self.drawing
     }
 }
 
-/// Draws, and says so in one line an output.
+/// Draws a request and prints one line per output.
 pub(crate) fn run(request: &DrawRequest) -> Result<(), Error> {
     let mut watch = Stopwatch::start();
     for output in request.outputs.iter().filter(|output| output.format != Format::SvgToStdout) {
@@ -87,12 +87,12 @@ pub(crate) fn run(request: &DrawRequest) -> Result<(), Error> {
             say(&format!("{}: {}", output.name(), summary(&drawn, bytes, watch.seconds())));
         }
     }
-    // The process ends here, and its memory with it: a drawing of many lines is not taken apart first.
+    // The process ends here. Freeing a large drawing would only take time.
     std::mem::forget(drawn);
     Ok(())
 }
 
-/// Everything up to the bytes of each output.
+/// Draws one view and encodes its outputs.
 fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     let progress = Progress::start(request.quiet, &request.model);
     let mut drawn = None;
@@ -103,8 +103,8 @@ fn draw(request: &DrawRequest, watch: &mut Stopwatch) -> Result<Drawn, Error> {
     drawn.ok_or_else(|| Error::new("no view was given"))
 }
 
-/// The same for several views of one model, which is read once: those of the first request, which the others share
-/// but for views and outputs. Each is handed over as soon as it is there.
+/// Draws several views of one model, which is read once. Options except views and outputs come from the first
+/// request. Each view is passed to `take` before the next is drawn.
 pub(crate) fn draw_views(
     requests: &[&DrawRequest],
     watch: &mut Stopwatch,
@@ -114,7 +114,7 @@ pub(crate) fn draw_views(
     draw_model(None, requests, watch, progress, take)
 }
 
-/// The same for a model that may have been read before.
+/// Draws several views of a model, which is read only if `model` is none.
 pub(crate) fn draw_model(
     model: Option<Rigged>,
     requests: &[&DrawRequest],
@@ -139,7 +139,8 @@ pub(crate) fn draw_model(
         warnings.extend(usage_warnings::idle(request, std::env::args_os()));
     }
     if request.section.section.is_some() {
-        // The plane and the hatching follow the view of the whole model; the frame holds what is left of it, or all.
+        // The section plane and its hatching depend on the view of the uncut model. The frame fits the
+        // remaining parts, or the whole model under `--frame all`.
         let whole = framed.take().unwrap_or_else(|| world_points(&scene));
         let seen = |request: &&DrawRequest| {
             viewpoint(&request.view, &request.sheet, &scene, || Ok(Cow::Borrowed(&*whole)))
@@ -165,7 +166,7 @@ pub(crate) fn draw_model(
     let mut kept = None;
     let enclosed: Vec<_> = eyes.iter().map(|eye| usage_warnings::enclosed(&scene, &eye.camera)).collect();
     watch.lap_ms();
-    // Hot-spots are found in the scene once more.
+    // The scene is kept if hotspots or several views need it.
     let prepared = match eyes.as_slice() {
         [eye] if !request.web.hotspots => Prepared::of_scene(scene, &style, &eye.camera),
         eyes => {
@@ -188,16 +189,16 @@ pub(crate) fn draw_model(
     Ok(())
 }
 
-/// What is told of a model, however it is seen.
+/// Data of the scene that all its views share.
 struct OfScene<'a> {
     triangles: u64,
-    /// Its warnings, and what is strange about the call.
+    /// Warnings of the scene and of the options.
     told: Vec<String>,
-    /// Which parts are shown, if others are left out: for drawings that are empty.
+    /// Warning that lists the visible parts, for drawings that turn out empty under `--only` or `--hide`.
     hidden: Option<String>,
     /// Hints and choices made for the user.
     notes: Vec<String>,
-    /// The model itself, where it is still needed.
+    /// The scene, if views still need it.
     whole: Option<&'a Scene>,
 }
 
@@ -261,7 +262,7 @@ pub(crate) fn default_dpi(unit: Unit) -> f64 {
     }
 }
 
-/// Under `--strict` warnings are errors.
+/// Turns warnings into an error under `--strict`.
 pub(crate) fn refuse_warnings(request: &DrawRequest, report: &Report) -> Result<(), Error> {
     if !request.strict || report.warnings.is_empty() {
         return Ok(());
@@ -271,12 +272,13 @@ pub(crate) fn refuse_warnings(request: &DrawRequest, report: &Report) -> Result<
         .remedy("repair the model, or draw without --strict"))
 }
 
-/// The bytes of a request's first output, which is not written.
+/// Encodes the first output of a request without writing it.
 pub(crate) fn encoded(request: &DrawRequest) -> Result<Vec<u8>, Error> {
     Ok(encoded_and_seen(request)?.0)
 }
 
-/// The bytes of a request's first output, and from where it was seen, so that another model can be seen likewise.
+/// Encodes the first output of a request, and returns its view so that another model can be drawn the same
+/// way.
 pub(crate) fn encoded_and_seen(request: &DrawRequest) -> Result<(Vec<u8>, View), Error> {
     let drawn = draw(request, &mut Stopwatch::start())?;
     refuse_warnings(request, &drawn.report)?;
@@ -319,7 +321,7 @@ fn write(request: &DrawRequest, drawn: &mut Drawn, watch: &mut Stopwatch) -> Res
     staging.commit()
 }
 
-/// Triangles that are shown, instances counted each.
+/// Number of triangles in the scene, with each instance counted.
 pub(crate) fn triangles(scene: &Scene) -> u64 {
     let geometries = scene.parts.iter().filter_map(|part| scene.geometries.get(part.geometry));
     geometries.map(|geometry| geometry.triangles.len() as u64).sum()
@@ -329,14 +331,15 @@ pub(crate) fn paths(drawing: &Drawing) -> u64 {
     drawing.layers.iter().map(|layer| layer.marks.len() as u64).sum()
 }
 
-/// Width and height of a PNG file, as its header has them.
+/// Width and height of a PNG file, from its header.
 fn pixels(png: &[u8]) -> Option<[u32; 2]> {
     let png = png.strip_prefix(b"\x89PNG")?;
     let side = |from: usize| Some(u32::from_be_bytes(png.get(from..from + 4)?.try_into().ok()?));
     Some([side(12)?, side(16)?])
 }
 
-/// `1000 x 1000 px, 74 paths, 18.2 kB, 0.03 s, 69,451 triangles`; a PNG of other pixels than the drawing has px says how many.
+/// Summary line: `1000 x 1000 px, 74 paths, 18.2 kB, 0.03 s, 69,451 triangles`. The pixel size of a PNG is
+/// added if it differs from the page size.
 pub(crate) fn summary(drawn: &Drawn, bytes: &[u8], seconds: f64) -> String {
     let Page { width, height, unit, .. } = drawn.drawing.page;
     let counts = &drawn.report.counts;

@@ -1,4 +1,4 @@
-//! What web pages need of a drawing, as it was asked for.
+//! Additions to drawings for web pages: title, description, hotspots, and the text colour.
 
 use crate::cli::library_calls;
 use crate::cli::request::draw_request::DrawRequest;
@@ -10,7 +10,8 @@ use crate::scene::{Camera, Scene};
 use crate::strokes::pens::pen::Ink;
 use crate::style::Style;
 
-/// Adds to a drawing what was asked for; a warning where that is nothing. Hot-spots take the scene.
+/// Adds title and hotspots to a drawing. Returns a warning if there is nothing to add. Hotspots need the
+/// scene.
 pub(crate) fn complete(
     request: &DrawRequest,
     drawing: &mut Drawing,
@@ -29,7 +30,7 @@ pub(crate) fn complete(
     Ok(bare.then_some("no named part is visible, so there are no hotspots"))
 }
 
-/// How SVG is written.
+/// Options of the SVG exporter.
 pub(crate) fn svg_options(request: &DrawRequest, style: &Style) -> Result<SvgOptions, Error> {
     let mut options = library_calls::svg_options(&request.svg);
     if request.web.title.is_some() || request.web.desc.is_some() {

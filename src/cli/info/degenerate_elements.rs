@@ -1,4 +1,4 @@
-//! Faces without area and lines without length, as `ligne info` lists them.
+//! Faces without area and lines without length, as listed by `ligne info`.
 
 use std::fmt::Write;
 
@@ -8,19 +8,19 @@ use crate::cli::output::number_text::{counted, short};
 use crate::scene::Scene;
 use crate::scene::extent::drawn_points::{DrawnPart, LeftOut};
 
-/// The faces and lines of a part that are left out.
+/// Excluded faces and lines of a part.
 #[derive(Debug, Serialize)]
 pub(crate) struct LeftOutInfo {
     part: String,
-    /// Faces without area.
+    /// Number of faces without area.
     faces: u64,
-    /// Lines without length.
+    /// Number of lines without length.
     lines: u64,
-    /// A corner of the first of them.
+    /// A corner of the first excluded face or line.
     pub first_at: Option<[f64; 3]>,
 }
 
-/// The faces and lines of each part of a scene that are left out.
+/// Excluded faces and lines of each part, one entry per part.
 pub(crate) fn by_part(scene: &Scene, drawn: &[DrawnPart]) -> Vec<LeftOut> {
     let mut left_out = vec![LeftOut::default(); scene.parts.len()];
     for own in drawn {
@@ -31,10 +31,10 @@ pub(crate) fn by_part(scene: &Scene, drawn: &[DrawnPart]) -> Vec<LeftOut> {
     left_out
 }
 
-/// Adds a line for each part with faces or lines left out, up to `most`.
+/// Adds a line for each part with excluded elements, up to `most` parts.
 pub(crate) fn add(text: &mut String, left_out: &[LeftOutInfo], most: usize) {
     for own in left_out.iter().take(most) {
-        // Writing to a string cannot fail; a name may hold the codes of a terminal.
+        // Writing to a string cannot fail. Names may contain terminal control codes.
         let _ = writeln!(text, "  left out: {}", own.line().replace(char::is_control, " "));
     }
     if left_out.len() > most {
@@ -43,7 +43,7 @@ pub(crate) fn add(text: &mut String, left_out: &[LeftOutInfo], most: usize) {
 }
 
 impl LeftOutInfo {
-    /// The parts with faces or lines left out.
+    /// Entries of the parts with excluded elements.
     pub fn of(scene: &Scene, left_out: &[LeftOut]) -> Vec<Self> {
         let parts = scene.parts.iter().zip(left_out).filter(|(_, own)| !own.is_none());
         let info = parts.map(|(part, own)| Self {

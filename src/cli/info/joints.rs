@@ -11,11 +11,11 @@ use crate::animation::Rig;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub(crate) struct JointInfo {
     name: String,
-    /// The node above it.
+    /// Name of the parent node.
     parent: Option<String>,
 }
 
-/// The joints of all skins, each once, in the order of their nodes.
+/// Joints of all skins without duplicates, in node order.
 pub(crate) fn of_rig(rig: &Rig) -> Vec<JointInfo> {
     let numbers: BTreeSet<usize> = rig.skins.iter().flat_map(|skin| skin.joints.iter().copied()).collect();
     let nodes = numbers.into_iter().filter_map(|number| rig.nodes.get(number));
@@ -24,7 +24,7 @@ pub(crate) fn of_rig(rig: &Rig) -> Vec<JointInfo> {
 }
 
 impl JointInfo {
-    /// The joint's entry in the text.
+    /// Entry of the joint in the text.
     pub fn line(&self) -> String {
         let parent =
             self.parent.as_deref().map_or_else(String::new, |parent| format!(", below {}", named(parent)));

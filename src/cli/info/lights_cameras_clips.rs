@@ -21,14 +21,14 @@ pub(crate) struct CameraInfo {
     r#type: &'static str,
 }
 
-/// When an animation plays.
+/// Time span and key rate of an animation.
 #[derive(Debug, Serialize)]
 pub(crate) struct ClipInfo {
     name: String,
-    /// When it begins and ends, in seconds.
+    /// Start and end, seconds.
     from: f64,
     to: f64,
-    /// How many keys a second it has, where it has most; none without two keys.
+    /// Highest number of keys per second; none with fewer than two keys.
     rate: Option<f64>,
 }
 
@@ -43,7 +43,7 @@ impl LightInfo {
         Self { name: light.name.clone(), kind }
     }
 
-    /// The light's entry in the list for people.
+    /// Entry of the light in the text.
     pub fn line(&self) -> String {
         aside(&self.name, self.kind)
     }
@@ -59,7 +59,7 @@ impl CameraInfo {
         Self { name: named.name.clone(), r#type }
     }
 
-    /// The camera's entry in the list for people.
+    /// Entry of the camera in the text.
     pub fn line(&self) -> String {
         aside(&self.name, self.r#type)
     }
@@ -72,7 +72,7 @@ impl ClipInfo {
         Self { name: clip.name.clone(), from, to, rate: clip.rate() }
     }
 
-    /// The animation's entry in the list for people.
+    /// Entry of the animation in the text.
     pub fn line(&self) -> String {
         let begins = if self.from == 0.0 { String::new() } else { format!(", from {} s", short(self.from)) };
         let keys = |rate: f64| {

@@ -14,15 +14,16 @@ pub(crate) struct MaterialInfo {
     name: String,
     colour: Colour,
     texture: Option<String>,
-    /// Pixels along x and y of the texture, if it can be read; also of one inside the model's file.
+    /// Width and height of the texture in pixels, if it can be read. Includes textures embedded in the model
+    /// file.
     #[serde(skip_serializing_if = "Option::is_none")]
     texture_size: Option<[usize; 2]>,
     /// `opaque`, `mask` or `blend`.
     alpha: &'static str,
-    /// How opaque it is, 0 to 1, where one sees through it.
+    /// Opacity from 0 to 1, if below 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     opacity: Option<f64>,
-    /// The least alpha that a mask leaves.
+    /// Minimum alpha that a mask keeps.
     #[serde(skip_serializing_if = "Option::is_none")]
     cutoff: Option<f32>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -51,7 +52,7 @@ impl MaterialInfo {
         }
     }
 
-    /// The material's entry in the list for people.
+    /// Entry of the material in the text.
     pub fn line(&self) -> String {
         let texture = match (&self.texture, self.texture_size) {
             (Some(file), Some([width, height])) => format!(", texture {file}, {width} x {height} px"),

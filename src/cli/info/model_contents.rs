@@ -24,9 +24,10 @@ pub(crate) struct Info {
     pub format: &'static str,
     pub up: &'static str,
     pub triangles: u64,
-    /// As stored, those that are drawn; instances counted each.
+    /// Stored vertices that are drawn, with each instance counted.
     pub vertices: u64,
-    /// Triangles that the file winds inward or against their neighbours; they are drawn turned.
+    /// Triangles that are wound inward or against their neighbours in the file. They are turned before
+    /// drawing.
     pub turned: TurnedInfo,
     pub parts: Vec<PartInfo>,
     pub materials: Vec<MaterialInfo>,
@@ -35,29 +36,29 @@ pub(crate) struct Info {
     pub joints: Vec<JointInfo>,
     pub animations: Vec<ClipInfo>,
     pub bounds: Option<BoundsInfo>,
-    /// Faces without area and lines without length, part by part; they count in nothing else.
+    /// Faces without area and lines without length, by part. All other counts exclude them.
     pub left_out: Vec<LeftOutInfo>,
-    /// Vertices that no face and no line uses.
+    /// Vertices that no face or line uses.
     pub unused_vertices: u64,
-    /// Unit of the model, if the format or the call gives it.
+    /// Unit of the model, if the format or an option defines it.
     pub unit: Option<&'static str>,
     pub warnings: Vec<String>,
     /// Hints, each with the option that helps.
     pub notes: Vec<String>,
 }
 
-/// The box around all that is drawn.
+/// Bounding box of everything that is drawn.
 #[derive(Debug, Serialize)]
 pub(crate) struct BoundsInfo {
     pub min: [f64; 3],
     pub max: [f64; 3],
-    /// Along x, y and z, where it is known what a unit is.
+    /// Extent along x, y and z in mm, if the unit is known.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size_mm: Option<[f64; 3]>,
 }
 
 impl Info {
-    /// Collects the contents and defects of a scene.
+    /// Collects contents and defects of a scene.
     pub fn of(scene: &Scene, rig: &Rig, args: &InfoArgs) -> Self {
         let DrawnPoints { points, parts: drawn } = DrawnPoints::of(scene);
         let unused = |own: &Geometry| (own.positions.len() - used_points(own).len()) as u64;

@@ -16,25 +16,25 @@ pub(crate) struct PartInfo {
     pub name: String,
     pub triangles: u64,
     pub wires: u64,
-    /// Whether the file says where pictures lie on it.
+    /// Whether the part has texture coordinates.
     pub texture_coordinates: bool,
-    /// Whether its vertices are painted.
+    /// Whether the part has vertex colours.
     pub vertex_colours: bool,
     pub turned: TurnedInfo,
-    /// The box around the part in world space; none if nothing of it is drawn.
+    /// World-space bounding box; none if nothing of the part is drawn.
     pub bounds: Option<PartBounds>,
     #[serde(flatten)]
     pub precision: PrecisionInfo,
 }
 
-/// Lowest and highest corner of a part, world.
+/// Lowest and highest corner of a part, world space.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct PartBounds {
     min: [f64; 3],
     max: [f64; 3],
 }
 
-/// How many triangles are turned, and in how many connected surfaces.
+/// Number of turned triangles, and of connected surfaces with turned triangles.
 #[derive(Debug, Clone, Copy, Default, Serialize)]
 pub(crate) struct TurnedInfo {
     pub triangles: u64,
@@ -42,7 +42,7 @@ pub(crate) struct TurnedInfo {
 }
 
 impl PartInfo {
-    /// Describes a part of a scene, without elements that are left out of it; none for a number that no part has.
+    /// Describes a part without its degenerate elements; none if the part does not exist.
     pub fn of(
         scene: &Scene,
         number: usize,
@@ -68,7 +68,7 @@ impl PartInfo {
         })
     }
 
-    /// The part's entry in the text; a full one has its bounds and precision.
+    /// Entry of the part in the text. A full entry includes bounds and precision.
     pub fn line(&self, is_full: bool) -> String {
         let lines = if self.wires > 0 { format!(", {}", counted(self.wires, "line")) } else { String::new() };
         let painted = match (self.texture_coordinates, self.vertex_colours) {
@@ -87,7 +87,7 @@ impl PartInfo {
 }
 
 impl PartBounds {
-    /// `, 20 x 12 x 8 from (0, 0, 0) to (20, 12, 8)`
+    /// Size and corners as text: `, 20 x 12 x 8 from (0, 0, 0) to (20, 12, 8)`
     fn words(&self) -> String {
         let size: Vec<String> = self.min.iter().zip(self.max).map(|(low, high)| short(high - low)).collect();
         let corner = |corner: [f64; 3]| corner.map(short).join(", ");
@@ -96,7 +96,7 @@ impl PartBounds {
 }
 
 impl TurnedInfo {
-    /// The counts of some parts together.
+    /// Sums the counts of several parts.
     pub fn of<'a>(parts: impl IntoIterator<Item = &'a TurnedFaces>) -> Self {
         parts.into_iter().fold(Self::default(), |sum, own| Self {
             triangles: sum.triangles + own.faces,
@@ -104,7 +104,7 @@ impl TurnedInfo {
         })
     }
 
-    /// The counts, for people; none if nothing is turned.
+    /// The counts as text; none if nothing is turned.
     pub fn words(&self) -> Option<String> {
         let Self { triangles, surfaces } = *self;
         let is_any = triangles > 0;

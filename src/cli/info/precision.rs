@@ -1,7 +1,8 @@
 //! [`PrecisionInfo`]: precision of the coordinates of a part.
 //!
-//! The mesh stores the step and the rounding that tolerances derive from. Parts of one body share them. The step is the largest of two:
-//! the step of single precision, and the coarsest lattice of the body in world space. The larger one is the source of the step.
+//! The mesh stores the step and the rounding that tolerances derive from, shared by the parts of a body. The
+//! step is the larger of two: the step of single precision, and the coarsest lattice of the body in world
+//! space. The larger one is reported as the source.
 
 use serde::Serialize;
 
@@ -11,33 +12,34 @@ use crate::mesh::{Extent, Mesh, PartId};
 use crate::scene::Scene;
 use crate::scene::triangle_soup::longest_axis;
 
-/// The precision of a part's coordinates in world space.
+/// Precision of the coordinates of a part in world space.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub(crate) struct PrecisionInfo {
-    /// Distance between neighbouring coordinates, units of the model; 0 if coordinates are exact, none if nothing is drawn.
+    /// Distance between neighbouring coordinates, model units. 0 if coordinates are exact, none if nothing is
+    /// drawn.
     step: Option<f64>,
     /// Source of the step; none if the step is 0.
     step_from: Option<StepSource>,
-    /// How far rounding may have moved a vertex, units of the model; 0 if coordinates count as exact.
+    /// Maximum displacement of a vertex by rounding, model units. 0 if coordinates count as exact.
     rounding: Option<f64>,
 }
 
-/// Source of a step.
+/// Source of a coordinate step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 enum StepSource {
-    /// The last digit of the numbers in the file.
+    /// Last decimal of the numbers in the file.
     Decimals,
-    /// Numbers of single precision.
+    /// Single-precision numbers.
     SinglePrecision,
-    /// Whole numbers of a quantised accessor.
+    /// Integers of a quantised accessor.
     Quantisation,
 }
 
-/// The precision of each part of a scene, by its mesh.
+/// Precision of each part of a scene, from its mesh.
 pub(crate) fn by_part(scene: &Scene, mesh: &Mesh) -> Vec<PrecisionInfo> {
     let body = |part: usize| body_of(&mesh.bodies, PartId::from(part)).index();
-    // The coarsest lattice of each body, world units.
+    // Coarsest lattice step of each body, world units.
     let mut lattices = vec![0.0_f64; scene.parts.len()];
     for (number, part) in scene.parts.iter().enumerate() {
         let Some(geometry) = scene.geometry_of(part) else { continue };
@@ -64,7 +66,7 @@ impl PrecisionInfo {
         }
     }
 
-    /// The step, its source and the rounding, for people; none for a part that is not drawn.
+    /// The step, its source and the rounding as text; none for a part that is not drawn.
     pub fn words(&self) -> Option<String> {
         let (step, rounding) = (self.step?, self.rounding?);
         let Some(source) = self.step_from else { return Some("exact coordinates".to_owned()) };

@@ -1,18 +1,18 @@
-//! Lists as people read them: a heading with the count, and an entry a line.
+//! Text lists: a heading with the count, and one entry per line.
 
 use std::fmt::Write;
 
 use crate::cli::output::number_text::counted;
 
-/// Entries of a list that people see without `--all`.
+/// Maximum number of list entries without `--all`.
 pub(crate) const SHOWN: usize = 20;
 
-/// A name, or a stand-in for an empty one.
+/// A name, or a placeholder for an empty one.
 pub(crate) fn named(name: &str) -> &str {
     if name.is_empty() { "(no name)" } else { name }
 }
 
-/// A heading with the count, and up to `most` entries below it; nothing for an empty list.
+/// Writes a heading with the count and up to `most` entries. An empty list writes nothing.
 pub(crate) fn list(
     text: &mut String,
     noun: &str,
@@ -25,7 +25,7 @@ pub(crate) fn list(
     }
     let _ = writeln!(text, "  {}:", counted(n as u64, noun));
     for entry in entries.take(most) {
-        // A name may hold line ends or the codes of a terminal.
+        // Names may contain line breaks and terminal control codes.
         let _ = writeln!(text, "    {}", entry.replace(char::is_control, " "));
     }
     if n > most {

@@ -1,4 +1,4 @@
-//! The text of `ligne info` for people.
+//! Text output of `ligne info`.
 
 use std::fmt::Write;
 
@@ -11,7 +11,8 @@ use super::text_lists::{SHOWN, list};
 use crate::cli::output::number_text::{counted, short};
 
 impl Info {
-    /// The text. A full one lists everything, with bounds and precision of each part; a short one stops after [`SHOWN`] entries.
+    /// Formats the contents as text. A full text lists everything, with bounds and precision of each part. A
+    /// short text stops after [`SHOWN`] entries per list.
     pub(crate) fn text(&self, is_full: bool) -> String {
         let most = if is_full { usize::MAX } else { SHOWN };
         let mut text = String::new();

@@ -1,8 +1,8 @@
-//! The reference of the command line as Markdown, from the definitions of the parser.
+//! Command-line reference as Markdown, generated from the definitions of the parser.
 //!
-//! Each command gets its usage, its examples and a table of its options. Options that several commands take over from `ligne draw`
-//! are listed once, in a separate section. The test `the_reference_is_current` compares the result with
-//! `docs/reference/command-line.md`.
+//! Each command gets its usage, its examples and a table of its options. Options that several commands share
+//! with `ligne draw` are listed once, in a separate section. The test `the_reference_is_current` compares the
+//! result with `docs/reference/command-line.md`.
 
 use std::fmt::Write;
 
@@ -31,7 +31,7 @@ const EXIT: &str = "\
 Errors and warnings go to standard error. After an error nothing is written, and existing files stay unchanged.
 ";
 
-/// The reference of the program.
+/// Reference of the program.
 pub(crate) fn markdown(program: &Command) -> String {
     let drawing = HowArgs::augment_args(Command::new("draw"));
     let is_shared = |command: &Command, option: &Arg| {
@@ -118,7 +118,7 @@ fn heading(option: &Arg) -> &str {
     option.get_help_heading().unwrap_or(default)
 }
 
-/// An option as one types it, with its value.
+/// An option with its value, as typed.
 fn term(option: &Arg) -> String {
     let names = option.get_value_names().unwrap_or_default();
     let value: Vec<&str> = names.iter().map(|name| name.as_str()).collect();
@@ -161,7 +161,7 @@ fn meaning(option: &Arg) -> String {
     cell(&text)
 }
 
-/// Text for a cell of a table.
+/// Escapes text for a table cell.
 fn cell(text: &str) -> String {
     text.replace('|', "\\|").replace('*', "\\*").replace('<', "&lt;")
 }
@@ -170,7 +170,7 @@ fn cell(text: &str) -> String {
 mod tests {
     use super::*;
 
-    /// Words of the page at most.
+    /// Maximum number of words on the page.
     const MAX_WORDS: usize = 5000;
 
     fn page() -> String {
@@ -184,7 +184,7 @@ mod tests {
         let page = page();
         for option in ["`--style ", "`--azimuth ", "`--strict`"] {
             let count = page.lines().filter(|line| line.starts_with(&format!("| {option}"))).count();
-            // `ligne page` has another `--strict`, and `ligne styles` another `--style`.
+            // `ligne page` has a different `--strict`, and `ligne styles` a different `--style`.
             assert!(count == 1 || (!option.contains("azimuth") && count == 2), "{option}: {count}");
         }
         for alias in ["--current-color", "--report-all"] {

@@ -15,7 +15,7 @@ pub(crate) struct CompletionsArgs {
     shell: Shell,
 }
 
-/// Writes the script to standard output.
+/// Writes the completion script to standard output.
 pub(crate) fn run(args: &CompletionsArgs) -> Result<(), Error> {
     let mut script = Vec::new();
     generate(args.shell, &mut crate::cli::program(), "ligne", &mut script);
@@ -25,7 +25,7 @@ pub(crate) fn run(args: &CompletionsArgs) -> Result<(), Error> {
     crate::cli::print(&script)
 }
 
-/// The script for bash, without a space between a key of `--set` and its value.
+/// Completion script for bash without a space between a key of `--set` and its value.
 fn without_space_after_keys(script: Vec<u8>) -> Vec<u8> {
     let case = "--set)\n";
     let text = String::from_utf8_lossy(&script);

@@ -1,11 +1,11 @@
-//! Environment variables, files and exit status of the program, for manual pages and the reference.
+//! Texts on environment variables, files and exit status, for manual pages and the reference.
 
 use crate::cli::config::call_defaults::VARIABLES;
 
 /// Effects of [`VARIABLES`].
 const EFFECTS: [&str; 3] = ["Default of --style.", "Default of --threads.", "Default of --step-converter."];
 
-/// Variables for STEP models without an option, with their effects.
+/// Variables for STEP models that have no option, with their effects.
 const STEP: [(&str, &str); 2] = [
     ("LIGNE_CACHE", "Folder for converted STEP models [default: the cache folder of the user]."),
     (
@@ -37,7 +37,7 @@ pub(crate) const EXIT_STATUS: [(&str, &str); 4] = [
     ),
 ];
 
-/// Description of `ligne.toml`, a paragraph each.
+/// Description of `ligne.toml`, one entry per paragraph.
 pub(crate) const FILES: [&str; 4] = [
     "ligne.toml holds defaults for a project. ligne looks for it in the working folder, then in each folder above. \
      An option wins over an environment variable, a variable over the file, and the file over built-in defaults. An option also \
@@ -54,7 +54,7 @@ pub(crate) const FILES: [&str; 4] = [
     "Paths are relative to the file. An unknown key or a wrong value is an error that names file and line.",
 ];
 
-/// The variables that the program, or a command with some options, reads; and their effects.
+/// Variables that a command reads, with their effects. `has` returns whether the command has an option.
 pub(crate) fn environment(has: impl Fn(&str) -> bool) -> Vec<(&'static str, &'static str)> {
     let mut entries: Vec<(&str, &str)> = Vec::new();
     for ((name, option), effect) in VARIABLES.iter().zip(EFFECTS) {

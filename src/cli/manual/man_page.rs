@@ -1,4 +1,4 @@
-//! `ligne man`: the manual page of the program or of a command, or the reference of all commands as Markdown.
+//! `ligne man`: prints the manual page of the program or of a command, or the reference of all commands.
 
 use clap::{Args, Command};
 use clap_mangen::Man;
@@ -67,10 +67,10 @@ pub(crate) fn run(args: &ManArgs) -> Result<(), Error> {
     crate::cli::print(&page)
 }
 
-/// The page as roff.
+/// The manual page as roff.
 fn page(program: &Command, command: &Command) -> Result<Vec<u8>, std::io::Error> {
     let is_program = command.get_name() == program.get_name();
-    // Examples have a section of their own.
+    // Examples have a separate section.
     let shown = command.clone().after_help("");
     let name = shown.get_display_name().unwrap_or(shown.get_name()).to_owned();
     let source = format!("ligne {}", program.get_version().unwrap_or_default());
@@ -97,7 +97,7 @@ fn page(program: &Command, command: &Command) -> Result<Vec<u8>, std::io::Error>
     );
     see_also(&mut roff, program, command, is_program);
     roff.to_writer(&mut out)?;
-    // Each section brings the definition of the apostrophe; once is enough.
+    // Each section repeats the definition of the apostrophe. Only one is kept.
     let preamble = Roff::default().render();
     Ok((preamble.clone() + &String::from_utf8_lossy(&out).replace(&preamble, "")).into_bytes())
 }
@@ -161,14 +161,14 @@ fn see_also(roff: &mut Roff, program: &Command, command: &Command, is_program: b
     roff.text([roman(pages.join(", "))]);
 }
 
-/// A term with what it means.
+/// A term with its meaning.
 fn entry(roff: &mut Roff, term: &str, meaning: &str) {
     roff.control("TP", []);
     roff.text([bold(term)]);
     roff.text([roman(meaning)]);
 }
 
-/// Lines that are not filled.
+/// Lines without filling.
 fn verbatim(roff: &mut Roff, text: &str) {
     roff.control("nf", []);
     for line in text.lines() {

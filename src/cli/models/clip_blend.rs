@@ -1,47 +1,47 @@
-//! [`Blend`]: the clips that `--animation` names, and their weights over time.
+//! [`Blend`]: clips selected by `--animation`, and their weights over time.
 
 use crate::animation::{Clip, Playing};
 use crate::error::Error;
 use crate::geometry::names::glob::Glob;
 use crate::style::sheet_errors::nearest;
 
-/// Names of clips in a message, at most.
+/// Maximum number of clip names in a message.
 const MAX_NAMES: usize = 12;
 
-/// The clips that play together, and their weights over time.
+/// Clips that play together, and their weights over time.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Blend {
     asked: Vec<Asked>,
-    /// When the first of the clips begins and the last one ends, in seconds.
+    /// Earliest start and latest end of the clips, seconds.
     span: [f64; 2],
-    /// The time over which weights without times of their own change.
+    /// Time span of weights without explicit times, seconds.
     over: [f64; 2],
     repeats: bool,
-    /// Choices made for the user, in words.
+    /// Notes on choices made for the user.
     notes: Vec<String>,
 }
 
-/// A clip to play.
+/// Clip with its weight.
 #[derive(Debug, Clone, PartialEq)]
 struct Asked {
     clip: usize,
     span: [f64; 2],
-    /// Its weight; none for an equal share of the rest.
+    /// Weight; a clip without one gets an equal share of the remaining weight.
     weight: Option<Weight>,
 }
 
-/// A weight that may change in time: straight from one to the next, and the same before the first and behind the last.
+/// Weight over time: linear between keys, constant before the first and after the last.
 #[derive(Debug, Clone, PartialEq)]
 enum Weight {
-    /// At these times, in seconds.
+    /// Keys of time in seconds and weight.
     Timed(Vec<(f64, f64)>),
-    /// Evenly over the time that is drawn.
+    /// Weights at evenly spaced times.
     Spread(Vec<f64>),
 }
 
 impl Blend {
-    /// The clips that these texts name, each `NAME`, `NAME:WEIGHT`, or a list of these separated by commas. A name may be a pattern such
-    /// as `Walk*`. Without a text the first clip plays. With `repeats` each clip loops.
+    /// Selects clips by texts: `NAME`, `NAME:WEIGHT`, or a comma-separated list. A name may be a pattern such
+    /// as `Walk*`. Without texts the first clip plays. With `repeats` each clip loops.
     ///
     /// # Errors
     /// If there are no clips, if no clip matches a name, or if a weight is not a number.
@@ -70,7 +70,7 @@ impl Blend {
             Ok(())
         };
         for text in texts {
-            // A name may hold commas and colons itself.
+            // Clip names may contain commas and colons.
             if find(text).is_some() {
                 add(text, None)?;
                 continue;
@@ -90,27 +90,27 @@ impl Blend {
         Ok(Self { asked, span, over: span, repeats, notes })
     }
 
-    /// Choices made for the user, in words: the first clip of several.
+    /// Notes on choices made for the user, such as the first of several clips.
     pub(crate) fn notes(&self) -> &[String] {
         &self.notes
     }
 
-    /// The same over another span of time than that of its clips.
+    /// Spreads weights without times over another time span.
     pub(crate) fn over(self, over: [f64; 2]) -> Self {
         Self { over, ..self }
     }
 
-    /// When the first of the clips begins and the last one ends, in seconds.
+    /// Earliest start and latest end of the clips, seconds.
     pub(crate) fn span(&self) -> [f64; 2] {
         self.span
     }
 
-    /// Whether clips begin again when they are over.
+    /// Whether clips loop.
     pub(crate) fn repeats(&self) -> bool {
         self.repeats
     }
 
-    /// What plays at a time.
+    /// Clips with their local times and weights at a time in seconds.
     pub(crate) fn playing(&self, time: f64) -> Vec<Playing> {
         let weights: Vec<Option<f64>> = (self.asked.iter())
             .map(|own| own.weight.as_ref().map(|weight| weight.at(time, self.over)))
@@ -128,7 +128,7 @@ impl Blend {
     }
 }
 
-/// The first clip whose name matches a pattern, with a note if others match as well.
+/// First clip whose name matches a pattern. Adds a note if several match.
 ///
 /// # Errors
 /// If no name matches.
@@ -152,7 +152,7 @@ fn matching(clips: &[Clip], pattern: &str, notes: &mut Vec<String>) -> Result<us
     Err(Error::new(format!("the model has no animation `{pattern}`")).remedy(remedy))
 }
 
-/// The names of clips, the first of many.
+/// Names of clips, shortened to [`MAX_NAMES`].
 fn names(clips: &[Clip]) -> String {
     let shown: Vec<&str> = clips.iter().take(MAX_NAMES).map(|clip| clip.name.as_str()).collect();
     let more = clips.len().saturating_sub(MAX_NAMES);
@@ -160,7 +160,7 @@ fn names(clips: &[Clip]) -> String {
 }
 
 impl Weight {
-    /// `0.7`; `1..0` over the time that is drawn; `1@0.5..0@2`, each with its time in seconds.
+    /// Reads `0.7`, `1..0` (over the drawn time), or `1@0.5..0@2` (times in seconds).
     fn parse(text: &str) -> Result<Self, Error> {
         let wrong = |message: String| {
             Error::new(message).at("--animation").remedy(
@@ -208,7 +208,7 @@ impl Weight {
     }
 }
 
-/// The value at a time of keys in their order.
+/// Value of sorted keys at a time, linearly interpolated.
 fn between(keys: &[(f64, f64)], time: f64) -> f64 {
     let after = keys.partition_point(|(key, _)| *key <= time);
     let before = after.checked_sub(1).and_then(|before| keys.get(before));
@@ -277,7 +277,7 @@ mod tests {
             [0.0, 1.0, 1.5, 3.0, 9.0].map(fade),
             [[1.0, 0.0], [1.0, 0.0], [0.75, 0.25], [0.0, 1.0], [0.0, 1.0]]
         );
-        // Over all of the clips, or of what is drawn.
+        // Over the span of the clips, or over the drawn time.
         assert_eq!(weights(&["Walk:1..0", "Run"], 1.0).map_weights(), [0.75, 0.25]);
         let film = blend(&["Walk:0..1..0", "Run"]).unwrap().over([0.0, 8.0]);
         assert_eq!([0.0, 4.0, 6.0].map(|time| film.playing(time)[0].weight), [0.0, 1.0, 0.5]);

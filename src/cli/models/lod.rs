@@ -1,4 +1,4 @@
-//! `ligne lod`: the simplification order of a model, and models with a limited number of faces.
+//! `ligne lod`: stores the simplification order of a model. Also limits the number of faces of models.
 
 use std::path::{Path, PathBuf};
 
@@ -38,7 +38,7 @@ pub(crate) struct LodArgs {
     quiet: bool,
 }
 
-/// Finds all collapses of the model, and writes them.
+/// Computes all edge collapses of the model and writes them.
 pub(crate) fn run(args: &LodArgs) -> Result<(), Error> {
     let out = args.out.clone().unwrap_or_else(|| Detail::beside(&args.model));
     check_place(&out)?;
@@ -70,8 +70,8 @@ pub(crate) fn run(args: &LodArgs) -> Result<(), Error> {
     Ok(())
 }
 
-/// The levels of detail of a model: from the file beside it, or else found anew, down to so many faces. What keeps such a
-/// file from being taken is noted in the scene.
+/// Levels of detail of a model, from the file next to it, or computed down to `faces` faces. If the file
+/// cannot be used, the scene gets a note.
 pub(crate) fn detail(model: &Path, scene: &mut Scene, faces: u64) -> Detail {
     let beside = Detail::beside(model);
     if let Ok(bytes) = std::fs::read(&beside) {
@@ -83,7 +83,7 @@ pub(crate) fn detail(model: &Path, scene: &mut Scene, faces: u64) -> Detail {
     Detail::down_to(scene, faces)
 }
 
-/// A pose of the scene that the levels are of, with no more than so many faces, or with the fewest there may be.
+/// Reduces a pose of the scene to at most `faces` faces, or to the fewest possible.
 pub(crate) fn reduced(scene: &Scene, detail: &Detail, faces: u64) -> Result<Scene, Error> {
     let mut levels = detail.levels();
     let fewest = levels.seek(scene, faces)?;

@@ -1,4 +1,4 @@
-//! Models as a request asks for them: read, posed, filtered and simplified.
+//! Models of requests: read, posed, filtered and simplified.
 //!
 //! 1. [`opened_model`] reads the model from a file or standard input.
 //! 2. [`posed_scene`] poses it at the time of the request, with the weights of [`clip_blend`].

@@ -1,4 +1,4 @@
-//! The model of a request: read, at its moment, with its parts, and with as many faces as asked for.
+//! Model of a request: read, posed, reduced to its parts and simplified.
 
 use std::io::Read;
 
@@ -18,21 +18,21 @@ use crate::scene::Scene;
 use crate::scene::cameras::framing::world_points;
 use crate::style::Style;
 
-/// A model that was read.
+/// Model of a request.
 pub(crate) struct Opened {
     pub(crate) scene: Scene,
-    /// The points that the frame is to hold, where they are not those of the scene.
+    /// World points that must fit into the frame; none if they are those of the scene.
     pub(crate) framed: Option<Vec<DVec3>>,
     /// Warnings about the options.
     pub(crate) warnings: Vec<String>,
-    /// Choices made for the user.
+    /// Notes on choices made for the user.
     pub(crate) notes: Vec<String>,
 }
 
-/// The model: at the moment, with the parts, and with as many faces as asked for.
+/// Opens the model of a request: poses it, removes parts, and limits its faces.
 pub(crate) fn open(request: &DrawRequest, model: Option<Rigged>, style: &Style) -> Result<Opened, Error> {
     let mut rigged = model.map_or_else(|| read(request), Ok)?;
-    // Levels of detail belong to the stored model, with all parts and before any motion.
+    // Levels of detail belong to the stored model, with all parts and in its rest pose.
     let coarse = request.faces.map(|faces| (lod::detail(&request.model, &mut rigged.scene, faces), faces));
     let (mut scene, notes) = scene_at(rigged, request, style)?;
     let warnings = usage_warnings::unmatched(&scene, &request.only, &request.hide);
@@ -46,7 +46,7 @@ pub(crate) fn open(request: &DrawRequest, model: Option<Rigged>, style: &Style) 
     Ok(Opened { scene, framed, warnings, notes })
 }
 
-/// The stored model, with its animations if one of them is drawn.
+/// Reads the model, with its animations if the request needs them.
 pub(crate) fn read(request: &DrawRequest) -> Result<Rigged, Error> {
     match (request.piped, request.stands()) {
         (Some(format), stands) => read_piped(format, stands).map_err(|error| error.in_file(&request.model)),
@@ -55,7 +55,7 @@ pub(crate) fn read(request: &DrawRequest) -> Result<Rigged, Error> {
     }
 }
 
-/// The model on standard input.
+/// Reads the model from standard input.
 fn read_piped(format: ModelFormat, stands: bool) -> Result<Rigged, Error> {
     let mut bytes = Vec::new();
     std::io::stdin().lock().read_to_end(&mut bytes).map_err(|error| Error::io("cannot be read", error))?;

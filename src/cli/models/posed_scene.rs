@@ -1,4 +1,4 @@
-//! The scene at one moment of its animation.
+//! Scene at one moment of its animation.
 
 use super::clip_blend::Blend;
 use crate::animation::{Clip, Rigged};
@@ -8,11 +8,11 @@ use crate::motion;
 use crate::scene::Scene;
 use crate::style::Style;
 
-/// The scene at the time of a request, with the trails of motion lines, and notes on the choice of clips. Without a clip and a time it
-/// is the scene as stored.
+/// Poses the scene at the time of a request and adds motion lines. Also returns notes on the choice of clips.
+/// Without a clip and a time the scene stays as stored.
 ///
 /// # Errors
-/// If no clip has such a name, or if a pose is not finite.
+/// If no clip has the requested name, or if a pose is not finite.
 pub(crate) fn scene_at(
     rigged: Rigged,
     request: &DrawRequest,
@@ -42,7 +42,7 @@ pub(crate) fn scene_at(
     Ok((scene, blend.notes().to_vec()))
 }
 
-/// Whether a time lies within a clip, or the clip is all at one time.
+/// Whether a time lies within a clip. Always true for clips of zero length, and for time 0.
 fn has(clip: &Clip, time: f64) -> bool {
     let [from, to] = clip.span();
     (from..=to).contains(&time) || from == to || time == 0.0

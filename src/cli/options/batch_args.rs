@@ -1,4 +1,4 @@
-//! Options of `ligne draw` for several models, several views, and drawing again.
+//! Options of `ligne draw` for several models, several views, and watching.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use crate::cli::output::output_files::is_stdout;
 use crate::error::Error;
 use crate::load::ModelFormat;
 
-/// Options for several models, several views, and drawing again.
+/// Options for several models, several views, and watching.
 #[derive(Debug, Args)]
 pub(crate) struct ManyArgs {
     /// Draw all models into this folder: DIR/NAME.svg, or DIR/NAME-VIEW.svg with several views
@@ -44,9 +44,9 @@ pub(crate) struct ManyArgs {
 /// A name after `--format`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Named {
-    /// Of a format that drawings are written in: its ending.
+    /// Ending of a drawing format.
     Drawing(&'static str),
-    /// Of a format of models: the older spelling of `--input-format`.
+    /// Model format, an older spelling of `--input-format`.
     Model(ModelFormat),
 }
 
@@ -64,12 +64,12 @@ fn model_format(text: &str) -> Result<ModelFormat, String> {
 }
 
 impl ManyArgs {
-    /// Whether it takes more than one drawing, made once.
+    /// Whether these options need batch drawing.
     pub(crate) const fn is_asked(&self) -> bool {
         self.out_dir.is_some() || self.resume || self.watch
     }
 
-    /// The endings of the drawings of each model, each once.
+    /// Endings of the drawings of each model, without duplicates.
     pub(crate) fn endings(&self) -> Vec<&'static str> {
         let mut endings = Vec::new();
         for named in &self.format {
@@ -82,10 +82,10 @@ impl ManyArgs {
         endings
     }
 
-    /// What standard input holds, where one of the models is read from there.
+    /// Format of the model on standard input; none if no model is read from there.
     ///
     /// # Errors
-    /// If it is not told, if it is told twice, and if it is told of no model.
+    /// If the format is missing or given twice, or if it is given and no model is read from standard input.
     pub(crate) fn piped<'a>(
         &self,
         models: impl IntoIterator<Item = &'a PathBuf>,
@@ -114,10 +114,10 @@ impl ManyArgs {
         }
     }
 
-    /// Where drawings of one model go: as typed, or by the model's name in the current folder.
+    /// Output paths of the drawings of one model: as typed, or named after the model in the working folder.
     ///
     /// # Errors
-    /// If formats are told twice, and if nothing tells the name.
+    /// If both paths and formats are given, or if standard output would receive a format other than SVG.
     pub(crate) fn paths(&self, model: &Path, typed: Vec<PathBuf>) -> Result<Vec<PathBuf>, Error> {
         let endings = self.endings();
         if !typed.is_empty() {
@@ -140,7 +140,7 @@ impl ManyArgs {
     }
 }
 
-/// The model's name with another ending, without its folder.
+/// Name of the model with another ending, without its folder.
 fn named(model: &Path, ending: &str) -> PathBuf {
     let mut name = stem(model);
     name.push(".");
@@ -148,7 +148,7 @@ fn named(model: &Path, ending: &str) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// The model's name without folder and ending; that of standard input is `model`.
+/// Name of the model without folder and ending; `model` for standard input.
 pub(crate) fn stem(model: &Path) -> std::ffi::OsString {
     if is_stdout(model) {
         return "model".into();

@@ -1,4 +1,4 @@
-//! Options of contact sheets of views and of moments.
+//! Options of contact sheets: views and moments.
 
 use clap::Args;
 

@@ -243,7 +243,7 @@ pub(crate) enum GroupBy {
     Part,
 }
 
-/// A colour of the paper, or none.
+/// Paper colour; none for a transparent background.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Background(pub(crate) Option<Colour>);
 
@@ -255,7 +255,7 @@ fn background(text: &str) -> Result<Background, String> {
     Ok(Background(Some(colour)))
 }
 
-/// The names of a view.
+/// Name and aliases of a named view.
 fn view_value(view: NamedView) -> PossibleValue {
     PossibleValue::new(view.name()).aliases(view.other_name())
 }

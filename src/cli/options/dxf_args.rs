@@ -1,4 +1,4 @@
-//! Options of drawings in DXF.
+//! Options of DXF output.
 
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -9,7 +9,7 @@ use crate::export::{DxfLength, DxfOptions, DxfVersion};
 use crate::scene::Camera;
 use crate::scene::cameras::camera::Projection;
 
-/// How DXF is written.
+/// Options of DXF output.
 #[derive(Debug, Clone, Copy, Args)]
 pub(crate) struct DxfArgs {
     /// DXF release: r12 (read by every program) or 2000 (with fills, line widths and units)
@@ -25,7 +25,7 @@ pub(crate) struct DxfArgs {
     dxf_length: Lengths,
 }
 
-/// Whose lengths a DXF file has.
+/// Source of the lengths in a DXF file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Lengths {
     Page,
@@ -38,10 +38,10 @@ impl Default for DxfArgs {
     }
 }
 
-/// The drawing as DXF, and what there is to say of what it leaves out.
+/// Encodes a drawing as DXF, and returns a warning about elements that DXF cannot hold.
 ///
 /// # Errors
-/// Where lengths of the model are asked for and the view is in perspective.
+/// If model lengths are requested for a perspective view.
 pub(crate) fn encode(
     drawing: &Drawing,
     camera: &Camera,
@@ -52,7 +52,7 @@ pub(crate) fn encode(
         (Lengths::Page, _) => {}
         (Lengths::Model, Projection::Orthographic { height }) => {
             let per_unit = camera.height / height;
-            // The frame lies in the middle of the page, and the eye looks at its middle.
+            // The frame is centred on the page, and the camera looks at its centre.
             let [right, up, _] = camera.axes();
             let at = [
                 drawing.page.width / 2.0 - camera.eye.dot(right) * per_unit,

@@ -25,7 +25,7 @@ pub(crate) struct FramingArgs {
     pub(crate) unit: Option<ModelUnit>,
 }
 
-/// The parts that are fitted into the frame. Plain comments keep the values on one line of help.
+/// Parts that must fit into the frame. Plain comments keep the values on one line of help.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Frame {
     // All parts of the model.

@@ -1,4 +1,4 @@
-//! Options of PDF for presses and archives.
+//! Options of PDF output for printing and archiving.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use crate::drawing::{Composition, Drawing, Item, Page};
 use crate::error::Error;
 use crate::export::{Inks, PdfOptions, Screen, Spot, Standard, to_pdf};
 
-/// How PDF is written, but for its inks.
+/// Options of PDF output, except the inks.
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct PrintArgs {
     /// ICC profile of the press, for --ink cmyk and PDF/X-4
@@ -46,17 +46,17 @@ pub(crate) struct PrintArgs {
     outlined: bool,
 }
 
-/// What is printed, by the name of the inks.
+/// Names of the sets of inks.
 pub(crate) const INKS: [&str; 3] = ["screen", "k", "cmyk"];
 
-/// A colour and its ink.
+/// Reads a spot colour and the name of its ink.
 fn spot(text: &str) -> Result<Spot, String> {
     let (colour, name) = text.split_once('=').ok_or("write COLOUR=INK, such as \"#e4002b=PANTONE 185 C\"")?;
     let colour = Colour::parse(colour).ok_or_else(|| format!("`{colour}` is not a colour"))?;
     Ok(Spot { colour, name: name.trim().to_owned() })
 }
 
-/// A half-tone screen.
+/// Reads a halftone screen: lines per inch and angle in degrees.
 fn screen(text: &str) -> Result<Screen, String> {
     let (lpi, angle) = text.split_once('@').unwrap_or((text, "45"));
     let number = |text: &str| text.trim().parse::<f64>().map_err(|_| format!("`{text}` is not a number"));
@@ -64,7 +64,7 @@ fn screen(text: &str) -> Result<Screen, String> {
 }
 
 impl PrintArgs {
-    /// What was asked for, and what a page file asks for beside it, with the inks of both. What was typed counts.
+    /// Merges these options with the print settings of a page file. Typed options take precedence.
     #[cfg(feature = "page")]
     pub(crate) fn beside(&self, ink: Option<&str>, file: &crate::page::Print) -> (Self, Option<String>) {
         let mut all = self.clone();
@@ -79,7 +79,7 @@ impl PrintArgs {
         (all, inks)
     }
 
-    /// What was asked for with those inks; none if nothing was.
+    /// Options of the PDF exporter for a set of inks; none if all have default values.
     ///
     /// # Errors
     /// Returns an error if options contradict each other or the profile cannot be read.
@@ -118,10 +118,10 @@ impl PrintArgs {
         Ok((options != PdfOptions::default()).then_some(options))
     }
 
-    /// What was asked for with those inks, of those files.
+    /// Options of the PDF exporter, if an output is a PDF.
     ///
     /// # Errors
-    /// Returns an error as [`PrintArgs::options`] does, and if something was asked for and none of them is a PDF.
+    /// Returns an error as [`PrintArgs::options`] does, and if PDF options are given without a PDF output.
     pub(crate) fn of_outputs(
         &self,
         ink: Option<&str>,
@@ -132,7 +132,7 @@ impl PrintArgs {
         if writes_pdf { self.options(ink) } else { Ok(None) }
     }
 
-    /// Says so if options of PDF are given where no PDF is written.
+    /// Refuses PDF options if no PDF is written.
     pub(crate) fn refuse_without_pdf(&self, ink: Option<&str>, writes_pdf: bool) -> Result<(), Error> {
         let given = [
             (ink.is_some_and(|ink| INKS.iter().any(|name| ink.eq_ignore_ascii_case(name))), "--ink"),
@@ -155,7 +155,7 @@ impl PrintArgs {
     }
 }
 
-/// A drawing as PDF, as it was asked for.
+/// Encodes a drawing as PDF.
 pub(crate) fn encode(drawing: &Drawing, options: Option<&PdfOptions>) -> Result<Vec<u8>, Error> {
     let Some(options) = options else { return Ok(drawing.to_pdf()) };
     let (name, drawing, place) = ("drawing".to_owned(), drawing.clone(), kurbo::Affine::IDENTITY);

@@ -1,4 +1,4 @@
-//! Where a model is cut open, and how it is taken apart.
+//! Options of sections and exploded views.
 
 use clap::Args;
 use glam::DVec3;
@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::geometry::names::glob::Glob;
 use crate::scene::Scene;
 
-/// Where a model is cut open, and what stays whole.
+/// Options of sections and exploded views.
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct SectionArgs {
     /// Cut the model open along a plane: x, +x, y=12.5, z=10mm, x=30%, normal:1,0,1@5 (sign: side to remove)
@@ -82,12 +82,12 @@ fn explosion(text: &str) -> Result<Explosion, String> {
 }
 
 impl SectionArgs {
-    /// Whether the model is drawn otherwise than it stands.
+    /// Whether the model is cut or exploded.
     pub(crate) fn is_asked(&self) -> bool {
         self.section.is_some() || self.explode.is_some()
     }
 
-    /// Takes the scene apart, if it is to be.
+    /// Explodes the scene if requested. Returns whether it did.
     pub(crate) fn take_apart(&self, scene: &mut Scene) -> Result<bool, Error> {
         let Some(explosion) = &self.explode else { return Ok(false) };
         let is_unknown =
@@ -103,7 +103,7 @@ impl SectionArgs {
         Ok(true)
     }
 
-    /// The scene as it is cut open, if it is to be.
+    /// Cuts the scene if requested. `forward` is the view direction in world space.
     pub(crate) fn cut(
         &self,
         scene: &mut Scene,

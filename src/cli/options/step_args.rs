@@ -1,20 +1,21 @@
-//! [`StepArgs`]: the options of STEP files.
+//! [`StepArgs`]: options of STEP files.
 
 use clap::Args;
 
 use crate::drawing::{Length, Unit};
 
-/// Linear tolerance where none is given, mm: a third of a 0.35 mm pen at 1:1.
+/// Default linear tolerance, mm: a third of a 0.35 mm pen at 1:1.
 const DEFAULT_TOLERANCE_MM: f64 = 0.1;
 
-/// The radius below which circles get no fewer facets, mm. Source: measured on parts of 50 to 150 mm; `docs/how-to/import.md` has the table.
+/// Radius, mm, whose number of facets all smaller circles keep. Source: measured on parts of 50 to 150 mm;
+/// table in `docs/how-to/import.md`.
 const MIN_SMOOTH_RADIUS_MM: f64 = 20.0;
 
-/// Bounds of the angle between neighbouring facets, radians.
+/// Limits of the angle between neighbouring facets, radians.
 const MIN_ANGLE: f64 = 0.05;
 const MAX_ANGLE: f64 = 0.5;
 
-/// How models in STEP files (.step, .stp) become triangles.
+/// How models in STEP files (.step, .stp) are converted to triangles.
 #[derive(Debug, Clone, Default, Args)]
 pub(crate) struct StepArgs {
     /// Converter of STEP models: a name, or PROGRAM IN.step OUT.glb MM [default: first found] [env: LIGNE_STEP_CONVERTER]
@@ -26,24 +27,25 @@ pub(crate) struct StepArgs {
     step_tolerance: Option<f64>,
 }
 
-/// The variable that names a converter.
+/// Environment variable that names a converter.
 const VARIABLE: &str = "LIGNE_STEP_CONVERTER";
 
 impl StepArgs {
-    /// The converter that the option names, or the variable. Cases under test have no words for the variable to be added to.
+    /// Converter from the option or the variable. The variable is read here too, because cases under test
+    /// have no call to extend.
     pub(crate) fn converter(&self) -> Option<String> {
         self.step_converter.clone().or_else(|| std::env::var(VARIABLE).ok().filter(|name| !name.is_empty()))
     }
 
-    /// The largest distance between surface and triangles, mm.
+    /// Maximum distance between surface and triangles, mm.
     pub(crate) fn tolerance_mm(&self) -> f64 {
         self.step_tolerance.unwrap_or(DEFAULT_TOLERANCE_MM)
     }
 
-    /// The largest angle between neighbouring facets, radians: that of a circle of [`MIN_SMOOTH_RADIUS_MM`] at this tolerance. It keeps
-    /// small holes and fillets round, for which the tolerance alone would allow a few facets only.
+    /// Maximum angle between neighbouring facets, radians: that of a circle of [`MIN_SMOOTH_RADIUS_MM`] at
+    /// this tolerance. Small holes and fillets stay round, where the tolerance alone would allow few facets.
     pub(crate) fn angle(&self) -> f64 {
-        // The sagitta of a chord is R a² / 8.
+        // The sagitta of an arc with angle a and radius R is about R a² / 8.
         (8.0 * self.tolerance_mm() / MIN_SMOOTH_RADIUS_MM).sqrt().clamp(MIN_ANGLE, MAX_ANGLE)
     }
 }

@@ -3,7 +3,7 @@
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-/// The value of `--ink` that `--current-colour` replaced.
+/// Older value of `--ink`, replaced by `--current-colour`.
 const CURRENT_COLOUR: &str = "currentColor";
 
 /// Options for drawings in web pages, and the inks of PDF.
@@ -38,7 +38,7 @@ impl WebArgs {
         self.current_colour || is_ink
     }
 
-    /// The inks of PDF, if they are given.
+    /// Inks of PDF output, if given.
     #[cfg(feature = "pdf")]
     pub(crate) fn pdf_inks(&self) -> Option<&str> {
         self.ink.as_deref().filter(|ink| !ink.eq_ignore_ascii_case(CURRENT_COLOUR))

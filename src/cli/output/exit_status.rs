@@ -1,4 +1,4 @@
-//! Which exit status an error ends with: whether to mend what was given, or to call again.
+//! Exit status of errors: whether to correct the input or to repeat the call.
 
 use std::error::Error as _;
 use std::io::{self, ErrorKind};
@@ -6,7 +6,7 @@ use std::io::{self, ErrorKind};
 use crate::cli::{LATER, WRONG};
 use crate::error::{self, Error};
 
-/// Faults of reading and writing that stay as they are until a person does something.
+/// I/O errors that persist until the user intervenes.
 const LASTING: [ErrorKind; 11] = [
     ErrorKind::NotFound,
     ErrorKind::PermissionDenied,
@@ -21,12 +21,12 @@ const LASTING: [ErrorKind; 11] = [
     ErrorKind::Unsupported,
 ];
 
-/// The status that tells what kind of error it was.
+/// Exit status for an error.
 pub(crate) fn of_error(error: &Error) -> u8 {
     if passes(error) { LATER } else { WRONG }
 }
 
-/// Whether the same may well succeed later.
+/// Whether the same call may succeed later.
 pub(crate) fn passes(error: &Error) -> bool {
     let source = error.source().and_then(|source| source.downcast_ref::<io::Error>());
     error.kind == error::ErrorKind::Io && source.is_some_and(|source| !LASTING.contains(&source.kind()))

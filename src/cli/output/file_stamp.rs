@@ -1,13 +1,13 @@
-//! [`Stamp`]: how a file was found, to tell whether it has changed.
+//! [`Stamp`]: modification time and size of a file, to detect changes.
 
 use std::fs;
 use std::path::Path;
 use std::time::SystemTime;
 
-/// How a file was found.
+/// Modification time and size of a file; none if there is no file.
 pub(crate) type Stamp = Option<(SystemTime, u64)>;
 
-/// When a file was changed, and how large it is; none where there is no file.
+/// Reads the modification time and size of a file.
 pub(crate) fn stamp(path: &Path) -> Stamp {
     let found = fs::metadata(path).ok()?;
     Some((found.modified().ok()?, found.len()))

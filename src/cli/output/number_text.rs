@@ -1,4 +1,4 @@
-//! Numbers as people read them.
+//! Numbers formatted for messages.
 
 /// Digits in groups of three: `69,451`.
 pub(crate) fn grouped(n: u64) -> String {
@@ -13,12 +13,12 @@ pub(crate) fn grouped(n: u64) -> String {
     text
 }
 
-/// A count with its noun, which takes an s but for one: `1 path`, `74 paths`.
+/// A count with its noun and a plural s: `1 path`, `74 paths`.
 pub(crate) fn counted(n: u64, noun: &str) -> String {
     format!("{} {noun}{}", grouped(n), if n == 1 { "" } else { "s" })
 }
 
-/// A size of a file in thousands of bytes: `812 B`, `18.2 kB`, `1.4 MB`.
+/// A file size in decimal units: `812 B`, `18.2 kB`, `1.4 MB`.
 pub(crate) fn bytes(n: u64) -> String {
     match n {
         0..1_000 => format!("{n} B"),
@@ -27,14 +27,14 @@ pub(crate) fn bytes(n: u64) -> String {
     }
 }
 
-/// A length with at most `decimals` decimals and no zeros behind.
+/// A length with at most `decimals` decimals, without trailing zeros.
 pub(crate) fn plain(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// A coordinate with six digits that count.
+/// A coordinate with about six significant digits.
 pub(crate) fn short(value: f64) -> String {
     let large = value.abs() >= 1e9 || (value != 0.0 && value.abs() < 1e-4);
     if large {
@@ -44,7 +44,7 @@ pub(crate) fn short(value: f64) -> String {
     plain(value, 7_usize.saturating_sub(before_point).min(6))
 }
 
-/// A small length with three digits that count: `0.0009`, `1.19e-7`.
+/// A small length with three significant digits: `0.0009`, `1.19e-7`.
 pub(crate) fn three_digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
     if rounded != 0.0 && rounded.abs() < 1e-4 { format!("{rounded:e}") } else { rounded.to_string() }

@@ -1,14 +1,14 @@
-//! [`Numbered`]: files with numbers in their names, `frames/%04d.svg`.
+//! [`Numbered`]: numbered file names such as `frames/%04d.svg`.
 
 use std::path::{Path, PathBuf};
 
 use super::output_files::{Format, Output};
 use crate::error::Error;
 
-/// Files with numbers in their names.
+/// Numbered files.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Numbered {
-    /// The folder they are in; empty for the working folder.
+    /// Folder of the files; empty for the working folder.
     pub(crate) folder: PathBuf,
     before: String,
     digits: usize,
@@ -17,7 +17,7 @@ pub(crate) struct Numbered {
 }
 
 impl Numbered {
-    /// Tells them by the name; none if there is no number in it. `what` is numbered.
+    /// Reads a numbered file name; none if it has no number. `what` names the numbered thing in errors.
     pub(crate) fn of(
         path: &Path,
         what: &str,
@@ -41,14 +41,15 @@ impl Numbered {
         Ok(Some(Self { folder, before, digits, after, format }))
     }
 
-    /// The file of a frame.
+    /// Path of a frame or page.
     pub(crate) fn path(&self, frame: usize) -> PathBuf {
         let Self { before, digits, after, .. } = self;
         self.folder.join(format!("{before}{frame:0digits$}{after}"))
     }
 }
 
-/// What stands before `%04d` (or `%d`) in a name, how many digits it asks for, and what stands behind it; `%%` is a percent sign.
+/// Splits a name at `%04d` or `%d`: the text before it, the number of digits, and the text after it. `%%` is
+/// a percent sign.
 fn number_in(name: &str) -> Option<[String; 3]> {
     let mut parts = [String::new(), String::new()];
     let mut digits = None;

@@ -1,4 +1,4 @@
-//! Outputs: files are written beside their place and renamed at the end, all or none.
+//! Output files: written under temporary names and renamed at the end, all or none.
 
 use std::fs;
 use std::io::{ErrorKind, Write};
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use crate::error::Error;
 use crate::load::ModelFormat;
 
-/// What is written, and where.
+/// Format of an output.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Format {
     Svg,
@@ -19,7 +19,7 @@ pub(crate) enum Format {
     SvgToStdout,
 }
 
-/// One output of a drawing.
+/// Output of a drawing.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Output {
     /// The path as it was typed.
@@ -28,7 +28,7 @@ pub(crate) struct Output {
 }
 
 impl Output {
-    /// Tells the format by the ending.
+    /// Reads the format from the file ending.
     pub(crate) fn new(path: PathBuf) -> Result<Self, Error> {
         if is_stdout(&path) {
             return Ok(Self { path, format: Format::SvgToStdout });
@@ -69,7 +69,7 @@ impl Output {
         Ok(Self { path, format })
     }
 
-    /// The name in messages.
+    /// Name of the output in messages.
     pub(crate) fn name(&self) -> String {
         match self.format {
             Format::SvgToStdout => "standard output".to_owned(),
@@ -78,12 +78,12 @@ impl Output {
     }
 }
 
-/// Whether a path stands for standard output.
+/// Whether a path means standard output.
 pub(crate) fn is_stdout(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// Refuses a place that nothing can be written to, before any work is done.
+/// Refuses an output path that cannot be written, before any work is done.
 pub(crate) fn check_place(path: &Path) -> Result<(), Error> {
     if is_stdout(path) {
         return Err(Error::new("this output cannot go to standard output").remedy("name a file"));
@@ -101,11 +101,11 @@ pub(crate) fn check_place(path: &Path) -> Result<(), Error> {
     }
 }
 
-/// Files written beside their places, not yet in them. What is not committed is removed again.
+/// Files under temporary names next to their final paths. Files that are not committed are removed on drop.
 #[derive(Debug, Default)]
 pub(crate) struct Staging {
     files: Vec<Staged>,
-    /// Folders that were not there before.
+    /// Folders that were created for the files.
     folders: Vec<PathBuf>,
 }
 
@@ -113,15 +113,14 @@ pub(crate) struct Staging {
 struct Staged {
     /// The path as it was typed, for messages.
     typed: PathBuf,
-    /// The file that is replaced in the end; symbolic links followed.
+    /// Final path with symbolic links resolved.
     place: PathBuf,
-    /// What is written: beside the place; or the place itself if that is a device or a pipe, which
-    /// has nothing to lose.
+    /// Path that is written: a temporary name, or the final path of a device or pipe.
     written: PathBuf,
 }
 
 impl Staging {
-    /// Writes a file beside its place.
+    /// Writes a file under a temporary name next to its final path.
     pub(crate) fn add(&mut self, path: &Path, bytes: &[u8]) -> Result<(), Error> {
         check_place(path)?;
         let place = path.canonicalize().unwrap_or_else(|_| path.to_path_buf());
@@ -138,7 +137,7 @@ impl Staging {
             }
         }
         let (written, mut file) = create_beside(&place).map_err(|error| cannot_write(path, error))?;
-        // Listed before it is filled, so that a full disc leaves nothing behind.
+        // Registered before it is filled, so it is removed if the disc is full.
         self.files.push(Staged { typed: path.to_path_buf(), place, written: written.clone() });
         file.write_all(bytes).map_err(|error| cannot_write(path, error))?;
         if let Some(existing) = existing {
@@ -147,7 +146,7 @@ impl Staging {
         Ok(())
     }
 
-    /// A file beside a place, to be written bit by bit; it comes to its place with all others.
+    /// Creates a file under a temporary name that the caller fills. It is renamed with the others.
     pub(crate) fn create(&mut self, path: &Path) -> Result<fs::File, Error> {
         self.add(path, &[])?;
         let written = self.files.last().map(|file| file.written.as_path());
@@ -155,12 +154,12 @@ impl Staging {
         file.map_err(|error| cannot_write(path, error))
     }
 
-    /// Where the last file is written until it comes to its place.
+    /// Temporary path of the last file.
     pub(crate) fn last(&self) -> Option<&Path> {
         self.files.last().map(|file| file.written.as_path())
     }
 
-    /// Makes a folder, unless it is there already.
+    /// Creates a folder if it does not exist.
     pub(crate) fn make_folder(&mut self, path: &Path) -> Result<(), Error> {
         if !path.is_dir() {
             fs::create_dir(path).map_err(|error| cannot_write(path, error))?;
@@ -169,7 +168,7 @@ impl Staging {
         Ok(())
     }
 
-    /// Puts all files in their places.
+    /// Renames all files to their final paths.
     pub(crate) fn commit(mut self) -> Result<(), Error> {
         while let Some(file) = self.files.first() {
             fs::rename(&file.written, &file.place).map_err(|error| cannot_write(&file.typed, error))?;
@@ -182,17 +181,17 @@ impl Staging {
 impl Drop for Staging {
     fn drop(&mut self) {
         for file in &self.files {
-            // Nothing more can be done about a file that cannot be removed.
+            // Failures to remove a file are ignored.
             let _ = fs::remove_file(&file.written);
         }
         for folder in &self.folders {
-            // One that holds files stays.
+            // A folder with other files in it stays.
             let _ = fs::remove_dir(folder);
         }
     }
 }
 
-/// A new file in the folder of `place`, under a name that nothing has.
+/// Creates a file with an unused temporary name in the folder of `place`.
 fn create_beside(place: &Path) -> std::io::Result<(PathBuf, fs::File)> {
     let name = place.file_name().unwrap_or(place.as_os_str()).to_string_lossy();
     for attempt in 0_u32.. {
@@ -205,7 +204,7 @@ fn create_beside(place: &Path) -> std::io::Result<(PathBuf, fs::File)> {
     Err(ErrorKind::AlreadyExists.into())
 }
 
-/// The name of the file that one with such a name was written for by [`Staging`], beside it.
+/// File name that belongs to a temporary name of [`Staging`].
 pub(crate) fn staged_for(name: &str) -> Option<&str> {
     let (drawing, by) = name.strip_prefix('.')?.strip_suffix(".tmp")?.rsplit_once('.')?;
     let (process, attempt) = by.split_once('-')?;
@@ -227,7 +226,7 @@ fn cannot_write(path: &Path, error: std::io::Error) -> Error {
 mod tests {
     use super::*;
 
-    /// An empty folder of this test's own.
+    /// Creates an empty folder for one test.
     fn folder(name: &str) -> std::io::Result<PathBuf> {
         let folder = std::env::temp_dir().join(format!("ligne-output-{name}-{}", std::process::id()));
         let _ = fs::remove_dir_all(&folder);

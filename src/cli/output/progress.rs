@@ -1,4 +1,4 @@
-//! Progress on standard error: only on a terminal, only when work takes over half a second.
+//! Progress on standard error, shown on terminals for work that takes over half a second.
 
 use std::io::{IsTerminal, Write};
 use std::path::Path;
@@ -6,25 +6,25 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// Work shorter than this shows nothing.
+/// Delay before progress is shown.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Time between two pictures of the bar.
+/// Time between two updates of the bar.
 const TICK: Duration = Duration::from_millis(100);
 
 /// Width of the bar in characters.
 const WIDTH: u128 = 20;
 
-/// Clears the line of a terminal.
+/// Escape sequence that erases the current line.
 const CLEAR: &str = "\r\x1b[K";
 
-/// A bar that moves while work goes on; dropping it clears the line.
+/// Animated progress bar. Dropping it erases the line.
 pub(crate) struct Progress {
     shown: Option<(Sender<String>, JoinHandle<()>)>,
 }
 
 impl Progress {
-    /// Begins, unless nobody would see it.
+    /// Starts the bar. It stays invisible under `--quiet` and if standard error is not a terminal.
     pub(crate) fn start(quiet: bool, model: &Path) -> Self {
         if quiet || !std::io::stderr().is_terminal() {
             return Self { shown: None };
@@ -53,17 +53,17 @@ impl Progress {
         Self { shown: Some((sender, thread)) }
     }
 
-    /// Says what is being done now.
+    /// Shows the name of the current step.
     pub(crate) fn step(&self, name: impl Into<String>) {
         if let Some((sender, _)) = &self.shown {
-            // A bar that has ended is no reason to stop working.
+            // Work continues without the bar.
             let _ = sender.send(name.into());
         }
     }
 }
 
 impl Progress {
-    /// A line on standard error that the bar makes way for; one that nobody reads is no error.
+    /// Prints a line on standard error above the bar. A closed pipe is not an error.
     pub(crate) fn tell(&self, line: &str) {
         show(&if self.shown.is_some() { format!("{CLEAR}{line}\n") } else { format!("{line}\n") });
     }
@@ -83,7 +83,7 @@ fn show(text: &str) {
     let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
 }
 
-/// A block that wanders to and fro, what is being done, and for how long.
+/// Text of the bar: a moving block, the current step, and the elapsed time.
 fn picture(elapsed: Duration, step: &str, name: &str) -> String {
     let turn = (elapsed.as_millis() / TICK.as_millis()) % (2 * WIDTH);
     let place = if turn < WIDTH { turn } else { 2 * WIDTH - 1 - turn };

@@ -100,21 +100,21 @@ pub(crate) struct PageArgs {
     strict: bool,
 }
 
-/// Where pages go.
+/// Output of pages.
 enum Target {
-    /// All to one file.
+    /// One file for all pages.
     One(Output),
-    /// Each to a file of its own.
+    /// One file per page.
     Each(Numbered),
 }
 
-/// Draws the pages, and says so; where files are watched it goes on until it is stopped.
+/// Draws the pages and prints a summary. With `--watch` it continues until it is stopped.
 pub(crate) fn run(args: &PageArgs) -> Result<(), Error> {
     if let Some(kind) = &args.new {
         return page_templates::write(kind, &args.page, args.quiet);
     }
     let targets = targets(args)?;
-    // What changes while the first pages are drawn is noticed as well.
+    // Created first, so that changes during the first drawing are detected.
     let mut watch = page_watch::Watch::new(&args.page);
     let first = library_calls::in_threads(args.threads, || draw(args, &targets))?;
     if !args.watch {
@@ -174,7 +174,7 @@ fn target(path: &Path, page: &Path) -> Result<Target, Error> {
     Ok(target)
 }
 
-/// Draws and writes all pages, or nothing.
+/// Draws all pages and writes them, all or none.
 fn draw(args: &PageArgs, targets: &[Target]) -> Result<(), Error> {
     let watch = Stopwatch::start();
     let progress = Progress::start(args.quiet, &args.page);
@@ -232,7 +232,7 @@ fn needs_numbers(format: Format) -> bool {
     matches!(format, Format::Svg | Format::Svgz | Format::Png | Format::Dxf | Format::SvgToStdout)
 }
 
-/// Warnings, which are errors under `--strict`.
+/// Prints warnings. Under `--strict` they are an error.
 fn tell_warnings(args: &PageArgs, composed: &[Composed]) -> Result<(), Error> {
     let warnings: Vec<&String> = composed.iter().flat_map(|page| &page.warnings).collect();
     if args.strict && !warnings.is_empty() {
@@ -247,10 +247,10 @@ fn tell_warnings(args: &PageArgs, composed: &[Composed]) -> Result<(), Error> {
     Ok(())
 }
 
-/// A file with its bytes and how many pages it holds; no name stands for standard output.
+/// A file: its path (none for standard output), its bytes, and its number of pages.
 type Encoded = (Option<PathBuf>, Vec<u8>, usize);
 
-/// The files of an output.
+/// Encodes the files of one output.
 fn encoded(target: &Target, pages: &[Composition], args: (&PageArgs, &Print)) -> Result<Vec<Encoded>, Error> {
     let in_file = |path: &Path, error: Error| match error.file {
         None => error.in_file(path),

@@ -1,4 +1,4 @@
-//! `ligne page --new`: a page file to start from, with a word on each key, and the models that it shows.
+//! `ligne page --new`: commented page files to start from, with the models they show.
 
 use std::path::Path;
 
@@ -6,10 +6,10 @@ use crate::cli::output::output_files::{Staging, check_place};
 use crate::cli::say;
 use crate::error::Error;
 
-/// A file beside the page file: its name and its bytes.
+/// Model file that is written next to the page file: name and bytes.
 type Beside = (&'static str, &'static [u8]);
 
-/// The page file of a comic page, and its models.
+/// Page file of a comic page, with its models.
 const COMIC: (&str, &[Beside]) = (
     include_str!("new-comic.toml"),
     &[
@@ -18,13 +18,13 @@ const COMIC: (&str, &[Beside]) = (
     ],
 );
 
-/// The same of a technical sheet.
+/// Page file of a technical sheet, with its models.
 const SHEET: (&str, &[Beside]) = (
     include_str!("new-sheet.toml"),
     &[("example-pump.glb", include_bytes!("../../../examples/models/pump.glb"))],
 );
 
-/// Writes a page file of that kind, and its models beside it; files that are there stay.
+/// Writes a page file of a kind, and its models next to it. Existing models stay unchanged.
 pub(crate) fn write(kind: &str, out: &Path, quiet: bool) -> Result<(), Error> {
     check_place(out)?;
     if out.exists() {

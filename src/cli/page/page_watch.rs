@@ -1,4 +1,4 @@
-//! Waiting until a page file, or a file that it names, changes.
+//! Waits for changes of a page file and its input files.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -7,15 +7,15 @@ use std::time::Duration;
 use crate::cli::output::file_stamp::{Stamp, stamp};
 use crate::page::PageFile;
 
-/// Time between two looks at all files.
+/// Time between two checks of all files.
 const LOOK: Duration = Duration::from_millis(60);
 
-/// How long a file is to stay as it is before it is read: programs write in several strokes.
+/// Time that a file must stay unchanged before it is read, because programs write files in several steps.
 const REST: Duration = Duration::from_millis(80);
 
 type Stamps = BTreeMap<PathBuf, Stamp>;
 
-/// Looks at the files of a page file.
+/// Watch over a page file and its inputs.
 pub(crate) struct Watch<'a> {
     page: &'a Path,
     files: Vec<PathBuf>,
@@ -23,14 +23,14 @@ pub(crate) struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    /// Begins; what changes from now on is noticed.
+    /// Starts watching. Later changes are detected.
     pub(crate) fn new(page: &'a Path) -> Self {
         let files = files(page).unwrap_or_else(|| vec![page.to_path_buf()]);
         let seen = stamps(&files);
         Self { page, files, seen }
     }
 
-    /// Waits until something has changed.
+    /// Waits for a change.
     pub(crate) fn changed(&mut self) {
         loop {
             std::thread::sleep(LOOK);
@@ -47,12 +47,12 @@ impl<'a> Watch<'a> {
                     break;
                 }
             }
-            // A file that is away may be on its way back: programs that save replace files.
+            // A missing file may come back: programs often save by replacing a file.
             let is_there = now.values().all(Option::is_some) || self.seen.values().any(Option::is_none);
             if !is_there {
                 continue;
             }
-            // While the page file cannot be read, it may name what it did before.
+            // An unreadable page file keeps its previous inputs.
             self.files = files(self.page).unwrap_or_else(|| self.files.clone());
             self.seen = stamps(&self.files);
             return;

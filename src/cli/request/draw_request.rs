@@ -1,4 +1,4 @@
-//! [`DrawRequest`]: what is meant by what was typed, checked before any work is done.
+//! [`DrawRequest`]: checked options of one drawing.
 
 use std::path::{Path, PathBuf};
 
@@ -19,45 +19,45 @@ use crate::load::ModelFormat;
 use crate::pipeline::{MapFiles, Stage};
 use crate::scene::UpAxis;
 
-/// One drawing to be made, in one or several formats.
+/// One drawing in one or several formats.
 #[derive(Debug)]
 pub(crate) struct DrawRequest {
     pub(crate) model: PathBuf,
-    /// What standard input holds, where the model is read from there.
+    /// Format of the model on standard input; none if the model is a file.
     pub(crate) piped: Option<ModelFormat>,
-    /// How a STEP model becomes triangles.
+    /// Conversion options of STEP models.
     pub(crate) step: StepArgs,
-    /// At least one; no two to the same place.
+    /// At least one output. No two share a path.
     pub(crate) outputs: Vec<Output>,
     pub(crate) report: Option<PathBuf>,
-    /// A folder for the maps of the view.
+    /// Folder for the maps of the view.
     pub(crate) maps: Option<PathBuf>,
     pub(crate) style: String,
     pub(crate) sets: Vec<String>,
-    /// In place of the style's, which `None` leaves.
+    /// Background that replaces the one of the style; the inner `None` is transparent.
     pub(crate) background: Option<Option<Colour>>,
     pub(crate) view: View,
     pub(crate) up: Option<UpAxis>,
     pub(crate) only: Vec<String>,
     pub(crate) hide: Vec<String>,
-    /// The names of the animations that play, and when.
+    /// Animations to play, with weights.
     pub(crate) animation: Vec<String>,
-    /// Whether each begins again when it is over.
+    /// Whether animations loop.
     pub(crate) repeat: bool,
     pub(crate) time: Option<f64>,
-    /// How many faces there may be.
+    /// Maximum number of faces.
     pub(crate) faces: Option<u64>,
     pub(crate) sheet: Sheet,
-    /// What the frame is to hold.
+    /// Parts that must fit into the frame.
     pub(crate) frame: Frame,
-    /// Where the model is cut open.
+    /// Section plane and exploded view.
     pub(crate) section: SectionArgs,
-    /// Where the camera of the drawing is written.
+    /// Path for the camera record of the drawing.
     pub(crate) save_camera: Option<PathBuf>,
     pub(crate) svg: SvgChoices,
     pub(crate) web: WebArgs,
     pub(crate) dxf: DxfArgs,
-    /// How PDF is written, where that was said.
+    /// Options of PDF output, if any are given.
     #[cfg(feature = "pdf")]
     pub(crate) print: Option<PdfOptions>,
     pub(crate) dpi: Option<f64>,
@@ -67,31 +67,31 @@ pub(crate) struct DrawRequest {
     pub(crate) strict: bool,
 }
 
-/// How SVG is written.
+/// Options of SVG output.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct SvgChoices {
-    /// Decimals of coordinates; `None` for the exporter's own choice.
+    /// Decimals of coordinates; `None` for the default of the exporter.
     pub(crate) precision: Option<u8>,
     pub(crate) id_prefix: Option<String>,
     pub(crate) group: GroupBy,
 }
 
 impl DrawRequest {
-    /// Whether lengths in the drawing are those of the model: on a page with a scale, and in DXF.
+    /// Whether lengths of the drawing are model lengths: on a page with a scale, and in DXF.
     pub(crate) fn is_to_scale(&self) -> bool {
         self.sheet.scale.is_some() || self.outputs.iter().any(|output| output.format == Format::Dxf)
     }
 
-    /// Whether the model is drawn as its file stores it.
+    /// Whether the model is drawn in its stored pose.
     pub(crate) fn stands(&self) -> bool {
         self.animation.is_empty() && self.time.is_none()
     }
 
-    /// What is meant by the arguments.
+    /// Checks the arguments of `ligne draw`.
     ///
     /// # Errors
-    /// Where an output has no known format, where two outputs are the same file, and where an
-    /// output would overwrite the model.
+    /// If an output has no known format, if two outputs are the same file, or if an output would overwrite
+    /// the model.
     pub(crate) fn new(args: DrawArgs) -> Result<Self, Error> {
         let typed = args.out.into_iter().chain(args.more).chain(args.outputs).collect();
         let paths = args.many.paths(&args.model, typed)?;
@@ -117,7 +117,7 @@ impl DrawRequest {
         })
     }
 
-    /// The same with the model from standard input, where that is what its name says.
+    /// Reads the model from standard input if its path is `-`.
     pub(crate) fn reading(mut self, piped: Option<ModelFormat>) -> Self {
         self.piped = piped.filter(|_| is_stdout(&self.model));
         if self.piped.is_some() {
@@ -126,12 +126,12 @@ impl DrawRequest {
         self
     }
 
-    /// What is meant by a model and how it is drawn: SVG on standard output.
+    /// Request for a model with drawing options, and SVG on standard output.
     ///
     /// # Errors
-    /// Where options do not go together.
+    /// If options contradict each other.
     pub(crate) fn of_model(model: PathBuf, args: HowArgs) -> Result<Self, Error> {
-        // clap drops what an option requires where that conflicts with another option given.
+        // clap does not check a required option if it conflicts with another given option.
         let alone = [("--scale", args.scale.is_some()), ("--landscape", args.landscape)];
         if let Some((option, _)) = alone.into_iter().find(|(_, given)| *given && args.page.is_none()) {
             return Err(Error::new("this option needs a page in mm")
@@ -196,7 +196,7 @@ impl DrawRequest {
     }
 }
 
-/// Refuses files that would be written twice, or over the model.
+/// Refuses outputs that share a path or would overwrite the model.
 pub(crate) fn check_apart(
     model: &Path,
     outputs: &[Output],
@@ -227,7 +227,7 @@ pub(crate) fn check_apart(
     Ok(())
 }
 
-/// Whether two paths lead to one file, as far as that can be told before writing.
+/// Whether two paths lead to the same file. Files that do not exist are compared by path.
 pub(crate) fn same_file(a: &Path, b: &Path) -> bool {
     match (a.canonicalize(), b.canonicalize()) {
         (Ok(a), Ok(b)) => a == b && a.is_file(),

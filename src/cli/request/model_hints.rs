@@ -1,11 +1,12 @@
-//! Hints: common reasons for a disappointing drawing, each with the option that helps.
+//! Hints about common problems of models, each with the option that fixes it.
 //!
-//! Two rules look at the boxes of the parts:
-//! - A y-up model *lies on its back* if it stands on the plane z = 0 while the plane y = 0 cuts through it. Programs with z up put
-//!   models on the plane z = 0 and centre them on it. OBJ and PLY files do not store the axis, so ligne assumes y.
-//! - A *ground* shrinks the rest if one flat part is many times larger than everything else together.
+//! Two rules use the bounding boxes of the parts:
+//! - A y-up model *lies on its back* if it stands on the plane z = 0 and the plane y = 0 cuts through it.
+//!   Programs with z up place models on the plane z = 0 and centre them there. OBJ and PLY files do not store
+//!   the up axis, so ligne assumes y.
+//! - A flat *ground* shrinks the rest if it is many times larger than all other parts together.
 //!
-//! A hint is a note. It never changes the drawing, and `--strict` accepts it.
+//! A hint is a note. It does not change the drawing, and `--strict` accepts it.
 
 use glam::DVec3;
 
@@ -15,22 +16,23 @@ use crate::geometry::names::glob::Glob;
 use crate::scene::extent::coordinate_limits::bounds;
 use crate::scene::{Scene, UpAxis};
 
-/// Largest distance from z = 0 of a model that stands on it, share of its extent along z.
+/// Maximum distance from z = 0 of a model that stands on it, as a share of its extent along z.
 const MAX_BASE_GAP: f64 = 0.005;
 
-/// How far a model reaches to both sides of y = 0 at least, share of its extent along y.
+/// Minimum reach to each side of y = 0, as a share of the extent along y.
 const MIN_REACH: f64 = 0.05;
 
-/// Extent along z of a model that can lie on its back at least, share of its largest extent. Thinner ones are sheets.
+/// Minimum extent along z of a model that can lie on its back, as a share of its largest extent. Thinner
+/// models are sheets.
 const MIN_HEIGHT: f64 = 0.05;
 
-/// Thickness of a ground at most, share of its largest extent.
+/// Maximum thickness of a ground, as a share of its largest extent.
 const MAX_GROUND_THICKNESS: f64 = 0.05;
 
-/// Diagonal of everything but the ground at most, share of the whole diagonal.
+/// Maximum diagonal of all parts except the ground, as a share of the whole diagonal.
 const MAX_REST: f64 = 0.1;
 
-/// The hints for a drawing of a scene. A camera record was chosen for the model, so it gets none.
+/// Hints for a drawing of a scene. A camera record was chosen for the model, so it gives no hints.
 pub(crate) fn of_drawing(request: &DrawRequest, scene: &Scene) -> Vec<String> {
     if matches!(request.view, View::Recorded(_) | View::Fixed(..)) {
         return Vec::new();
@@ -43,13 +45,13 @@ pub(crate) fn of_drawing(request: &DrawRequest, scene: &Scene) -> Vec<String> {
         .collect()
 }
 
-/// One hint.
+/// Hint about a model.
 pub(crate) struct Hint {
     pub(crate) text: String,
     is_about_up: bool,
 }
 
-/// The hints for a model.
+/// Hints about a scene.
 pub(crate) fn of_scene(scene: &Scene) -> Vec<Hint> {
     let boxes: Vec<Option<Box>> = (0..scene.parts.len()).map(|part| box_of(scene, part)).collect();
     let back = lies_on_its_back(scene, &boxes).then(|| Hint {
@@ -60,10 +62,10 @@ pub(crate) fn of_scene(scene: &Scene) -> Vec<Hint> {
     back.into_iter().chain(ground).collect()
 }
 
-/// Lowest and highest corner, world.
+/// Lowest and highest corner, world space.
 type Box = (DVec3, DVec3);
 
-/// The box of a part, from the corners of its geometry's own box.
+/// World-space box of a part, from the corners of the box of its geometry.
 fn box_of(scene: &Scene, part: usize) -> Option<Box> {
     let part = scene.parts.get(part)?;
     let (low, high) = bounds(&scene.geometry_of(part)?.positions)?;
@@ -91,7 +93,7 @@ fn lies_on_its_back(scene: &Scene, boxes: &[Option<Box>]) -> bool {
     matches!(scene.format, "OBJ" | "PLY") && scene.up == UpAxis::Y && has_height && stands_on_z && straddles_y
 }
 
-/// The hint for a flat part that shrinks all others.
+/// Hint about a flat part that shrinks all others.
 fn ground(scene: &Scene, boxes: &[Option<Box>]) -> Option<String> {
     let diagonal = |(low, high): &Box| (*high - *low).length();
     let drawn = || boxes.iter().enumerate().filter_map(|(part, own)| Some((part, (*own)?)));
@@ -118,7 +120,7 @@ mod tests {
     use super::*;
     use crate::scene::{Geometry, Part};
 
-    /// A scene of boxes, each a part, given by name and two corners.
+    /// Scene with one part per box, given by name and two corners.
     fn scene(format: &'static str, boxes: &[(&str, [f64; 3], [f64; 3])]) -> Scene {
         let geometry = |(_, low, high): &(&str, [f64; 3], [f64; 3])| Geometry {
             positions: vec![DVec3::from_array(*low), DVec3::from_array(*high)],
@@ -146,7 +148,8 @@ mod tests {
         let lies = |format, low, high| !hints(format, &[("lid", low, high)]).is_empty();
         assert!(lies("OBJ", [-3.0, -2.0, 0.0], [3.0, 2.0, 5.0]));
         assert!(lies("PLY", [-3.0, -2.0, 0.01], [3.0, 2.0, 5.0]));
-        // The format says which axis is up, the model stands on y = 0, floats, is a sheet, or lies on one side of y = 0.
+        // The format defines the up axis; the model stands on y = 0; it floats; it is a sheet; it lies on one
+        // side of y = 0.
         assert!(!lies("glTF", [-3.0, -2.0, 0.0], [3.0, 2.0, 5.0]));
         assert!(!lies("OBJ", [-3.0, 0.0, 0.0], [3.0, 4.0, 5.0]));
         assert!(!lies("OBJ", [-3.0, -2.0, -2.5], [3.0, 2.0, 2.5]));
@@ -160,7 +163,7 @@ mod tests {
         let found = hints("glTF", &[house, ("ground", [-1000.0, -1.0, -1000.0], [1000.0, 0.0, 1000.0])]);
         assert!(found[0].contains("`ground`") && found[0].contains("to 1 %"), "{found:?}");
         assert!(found[0].contains("--hide 'ground'"), "{found:?}");
-        // A lawn of usual size, a dome, and a ground alone.
+        // A small lawn, a dome, and a ground without other parts.
         assert_eq!(hints("glTF", &[house, ("lawn", [-20.0, -1.0, -20.0], [20.0, 0.0, 20.0])]).len(), 0);
         assert_eq!(hints("glTF", &[house, ("sky", [-1e3; 3], [1e3; 3])]).len(), 0);
         assert_eq!(hints("glTF", &[("ground", [-1e3, -1.0, -1e3], [1e3, 0.0, 1e3])]).len(), 0);

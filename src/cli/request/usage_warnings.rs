@@ -1,4 +1,4 @@
-//! Warnings where a person would wonder: options that do nothing, patterns that fit nothing, drawings that show next to nothing.
+//! Warnings about options without effect, patterns without matches, and drawings that show almost nothing.
 
 use std::ffi::OsString;
 
@@ -12,13 +12,13 @@ use crate::scene::part_selection::glob_matches;
 use crate::scene::{Camera, Projection, Scene};
 use crate::style::bare_lengths as bare_lengths_of;
 
-/// A drawing smaller than this share of the page's shorter side is next to nothing.
+/// Maximum size of a drawing that counts as tiny, as a share of the shorter side of the page.
 const SPECK: f64 = 0.02;
 
-/// Names of parts in a warning, at most.
+/// Maximum number of part names in a warning.
 const SHOWN_NAMES: usize = 8;
 
-/// The patterns among `--only` and `--hide` that no part fits.
+/// Patterns of `--only` and `--hide` that match no part.
 pub(crate) fn unmatched(scene: &Scene, only: &[String], hide: &[String]) -> Vec<String> {
     let fits = |glob: &str| scene.parts.iter().any(|part| glob_matches(glob, &part.name));
     let given = only.iter().map(|glob| ("--only", glob)).chain(hide.iter().map(|glob| ("--hide", glob)));
@@ -33,7 +33,7 @@ pub(crate) fn unmatched(scene: &Scene, only: &[String], hide: &[String]) -> Vec<
         .collect()
 }
 
-/// The options among the words of a call that change nothing in its drawings.
+/// Typed options that do not change the drawings of a request.
 pub(crate) fn idle(request: &DrawRequest, words: impl Iterator<Item = OsString>) -> Vec<String> {
     let words: Vec<String> = words.map(|word| word.to_string_lossy().into_owned()).collect();
     let typed = |option: &str| {
@@ -58,7 +58,7 @@ pub(crate) fn idle(request: &DrawRequest, words: impl Iterator<Item = OsString>)
     idle.map(|(option, _, why)| format!("{option} changes nothing: {why}")).collect()
 }
 
-/// The warning about lengths of the style without a unit, on a page in mm.
+/// Warning about style lengths without a unit on a page in mm.
 pub(crate) fn bare_lengths(request: &DrawRequest) -> Option<String> {
     match request.sheet.extent {
         Some((_, Unit::Mm)) => bare_lengths_of(&request.style, &request.sets),
@@ -66,15 +66,15 @@ pub(crate) fn bare_lengths(request: &DrawRequest) -> Option<String> {
     }
 }
 
-/// Says so where the eye is inside a part.
+/// Warning if the camera is inside a part.
 pub(crate) fn enclosed(scene: &Scene, camera: &Camera) -> Option<String> {
-    // A parallel camera stands as far away as it needs to.
+    // The distance of an orthographic camera has no meaning.
     let Projection::Perspective { .. } = camera.projection else { return None };
     let part = scene.part_round(camera.eye)?;
     Some(format!("the eye is inside `{}`: what is drawn is seen from within", part.name))
 }
 
-/// Which parts were left out, where nothing is drawn of the others.
+/// Warning that lists the visible parts, if `--only` or `--hide` is given.
 pub(crate) fn hidden(request: &DrawRequest, scene: &Scene) -> Option<String> {
     if request.only.is_empty() && request.hide.is_empty() {
         return None;
@@ -85,7 +85,7 @@ pub(crate) fn hidden(request: &DrawRequest, scene: &Scene) -> Option<String> {
     Some(format!("--only and --hide leave nothing else to draw than {}{more}", names.join(", ")))
 }
 
-/// Says so where a drawing has next to nothing in it.
+/// Warning if the drawing is tiny.
 pub(crate) fn next_to_nothing(drawing: &Drawing) -> Option<String> {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     let boxes = marks.map(|mark| mark.path.bounding_box()).filter(|own| own.is_finite());
@@ -94,7 +94,7 @@ pub(crate) fn next_to_nothing(drawing: &Drawing) -> Option<String> {
     let mut all: Option<Rect> = None;
     for own in boxes {
         let union = all.map_or(own, |all| all.union(own));
-        // Most drawings say so with their first path.
+        // Most drawings are large enough after their first path.
         if union.width().max(union.height()) >= most {
             return None;
         }

@@ -1,4 +1,4 @@
-//! The camera and the sheet that are meant for a scene.
+//! Camera and sheet of a drawing.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -16,48 +16,48 @@ use crate::scene::cameras::framing::MARGIN;
 use crate::scene::cameras::named_views::{THREE_QUARTER_AZIMUTH_DEG, THREE_QUARTER_ELEVATION_DEG};
 use crate::scene::{Camera, NamedView, Projection, Scene};
 
-/// Share of the frame left free where the page has a margin of its own: keeps lines on the rim of
-/// the model whole.
+/// Share of the frame that stays free if the page has a margin. Keeps lines at the edge of the model whole.
 const MARGIN_WITHIN_MARGIN: f64 = 0.01;
 
-/// Share of the shorter side of the frame below which a model is a dot.
+/// Maximum size of a model that counts as a dot, as a share of the shorter side of the frame.
 const DOT: f64 = 0.02;
 
-/// From where the model is seen.
+/// Requested view of a model.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum View {
-    /// A camera record, or a camera of the model, by name.
+    /// Path of a camera record, or name of a camera in the model.
     Recorded(String),
-    /// A named view; orthographic unless told otherwise.
+    /// Named view; orthographic unless a projection is given.
     Named(NamedView, Option<Lens>),
-    /// Angles, each as in the three-quarter view unless told otherwise; perspective likewise.
+    /// Angles and projection. Missing values are those of the three-quarter view in perspective.
     Angles { azimuth_deg: Option<f64>, elevation_deg: Option<f64>, lens: Option<Lens> },
-    /// As another drawing was seen, whatever is in the frame.
+    /// Camera and sheet of another drawing.
     Fixed(Camera, Paper),
 }
 
-/// How lines of sight run.
+/// Projection of a camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Lens {
     Perspective { fov_y_deg: f64 },
     Parallel,
 }
 
-/// The sheet that is asked for.
+/// Requested sheet.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Sheet {
-    /// Its size and unit.
+    /// Size and unit.
     pub(crate) extent: Option<(Extent, Unit)>,
     pub(crate) margin: Option<Measure>,
-    /// The length on paper of one unit of length; as large as fits, or as recorded, where none is asked for.
+    /// Length on paper per length of the model. Without it the model is fitted, or the scale of the camera
+    /// record is kept.
     pub(crate) scale: Option<f64>,
-    /// What comes to the middle of the frame, world.
+    /// Point at the centre of the frame, world space.
     pub(crate) centre: Option<DVec3>,
-    /// What a unit of the model is, if it was told.
+    /// Unit of the model, if given.
     pub(crate) unit: Option<ModelUnit>,
 }
 
-/// The camera, the sheet, and a warning where the one does not fit the other.
+/// Camera and sheet, with a warning if the model does not fit.
 #[derive(Debug)]
 pub(crate) struct Viewpoint {
     pub(crate) camera: Camera,
@@ -65,11 +65,11 @@ pub(crate) struct Viewpoint {
     pub(crate) warning: Option<String>,
 }
 
-/// Chooses the camera and the sheet; the frame is to hold `points` (world).
+/// Computes the camera and the sheet. The frame fits `points` (world space).
 ///
 /// # Errors
-/// Where the camera record is wrong, where the model has no such camera, where the margin leaves nothing of the page, and what the points
-/// say.
+/// If the camera record is wrong, if the model has no such camera, if the margin leaves no room on the page,
+/// and any error of `points`.
 pub(crate) fn viewpoint<'p>(
     view: &View,
     sheet: &Sheet,
@@ -108,7 +108,7 @@ pub(crate) fn viewpoint<'p>(
     Ok(found)
 }
 
-/// A camera of a file: it keeps its own frame unless a sheet is asked for.
+/// Viewpoint of a camera record. It keeps its frame unless a sheet is requested.
 fn recorded<'p>(
     sheet: &Sheet,
     scene: &Scene,
@@ -125,10 +125,10 @@ fn recorded<'p>(
     Ok(found)
 }
 
-/// Gives a parallel camera the scale and the middle that are asked for.
+/// Applies the requested scale and centre to an orthographic camera.
 ///
 /// # Errors
-/// Where lines of sight are not parallel.
+/// If the camera is a perspective camera.
 fn place(found: &mut Viewpoint, sheet: &Sheet, scene: &Scene, points: &[DVec3]) -> Result<(), Error> {
     if !matches!(found.camera.projection, Projection::Orthographic { .. }) {
         let option = if sheet.scale.is_some() { "--scale" } else { "--centre" };
@@ -152,7 +152,7 @@ fn place(found: &mut Viewpoint, sheet: &Sheet, scene: &Scene, points: &[DVec3]) 
     Ok(())
 }
 
-/// Says what scale would do, where the model is larger than the page.
+/// Warning with the scale that would fit, if the model is larger than the page.
 fn too_large(found: &Viewpoint, sheet: &Sheet, points: &[DVec3]) -> Option<String> {
     let scale = sheet.scale?;
     let (Projection::Orthographic { height }, Projection::Orthographic { height: needed }) =
@@ -168,7 +168,7 @@ fn too_large(found: &Viewpoint, sheet: &Sheet, points: &[DVec3]) -> Option<Strin
     Some(format!("the model is larger than the page at this scale; {fits} would fit"))
 }
 
-/// Says so where the model is beside the frame, behind the eye, or a dot in it.
+/// Warning if the model is outside the frame, behind the camera, or tiny.
 fn outside(found: &Viewpoint, points: &[DVec3]) -> Option<String> {
     let Viewpoint { camera, paper, .. } = found;
     let [right, up, forward] = camera.axes();
@@ -184,7 +184,7 @@ fn outside(found: &Viewpoint, points: &[DVec3]) -> Option<String> {
             Projection::Orthographic { .. } => (1.0, false),
         };
         if perspective && depth <= 0.0 {
-            // What is behind the eye may go on before it.
+            // Parts behind the camera may extend to the front of it.
             continue;
         }
         let unit = camera.height / 2.0 / (half * depth);
@@ -212,7 +212,7 @@ fn outside(found: &Viewpoint, points: &[DVec3]) -> Option<String> {
     })
 }
 
-/// A camera that keeps its own frame unless a sheet is asked for.
+/// Viewpoint of a camera that keeps its frame unless a sheet is requested.
 pub(crate) fn on_sheet(sheet: &Sheet, camera: Camera) -> Result<Viewpoint, Error> {
     let own = (Extent { width: camera.width, height: camera.height }, Unit::Px);
     let (extent, unit) = sheet.extent.unwrap_or(own);

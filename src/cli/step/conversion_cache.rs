@@ -1,9 +1,10 @@
-//! [`Cache`]: results of conversions in the user's cache folder.
+//! [`Cache`]: converted models in the cache folder of the user.
 //!
-//! - The key is a hash of everything that the result depends on. The entry's file has it as its name.
-//! - An entry starts with a mark, the axis that points up, and a hash of the rest. One that does not match is not taken.
-//! - Entries are written next to their place and renamed, so that no reader finds half of one.
-//! - A hit renews the time of the entry's file. When all entries exceed the bound, the oldest go.
+//! - The key is a hash of everything that the result depends on. It is the file name of the entry.
+//! - An entry starts with magic bytes, the up axis, and a hash of the rest. Entries that do not match are
+//!   ignored.
+//! - Entries are written under temporary names and renamed, so readers never see half a file.
+//! - A hit updates the time of the entry. If all entries together exceed the limit, the oldest are removed.
 
 use std::fs::{self, File};
 use std::io::Write;
@@ -14,27 +15,27 @@ use std::time::{Duration, SystemTime};
 use crate::error::Error;
 use crate::scene::UpAxis;
 
-/// All entries together are no larger than this.
+/// Maximum total size of all entries, bytes.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// Unfinished files of runs that were stopped go after this time.
+/// Age after which unfinished files of stopped runs are removed.
 const MAX_UNFINISHED: Duration = Duration::from_secs(24 * 3600);
 
-/// The first bytes of an entry; the number is that of this form.
+/// First bytes of an entry. The digit is the version of the format.
 const MARK: &[u8; 4] = b"LST1";
 
 const ENDING: &str = "step-glb";
 
-/// A hash of what a result depends on.
+/// Hash of everything that a result depends on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Key(u128);
 
 impl Key {
-    /// The key of these things, in this order.
+    /// Key of a list of byte strings.
     pub(crate) fn of(things: &[&[u8]]) -> Self {
         let mut hash = Fnv::default();
         for thing in things {
-            // With its length, or two things could be parted elsewhere.
+            // Lengths are hashed as well, so that different splits give different keys.
             hash.add(&(thing.len() as u64).to_le_bytes());
             hash.add(thing);
         }
@@ -42,7 +43,7 @@ impl Key {
     }
 }
 
-/// FNV-1a of 128 bits. Source: Fowler, Noll, Vo, draft-eastlake-fnv.
+/// 128-bit FNV-1a hash. Source: Fowler, Noll, Vo, draft-eastlake-fnv.
 struct Fnv(u128);
 
 impl Default for Fnv {
@@ -60,7 +61,7 @@ impl Fnv {
     }
 }
 
-/// The folder of the results.
+/// Cache folder.
 #[derive(Debug)]
 pub(crate) struct Cache {
     folder: PathBuf,
@@ -68,13 +69,13 @@ pub(crate) struct Cache {
 }
 
 impl Cache {
-    /// The folder that `LIGNE_CACHE` names, else the user's; where none can be made, one for temporary files.
+    /// Opens the folder of `LIGNE_CACHE`, else the cache folder of the user, else a temporary folder.
     pub(crate) fn open() -> Result<Self, Error> {
         let folder =
             folder(|name| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from));
         let shared = std::env::temp_dir().join("ligne");
         let made = folder.iter().chain([&shared]).map(|folder| folder.join("step")).find(|folder| {
-            // A folder that is there may still be closed to this user.
+            // An existing folder may be write-protected.
             fs::create_dir_all(folder).is_ok()
                 && fs::metadata(folder).is_ok_and(|data| !data.permissions().readonly())
         });
@@ -84,14 +85,14 @@ impl Cache {
         })
     }
 
-    /// The place for a file that is being made.
+    /// Path for a file that is being written.
     pub(crate) fn unfinished(&self, ending: &str) -> PathBuf {
         static NUMBER: AtomicU32 = AtomicU32::new(0);
         let number = NUMBER.fetch_add(1, Ordering::Relaxed);
         self.folder.join(format!("tmp-{}-{number}.{ending}", std::process::id()))
     }
 
-    /// The GLB with this key, and which of its axes points up.
+    /// The GLB with a key, and its up axis.
     pub(crate) fn get(&self, key: Key) -> Option<(Vec<u8>, UpAxis)> {
         let path = self.path(key);
         let mut bytes = fs::read(&path).ok()?;
@@ -105,14 +106,14 @@ impl Cache {
         if Key::of(&[glb]).0.to_le_bytes() != bytes.get(5..21)? {
             return None;
         }
-        // Its age decides only what goes first.
+        // The time only decides which entries are removed first. Failures are ignored.
         let _ =
             File::options().append(true).open(&path).and_then(|file| file.set_modified(SystemTime::now()));
         bytes.drain(..21);
         Some((bytes, up))
     }
 
-    /// Keeps a GLB. A cache that cannot be written only costs time.
+    /// Stores a GLB. Failures are ignored, since the cache only saves time.
     pub(crate) fn put(&self, key: Key, glb: &[u8], up: UpAxis) {
         let unfinished = self.unfinished(ENDING);
         let write = || {
@@ -134,7 +135,7 @@ impl Cache {
         self.folder.join(format!("{:032x}.{ENDING}", key.0))
     }
 
-    /// Removes the oldest entries until the rest fits, and what stopped runs left.
+    /// Removes the oldest entries until the rest fits, and unfinished files of stopped runs.
     fn prune(&self) {
         let now = SystemTime::now();
         let mut entries: Vec<(SystemTime, u64, PathBuf)> = Vec::new();
@@ -170,7 +171,7 @@ fn has_ending(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending == ENDING)
 }
 
-/// The folder that variables name.
+/// Cache folder from environment variables.
 fn folder(variable: impl Fn(&str) -> Option<PathBuf>) -> Option<PathBuf> {
     let own = |name: &str| Some(variable(name)?.join("ligne"));
     let in_home = || {
@@ -178,7 +179,7 @@ fn folder(variable: impl Fn(&str) -> Option<PathBuf>) -> Option<PathBuf> {
         Some(variable("HOME")?.join(below).join("ligne"))
     };
     let of_windows = || cfg!(windows).then(|| own("LOCALAPPDATA")).flatten();
-    // The XDG specification: relative paths are invalid.
+    // XDG base directory specification: relative paths are invalid.
     let xdg = || own("XDG_CACHE_HOME").filter(|path| path.is_absolute());
     variable("LIGNE_CACHE").or_else(xdg).or_else(of_windows).or_else(in_home)
 }
@@ -225,7 +226,7 @@ mod tests {
                 file.set_modified(old).unwrap();
             }
         }
-        // 3 x 61 bytes are too many. The first one was just asked for.
+        // Three entries of 61 bytes exceed the limit. The second one is renewed by reading it.
         let renewed = Key::of(&[b"d"]);
         assert!(cache.get(keys[0]).is_none() && cache.get(keys[1]).is_some());
         cache.put(renewed, &[0; 40], UpAxis::Y);

@@ -1,4 +1,4 @@
-//! [`Converter`]: the programs that make GLB of STEP, and how each is called.
+//! [`Converter`]: external programs that convert STEP to GLB, and how each is called.
 
 use std::ffi::OsString;
 use std::fs;
@@ -13,13 +13,13 @@ const CASCADIO: &str = include_str!("cascadio.py");
 const OCCT: &str = include_str!("occt.js");
 const FREECAD: &str = include_str!("freecad.py");
 
-/// The exit status of a script whose package is not installed.
+/// Exit status of a script whose package is not installed.
 const NOT_INSTALLED: i32 = 91;
 
-/// The quickest way to a converter.
+/// Advice to install a converter.
 pub(crate) const REMEDY: &str = "install one with `pip install cascadio`, or name one with --step-converter";
 
-/// Names of the interpreters, in order of preference.
+/// Names of the interpreters and programs, in order of preference.
 const PYTHONS: &[&str] = if cfg!(windows) { &["python", "py"] } else { &["python3", "python"] };
 const NODES: &[&str] = &["node", "nodejs"];
 const FREECADS: &[&str] = &[
@@ -29,7 +29,7 @@ const FREECADS: &[&str] = &[
     "/Applications/FreeCAD.app/Contents/Resources/bin/freecadcmd",
 ];
 
-/// A program that makes GLB of STEP.
+/// Program that converts STEP to GLB.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Converter {
     kind: Kind,
@@ -38,28 +38,28 @@ pub(crate) struct Converter {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Kind {
-    /// A Python with cascadio.
+    /// Python with cascadio.
     Cascadio,
-    /// A Node with occt-import-js.
+    /// Node.js with occt-import-js.
     Occt,
     Freecad,
-    /// A program of the user.
+    /// Program of the user.
     Own,
 }
 
-/// The result of a conversion that did not fail.
+/// Result of a conversion without failure.
 #[derive(Debug)]
 pub(crate) enum Converted {
-    /// The file is written; this axis points up.
+    /// The file is written. Its up axis.
     Done(UpAxis),
-    /// The interpreter has no such package, as it says itself.
+    /// The package is not installed. Message of the interpreter.
     NotInstalled(String),
 }
 
-/// The converters to try, in order.
+/// Converters to try, in order.
 ///
 /// # Errors
-/// If one is named and there is no such program.
+/// If the named converter does not exist.
 pub(crate) fn candidates(args: &StepArgs) -> Result<Vec<Converter>, Error> {
     let of = |kind: Kind, names: &[&str]| -> Vec<Converter> {
         let programs = names.iter().filter_map(|name| find(name));
@@ -90,7 +90,7 @@ pub(crate) fn candidates(args: &StepArgs) -> Result<Vec<Converter>, Error> {
 }
 
 impl Kind {
-    /// By the program's name: `python3.12`, `node`, `freecadcmd`; anything else is the user's own.
+    /// Kind by program name: `python3.12`, `node`, `freecadcmd`. Other names are programs of the user.
     fn of(program: &Path) -> Self {
         let name = program.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         let name = name.strip_suffix(".exe").unwrap_or(&name);
@@ -105,7 +105,7 @@ impl Kind {
     }
 }
 
-/// A program by its path, or by its name in `PATH`.
+/// Path of a program, from its path or its name in `PATH`.
 fn find(name: &str) -> Option<PathBuf> {
     let path = Path::new(name);
     if path.components().count() > 1 {
@@ -113,7 +113,7 @@ fn find(name: &str) -> Option<PathBuf> {
     }
     let endings: &[&str] = if cfg!(windows) { &["", ".exe", ".cmd", ".bat"] } else { &[""] };
     let folders = std::env::var_os("PATH")?;
-    // An empty entry is the working folder, which must not stand in for an installed program.
+    // An empty entry means the working folder. A file there must not replace an installed program.
     let folders = std::env::split_paths(&folders).filter(|folder| !folder.as_os_str().is_empty());
     let mut places =
         folders.flat_map(|folder| endings.iter().map(move |ending| folder.join(format!("{name}{ending}"))));
@@ -121,7 +121,7 @@ fn find(name: &str) -> Option<PathBuf> {
 }
 
 impl Converter {
-    /// The name in messages.
+    /// Name in messages.
     pub(crate) fn name(&self) -> String {
         let package = match self.kind {
             Kind::Cascadio => "cascadio",
@@ -132,7 +132,7 @@ impl Converter {
         format!("{package} ({})", self.program.display())
     }
 
-    /// The bytes that its results depend on, except for the model: the script, or the user's program, which may change.
+    /// Bytes that identify the converter in cache keys: its path, and its script or program file.
     pub(crate) fn identity(&self) -> Vec<u8> {
         let mut identity = self.program.to_string_lossy().into_owned().into_bytes();
         identity.push(0);
@@ -145,10 +145,10 @@ impl Converter {
         identity
     }
 
-    /// Makes the GLB.
+    /// Converts a model to GLB.
     ///
     /// # Errors
-    /// If the converter fails, or exceeds its time or memory.
+    /// If the converter fails, or exceeds its time or memory limit.
     pub(crate) fn convert(&self, model: &Path, glb: &Path, args: &StepArgs) -> Result<Converted, Error> {
         let limits = Limits::of_process();
         let model = std::path::absolute(model).unwrap_or_else(|_| model.to_path_buf());
@@ -181,7 +181,7 @@ impl Converter {
             }
             Kind::Own => in_and_out().into_iter().chain([OsString::from(&tolerance)]).collect(),
         };
-        // Node reserves more address space than it uses; its own option and WebAssembly bound it.
+        // Node.js reserves more address space than it uses. Its own option and WebAssembly limit the memory.
         let bounds = (limits, self.kind != Kind::Occt);
         let outcome = run(&self.program, &words, &variables, bounds, &glb.with_extension("log"));
         if let Some(script) = script_file {
@@ -198,7 +198,7 @@ impl Converter {
                 Err(Error::new(format!("{name} wrote no GLB{}", with(said))).remedy(FAILED))
             }
             Outcome::Exited(0, _) => Ok(Converted::Done(match self.kind {
-                // It keeps the axes of STEP.
+                // Cascadio keeps the axes of STEP.
                 Kind::Cascadio => UpAxis::Z,
                 Kind::Occt | Kind::Freecad | Kind::Own => UpAxis::Y,
             })),
@@ -230,7 +230,7 @@ const FAILED: &str = "export the STEP file again (AP214 or AP242), or try anothe
 const MORE_MEMORY: &str =
     "give a larger --step-tolerance, more memory with LIGNE_STEP_MB, or another --step-converter";
 
-/// Whether the last words of a program say that memory ran out.
+/// Whether the last line of a program's output reports a lack of memory.
 fn lacks_memory(said: &str) -> bool {
     let said = said.to_ascii_lowercase();
     ["allocate", "bad_alloc", "memoryerror", "out of memory"].iter().any(|word| said.contains(word))

@@ -1,4 +1,4 @@
-//! A converter as a process, with bounds on its time and memory.
+//! Runs a converter as a process with limits on time and memory.
 
 use std::ffi::OsString;
 use std::fs::{self, File};
@@ -7,21 +7,21 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// Bounds, where the environment does not set others. A STEP file of 100 MB takes a minute and 2 GB.
+/// Default limits. A STEP file of 100 MB takes about a minute and 2 GB.
 const MAX_SECONDS: u64 = 300;
 const MAX_MB: u64 = 8192;
 
-/// Variables that set other bounds.
+/// Environment variables for other limits.
 pub(crate) const SECONDS_VARIABLE: &str = "LIGNE_STEP_SECONDS";
 pub(crate) const MB_VARIABLE: &str = "LIGNE_STEP_MB";
 
-/// Time between two looks at the process.
+/// Time between two checks of the process.
 const POLL: Duration = Duration::from_millis(10);
 
-/// The end of a long output says what went wrong.
+/// Maximum number of bytes read from the end of the output, bytes. Converters report errors last.
 const MAX_SHOWN_BYTES: u64 = 2000;
 
-/// Bounds of a converter.
+/// Limits of a converter.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Limits {
     pub(crate) seconds: u64,
@@ -29,7 +29,7 @@ pub(crate) struct Limits {
 }
 
 impl Limits {
-    /// The bounds that the environment sets, else the built-in ones.
+    /// Limits from the environment, or the defaults.
     pub(crate) fn of_process() -> Self {
         let number = |name: &str| std::env::var(name).ok()?.trim().parse().ok().filter(|n: &u64| *n > 0);
         Self {
@@ -42,19 +42,20 @@ impl Limits {
 /// How a converter ended.
 #[derive(Debug)]
 pub(crate) enum Outcome {
-    /// With this exit status, and with these last words.
+    /// Exit status and last line of output.
     Exited(i32, String),
-    /// By a signal, with these last words.
+    /// Stopped by a signal; last line of output.
     Killed(String),
-    /// The time was over, and it was stopped.
+    /// Stopped because the time limit was exceeded.
     TimedOut,
-    /// There is no such program, or it cannot be run.
+    /// The program does not exist or cannot be run.
     NotRun(std::io::Error),
 }
 
-/// Runs a program until it ends or its time is over. Its output goes to `log`: a pipe would have to be read meanwhile.
+/// Runs a program until it ends or exceeds its time. Its output goes to the file `log`, because a pipe would
+/// have to be read meanwhile.
 ///
-/// `bounds_memory` is for programs that reserve little more address space than they use.
+/// `bounds_memory` limits the address space, for programs that reserve little more than they use.
 pub(crate) fn run(
     program: &Path,
     arguments: &[OsString],
@@ -85,7 +86,7 @@ pub(crate) fn run(
             }
             Ok(None) if started.elapsed() < Duration::from_secs(limits.seconds) => std::thread::sleep(POLL),
             Ok(None) => {
-                // One that has just ended cannot be killed, which is as well.
+                // The process may have just ended. Failures are ignored.
                 let _ = child.kill();
                 let _ = child.wait();
                 break Outcome::TimedOut;
@@ -93,18 +94,19 @@ pub(crate) fn run(
             Err(error) => break Outcome::NotRun(error),
         }
     };
-    // A file that stays does no harm.
+    // A file that cannot be removed does no harm.
     let _ = fs::remove_file(log);
     outcome
 }
 
-/// The program behind a shell that sets the bounds. Processor time is bounded as well, for processes that outlive a script.
+/// Command that sets the limits in a shell and then runs the program. CPU time is limited as well, for
+/// processes that outlive a script.
 #[cfg(unix)]
 fn bounded(program: &Path, limits: Limits, bounds_memory: bool) -> Command {
     let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get) as u64;
     let mut script = format!("ulimit -t {} 2>/dev/null; ", limits.seconds.saturating_mul(cores));
     if bounds_memory {
-        // macOS has no such limit.
+        // macOS does not support this limit.
         script += &format!("ulimit -v {} 2>/dev/null; ", limits.mb.saturating_mul(1024));
     }
     let mut command = Command::new("/bin/sh");
@@ -117,7 +119,7 @@ fn bounded(program: &Path, _: Limits, _: bool) -> Command {
     Command::new(program)
 }
 
-/// The end of a text file, without blank lines.
+/// Last line of a text file that is not blank.
 fn last_words(log: &Path) -> String {
     let read = || {
         let mut file = File::open(log)?;
@@ -128,7 +130,7 @@ fn last_words(log: &Path) -> String {
         Ok::<_, std::io::Error>(bytes)
     };
     let text = String::from_utf8_lossy(&read().unwrap_or_default()).into_owned();
-    // Bars of progress are parted by tabs and carriage returns.
+    // Progress bars separate their states with tabs and carriage returns.
     let mut lines = text.split(['\n', '\r', '\t']).map(str::trim);
     lines.rfind(|line| !line.is_empty()).unwrap_or_default().to_owned()
 }

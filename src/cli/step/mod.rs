@@ -27,19 +27,20 @@ use crate::error::{Error, ErrorKind};
 use crate::load::ModelFormat;
 use crate::scene::{Scene, UpAxis};
 
-/// Endings of STEP files.
+/// File endings of STEP files.
 pub(crate) const ENDINGS: [&str; 2] = ["step", "stp"];
 
-/// How a STEP file begins.
+/// First bytes of a STEP file.
 const MARK: &[u8] = b"ISO-10303-21";
 
-/// Changes when the scene of a result changes in other ways than by its key.
+/// Version of the conversion, part of the cache key. Increase it if results change for other reasons than
+/// their key.
 const VERSION: &[u8] = b"1";
 
 /// Millimetres in a metre.
 const MM_PER_M: f64 = 1000.0;
 
-/// Whether a model is in a STEP file, by its ending.
+/// Whether a model is a STEP file, by its ending.
 pub(crate) fn is_step(model: &Path) -> bool {
     model.extension().is_some_and(|ending| ENDINGS.iter().any(|known| ending.eq_ignore_ascii_case(known)))
 }
@@ -60,7 +61,7 @@ pub(crate) fn open_rigged(model: &Path, args: &StepArgs) -> Result<Rigged, Error
     if is_step(model) { open(model, args).map(Rigged::from) } else { Rigged::open(model) }
 }
 
-/// Reads a model that the library cannot read; none if it can.
+/// Reads a model that the library cannot read; none if the library can.
 ///
 /// # Errors
 /// As [`open_scene`].
@@ -102,7 +103,7 @@ fn converted(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
                 Ok(Ok((glb, up)))
             }
         });
-        // A file that stays is swept later.
+        // Files that cannot be removed are pruned later.
         let _ = fs::remove_file(&place);
         match made? {
             Err(said) => missing = missing.or(Some((candidate, said))),
@@ -111,7 +112,7 @@ fn converted(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
                     Error::new(format!("{} wrote a GLB that cannot be read: {error}", candidate.name()))
                         .remedy("try another --step-converter")
                 })?;
-                // A file that changed meanwhile is not the one that was hashed.
+                // If the file changed meanwhile, the hash does not match it.
                 if stamp(model) == before {
                     cache.put(key, &glb, up);
                 }
@@ -126,7 +127,7 @@ fn converted(model: &Path, args: &StepArgs) -> Result<Scene, Error> {
     Err(error.of_kind(ErrorKind::Unsupported).remedy(converter::REMEDY))
 }
 
-/// The scene of a converted model, in millimetres and with z up as in the file.
+/// Reads a converted model, and restores the millimetres and the z-up axis of STEP.
 fn read(model: &Path, glb: &[u8], up: UpAxis) -> Result<Scene, Error> {
     let mut scene = Scene::from_bytes(glb, ModelFormat::Gltf)?;
     let turn = match up {

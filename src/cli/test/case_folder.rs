@@ -1,4 +1,4 @@
-//! The cases in a folder, and the drawings in it that no case draws.
+//! [`Folder`]: cases of a folder, and drawings that belong to no case.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,18 +8,18 @@ use super::test_case::Case;
 use crate::error::Error;
 use crate::geometry::names::glob::Glob;
 
-/// What a folder holds.
+/// Contents of a folder of cases.
 #[derive(Debug, Default)]
 pub(crate) struct Folder {
-    /// In the order of their names.
+    /// Cases, sorted by name.
     pub(crate) cases: Vec<Case>,
-    /// SVG files that are nobody's approved drawing.
+    /// SVG files that no case uses.
     pub(crate) orphans: Vec<PathBuf>,
 }
 
 impl Folder {
-    /// Reads all cases in a folder and the folders in it, or one case by the name of its file; of
-    /// those the ones whose name matches one of `only`, if there are any.
+    /// Reads all cases of a folder and its sub-folders, or a single case file. Keeps only cases whose name
+    /// matches one of `only`, unless it is empty.
     pub(crate) fn read(path: &Path, only: &[Glob]) -> Result<Self, Error> {
         let mut found = Found::default();
         if path.is_dir() {
@@ -52,7 +52,7 @@ impl Folder {
         Ok(folder)
     }
 
-    /// Two cases may not approve one drawing.
+    /// Refuses cases that share an approved drawing.
     fn refuse_shared(&mut self) {
         let shared = |i: usize| {
             let case = self.cases.get(i)?;
@@ -73,17 +73,17 @@ impl Folder {
     }
 }
 
-/// Files found so far.
+/// Files found in a folder.
 #[derive(Debug, Default)]
 struct Found {
-    /// Name and path.
+    /// Name and path of each case file.
     cases: Vec<(String, PathBuf)>,
     drawings: Vec<PathBuf>,
 }
 
 impl Found {
-    /// Searches a folder whose name among the cases is `prefix`. Names that begin with `.` or `_` are
-    /// passed over, and so is the file of the project.
+    /// Searches a folder. `prefix` is its relative path for case names. Skips names that begin with `.` or
+    /// `_`, and `ligne.toml`.
     fn search(&mut self, folder: &Path, prefix: &str) -> Result<(), Error> {
         let unread = |error: std::io::Error| {
             Error::io("cannot read the folder", error).in_file(folder).remedy("check the path")
@@ -94,7 +94,7 @@ impl Found {
             if file_name.starts_with(['.', '_']) || file_name == "ligne.toml" {
                 continue;
             }
-            // A linked folder could lead back to where it lies.
+            // A linked folder could create a cycle.
             if path.is_dir() && !path.is_symlink() {
                 self.search(&path, &format!("{prefix}{file_name}/"))?;
             } else if let Some(name) = file_name.strip_suffix(".toml") {
@@ -107,7 +107,7 @@ impl Found {
     }
 }
 
-/// Whether two paths lead to one place, which need not be there yet.
+/// Whether two paths lead to the same file, which may not exist yet.
 fn same_place(a: &Path, b: &Path) -> bool {
     match (a.canonicalize(), b.canonicalize()) {
         (Ok(a), Ok(b)) => a == b,

@@ -1,4 +1,4 @@
-//! [`Outcome`]: what a case drew, and how that compares with the approved drawing.
+//! [`Outcome`]: drawing of a case, compared with the approved drawing.
 
 use std::path::Path;
 
@@ -11,21 +11,21 @@ use crate::export::SvgOptions;
 use crate::page::PageFile;
 use crate::pipeline::Stopwatch;
 
-/// What became of a case.
+/// Result of a case.
 #[derive(Debug)]
 pub(crate) enum Verdict {
-    /// Drawn as approved, within the tolerance.
+    /// The drawing matches within the tolerance.
     Passed,
-    /// Drawn otherwise.
+    /// The drawing differs.
     Differs(Box<Diff>),
-    /// Nothing is approved yet.
+    /// No drawing is approved yet.
     New,
-    /// It cannot be drawn, or not be compared.
+    /// The case cannot be drawn or compared.
     Error(Error),
 }
 
 impl Verdict {
-    /// The verdict in a word.
+    /// Word for the result.
     pub(crate) fn word(&self) -> &'static str {
         match self {
             Self::Passed => "passed",
@@ -36,19 +36,19 @@ impl Verdict {
     }
 }
 
-/// A case after it was drawn.
+/// Case after drawing and comparing.
 #[derive(Debug)]
 pub(crate) struct Outcome<'a> {
     pub(crate) case: &'a Case,
     pub(crate) verdict: Verdict,
-    /// The approved drawing, if there is one.
+    /// Approved drawing, if it exists.
     pub(crate) before: Option<String>,
-    /// The drawing as it is now, if it could be made.
+    /// Current drawing, if it could be made.
     pub(crate) after: Option<String>,
     pub(crate) seconds: f64,
 }
 
-/// The one page of a page file as SVG.
+/// Draws the single page of a page file as SVG.
 fn page(file: &Path) -> Result<Vec<u8>, Error> {
     let pages =
         PageFile::open(file)?.reading_models(|path| open_other(path, &StepArgs::default())).compose()?;
@@ -61,7 +61,7 @@ fn page(file: &Path) -> Result<Vec<u8>, Error> {
 }
 
 impl<'a> Outcome<'a> {
-    /// Draws a case and compares.
+    /// Draws a case and compares it with the approved drawing.
     pub(crate) fn of(case: &'a Case, tolerances: &Tolerances) -> Self {
         let watch = Stopwatch::start();
         let mut outcome = Self { case, verdict: Verdict::New, before: None, after: None, seconds: 0.0 };
@@ -100,7 +100,7 @@ impl<'a> Outcome<'a> {
         Ok(if diff.is_same() { Verdict::Passed } else { Verdict::Differs(Box::new(diff)) })
     }
 
-    /// The picture of what differs, as SVG.
+    /// Difference picture as SVG, if the drawing differs.
     pub(crate) fn difference(&self) -> Option<String> {
         match &self.verdict {
             Verdict::Differs(diff) => Some(diff.picture(View::Over).to_svg(&SvgOptions::default())),
@@ -108,7 +108,7 @@ impl<'a> Outcome<'a> {
         }
     }
 
-    /// The verdict in a line. `blessed`: what differed or was new has been approved.
+    /// One-line summary. If `blessed`, differing and new drawings were approved.
     pub(crate) fn summary(&self, blessed: bool) -> String {
         match &self.verdict {
             Verdict::New if blessed => "drawn for the first time".to_owned(),
@@ -119,7 +119,7 @@ impl<'a> Outcome<'a> {
         }
     }
 
-    /// What differs, a line each.
+    /// Differences, one line each.
     pub(crate) fn lines(&self) -> Vec<String> {
         match &self.verdict {
             Verdict::Differs(diff) => diff.lines(),
@@ -128,7 +128,7 @@ impl<'a> Outcome<'a> {
     }
 }
 
-/// How many cases came out how.
+/// Number of cases with each result.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Totals {
     pub(crate) passed: usize,
@@ -138,7 +138,7 @@ pub(crate) struct Totals {
 }
 
 impl Totals {
-    /// Counts.
+    /// Counts the results.
     pub(crate) fn of(outcomes: &[Outcome<'_>]) -> Self {
         let mut totals = Self::default();
         for outcome in outcomes {
@@ -152,7 +152,7 @@ impl Totals {
         totals
     }
 
-    /// `12 cases: 10 passed, 1 differs, 1 is new`
+    /// Summary line: `12 cases: 10 passed, 1 differs, 1 is new`
     pub(crate) fn line(self, blessed: bool) -> String {
         let Self { passed, differ, new, errors } = self;
         let cases = passed + differ + new + errors;

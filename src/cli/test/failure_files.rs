@@ -1,4 +1,4 @@
-//! Files for looking at: what was drawn instead of the approved drawings, and what differs.
+//! Files for inspection: actual drawings and difference pictures of failing cases.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,11 +7,10 @@ use super::case_outcome::Outcome;
 use crate::cli::output::output_files::Staging;
 use crate::error::Error;
 
-/// How the names of the files end; no approved drawing is called so.
+/// Name endings of these files. Approved drawings never have them.
 pub(crate) const LEFT_BEHIND: [&str; 2] = [".actual.svg", ".diff.svg"];
 
-/// Writes the drawings of the cases that fail into a folder, and removes what earlier runs left there
-/// of those that no longer do.
+/// Writes the drawings of failing cases to a folder, and removes old files of cases that pass.
 pub(crate) fn keep(
     folder: &Path,
     outcomes: &[Outcome<'_>],
@@ -26,7 +25,7 @@ pub(crate) fn keep(
             let path = place(end);
             match text {
                 None => {
-                    // What was not there need not go.
+                    // The file may not exist. Failures are ignored.
                     let _ = fs::remove_file(&path);
                 }
                 Some(text) => {

@@ -1,6 +1,6 @@
-//! The outcomes as a page to look at: each case before, after, and what differs.
+//! Report of the test as an HTML page: each case before, after, and the difference.
 //!
-//! The page is one file that asks for nothing else. It has no script: boxes and focus do what is needed.
+//! The page is a single file without scripts. Check boxes and keyboard focus are handled in CSS.
 
 use std::fmt::Write;
 
@@ -11,10 +11,10 @@ use super::SHOWN;
 use super::case_outcome::{Outcome, Totals, Verdict};
 use crate::export::encoding::xml::escaped;
 
-/// What the page looks like.
+/// Style sheet of the page.
 const SHEET: &str = include_str!("report.css");
 
-/// The page. Cases that pass have pictures only if `all` of them are to be shown.
+/// Writes the page. Passing cases have pictures only if `all` is set.
 pub(crate) fn page(folder: &str, outcomes: &[Outcome<'_>], all: bool, blessed: bool) -> String {
     let (folder, totals) = (escaped(folder), escaped(&Totals::of(outcomes).line(blessed)));
     let mut html = format!(
@@ -38,7 +38,7 @@ fn section(html: &mut String, outcome: &Outcome<'_>, all: bool, blessed: bool) {
     let _ = writeln!(html, "<section class=\"{word}\">\n<h2>{name} <span>{word}</span></h2>");
     let summary = outcome.summary(blessed);
     if !summary.is_empty() {
-        // Some errors go on with a picture of the line that is wrong.
+        // Some errors contain an excerpt with the wrong line.
         let tag = if summary.contains('\n') { "pre" } else { "p" };
         let _ = writeln!(html, "<{tag}>{}</{tag}>", text(&summary));
     }
@@ -71,12 +71,12 @@ fn list(html: &mut String, lines: &[String]) {
     html.push_str("</ul>\n");
 }
 
-/// Escaped, with line breaks kept.
+/// Escapes text and keeps its line breaks.
 fn text(text: &str) -> String {
     text.lines().map(escaped).collect::<Vec<_>>().join("\n")
 }
 
-/// A drawing as a picture of its own, so that the ids and classes of several do not mix.
+/// Adds a drawing as an embedded image, so that ids and classes of several drawings do not collide.
 fn picture(html: &mut String, caption: &str, svg: Option<&str>) {
     let Some(svg) = svg else { return };
     let data = STANDARD.encode(svg);

@@ -1,11 +1,11 @@
-//! The outcomes as JUnit XML, which services that run tests read.
+//! Report of the test as JUnit XML, for CI services.
 
 use std::fmt::Write;
 
 use super::case_outcome::{Outcome, Totals, Verdict};
 use crate::export::encoding::xml::escaped;
 
-/// The document. `blessed`: what differed or was new has been approved.
+/// Writes the document. If `blessed`, differing and new drawings were approved.
 pub(crate) fn document(folder: &str, outcomes: &[Outcome<'_>], blessed: bool) -> String {
     let Totals { differ, new, errors, .. } = Totals::of(outcomes);
     let failures = if blessed { 0 } else { differ + new };

@@ -30,7 +30,7 @@ use crate::diff::Tolerances;
 use crate::error::Error;
 use crate::geometry::names::glob::Glob;
 
-/// Findings of a case that are shown at once; the reports have all.
+/// Maximum number of findings shown per case. Reports contain all.
 const SHOWN: usize = 20;
 
 /// Options of `ligne test`.
@@ -84,7 +84,7 @@ pub(crate) struct TestArgs {
     quiet: bool,
 }
 
-/// Draws, compares, says what came of it, and writes what was asked for.
+/// Draws and compares all cases, prints the results, and writes the requested reports.
 pub(crate) fn run(args: &TestArgs, no_config: bool, surroundings: &Surroundings) -> Result<ExitCode, Error> {
     if args.bless && surroundings.is_ci {
         return Err(Error::new("drawings cannot be approved in CI: the variable CI is set")
@@ -103,7 +103,7 @@ pub(crate) fn run(args: &TestArgs, no_config: bool, surroundings: &Surroundings)
     drop(progress);
 
     let totals = Totals::of(&outcomes);
-    // As everywhere, nothing is written where something is wrong.
+    // Nothing is approved if a case has an error.
     let blessed = args.bless && totals.errors == 0;
     write(args, &outcomes, blessed)?;
     print(told(args, &outcomes, totals, blessed).as_bytes())?;
@@ -121,7 +121,7 @@ pub(crate) fn run(args: &TestArgs, no_config: bool, surroundings: &Surroundings)
     })
 }
 
-/// Those of `ligne.toml`; nothing else of it reaches into cases, which say all that they are drawn with.
+/// Tolerances of `ligne.toml`. Cases use nothing else of that file, because they contain all other settings.
 fn tolerances(no_config: bool, surroundings: &Surroundings) -> Result<Tolerances, Error> {
     let config = match &surroundings.folder {
         Some(folder) if !no_config => Config::find(folder)?,
@@ -139,7 +139,7 @@ fn passed(outcome: &Outcome<'_>, blessed: bool) -> bool {
     }
 }
 
-/// Writes the drawings that are approved, and the reports: all or none of them.
+/// Writes approved drawings and reports, all or none.
 fn write(args: &TestArgs, outcomes: &[Outcome<'_>], blessed: bool) -> Result<(), Error> {
     let mut staging = Staging::default();
     if blessed {
@@ -162,7 +162,7 @@ fn write(args: &TestArgs, outcomes: &[Outcome<'_>], blessed: bool) -> Result<(),
     staging.commit()
 }
 
-/// A line a case, what differs below it, and the totals.
+/// Result text: one line per case with its differences below, and the totals.
 fn told(args: &TestArgs, outcomes: &[Outcome<'_>], totals: Totals, blessed: bool) -> String {
     let mut text = String::new();
     for outcome in outcomes {

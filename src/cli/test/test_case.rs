@@ -1,4 +1,4 @@
-//! [`Case`]: a file that says what is drawn of which model, and how far it may stray from the approved drawing.
+//! [`Case`]: a case file, which describes a drawing and its tolerance.
 
 use std::path::{Path, PathBuf};
 
@@ -12,42 +12,42 @@ use crate::cli::request::draw_request::DrawRequest;
 use crate::diff::Tolerances;
 use crate::error::Error;
 
-/// Keys of a case that are no options of `ligne draw`.
+/// Keys of a case that are not options of `ligne draw`.
 const OWN: [&str; 4] = ["model", "page-file", "drawing", "tolerance"];
 
-/// Options that change nothing of the drawing.
+/// Options that are not allowed in cases, because they do not affect the drawing.
 const WITHOUT_EFFECT: [&str; 3] = ["threads", "quiet", "dpi"];
 
-/// A drawing that is kept under test.
+/// Drawing under test.
 #[derive(Debug)]
 pub(crate) struct Case {
-    /// Its path in the folder of cases, with `/` and without `.toml`.
+    /// Relative path in the folder of cases, with `/` and without `.toml`.
     pub(crate) name: String,
-    /// Where the approved drawing lies.
+    /// Path of the approved drawing.
     pub(crate) drawing: PathBuf,
-    /// What is to be drawn; or what is wrong with the file.
+    /// Settings of the case, or the error in its file.
     pub(crate) order: Result<Order, Error>,
 }
 
-/// What a case asks for.
+/// Settings of a case.
 #[derive(Debug)]
 pub(crate) struct Order {
     pub(crate) made: Made,
-    /// Over those of the project.
+    /// Tolerances that override those of the project.
     pub(crate) tolerances: Tolerances,
 }
 
-/// What is drawn.
+/// Subject of a case.
 #[derive(Debug)]
 pub(crate) enum Made {
-    /// A model.
+    /// Drawing of a model.
     Drawing(Box<DrawRequest>),
-    /// The page of this page file.
+    /// The single page of this page file.
     Page(PathBuf),
 }
 
 impl Case {
-    /// Reads a case. One that is wrong is a case as well: it fails.
+    /// Reads a case. A file with errors gives a case that fails.
     pub(crate) fn read(name: String, path: &Path) -> Self {
         match read(path) {
             Ok((drawing, order)) => Self {

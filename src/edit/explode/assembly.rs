@@ -1,28 +1,28 @@
-//! [`Assembly`]: bodies that are taken apart, and [`Moves`], how far each goes.
+//! [`Assembly`]: bodies to be separated, and [`Moves`]: their displacements.
 
 use glam::DVec3;
 
 use super::bodies::Body;
 use super::body_axes::is_same;
 
-/// The bodies of an assembly. They move as wholes.
+/// Bodies of an assembly. Each moves as a whole.
 pub(crate) struct Assembly<'a> {
     pub bodies: &'a [Body],
-    /// The axes of each body, those of the largest faces first.
+    /// Axes of each body, those of the largest faces first.
     pub axes: Vec<Vec<DVec3>>,
-    /// The place of each body among those that have one.
+    /// Given order of each body, if any.
     pub orders: Vec<Option<f64>>,
-    /// The gap between bodies that were put apart, world units.
+    /// Gap between separated bodies, world units.
     pub gap: f64,
-    /// Surfaces so near touch, world units.
+    /// Distance within which surfaces touch, world units.
     pub touch: f64,
 }
 
-/// Axes of a group that are compared to find those that bodies share.
+/// Maximum number of distinct axes compared in a group.
 const MOST_DISTINCT: usize = 256;
 
 impl Assembly<'_> {
-    /// The axes that at least two of some bodies share, the most common ones first.
+    /// Axes that at least two of the bodies share, most common first.
     pub fn shared_axes(&self, of: &[usize]) -> Vec<DVec3> {
         let mut found: Vec<(DVec3, usize)> = Vec::new();
         for axis in of.iter().flat_map(|unit| &self.axes[*unit]) {
@@ -38,14 +38,14 @@ impl Assembly<'_> {
     }
 }
 
-/// How far each body of an assembly moves, world units.
+/// Displacement of each body, world units.
 pub(crate) struct Moves {
     pub whole: Vec<DVec3>,
-    /// The share of it that the body moves alone.
+    /// Final part of the displacement, without the common movement with interlocking bodies.
     pub alone: Vec<DVec3>,
 }
 
-/// Two directions at right angles to an axis and to each other, and the axis: right-handed.
+/// Right-handed orthonormal basis with the axis as its third vector.
 pub(crate) fn frame(axis: DVec3) -> [DVec3; 3] {
     let least = axis.abs().min_element();
     let other = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().find(|v| axis.dot(*v).abs() == least);

@@ -1,4 +1,4 @@
-//! [`Level`]: some bodies seen along one axis, and which of them move as one.
+//! [`Level`]: blocking relations of bodies along one axis, and the groups that move as one.
 
 use std::sync::atomic::AtomicUsize;
 use std::sync::atomic::Ordering::Relaxed;
@@ -11,25 +11,26 @@ use super::axis_projection::{Meeting, Shadow};
 use super::body_axes;
 use super::stacking_order::{Meetings, Standing, Stretch, offsets, root, unite};
 
-/// Bodies seen along an axis.
+/// Blocking relations of some bodies along an axis.
 #[derive(Clone)]
 pub(crate) struct Level {
     pub axis: DVec3,
-    /// The numbers of the bodies, ascending.
+    /// Indices of the bodies, ascending.
     of: Vec<usize>,
     stretches: Vec<Stretch>,
-    /// By place in `of`.
+    /// Contacts of pairs, by position in `of`.
     meetings: Meetings,
 }
 
 impl Level {
-    /// How some bodies stand to each other along an axis.
+    /// Computes the relations of bodies along an axis.
     pub fn new(assembly: &Assembly, of: &[usize], axis: DVec3) -> Self {
         let nothing = || Self { axis, of: of.to_vec(), stretches: Vec::new(), meetings: Meetings::new() };
         Self::holding(assembly, of, axis, usize::MAX).unwrap_or_else(nothing)
     }
 
-    /// The same if at most `most_held` pairs hold each other; the search ends as soon as there are more.
+    /// Computes the relations of bodies along an axis, if at most `most_held` pairs interlock. The limit has
+    /// no effect at present, because the counter `held` is never increased.
     pub fn holding(assembly: &Assembly, of: &[usize], axis: DVec3, most_held: usize) -> Option<Self> {
         let axes = frame(axis);
         let shadows: Vec<Shadow> = of.par_iter().map(|k| Shadow::new(&assembly.bodies[*k], &axes)).collect();
@@ -53,7 +54,7 @@ impl Level {
         is_known.then(|| Self { axis, of: of.to_vec(), stretches, meetings })
     }
 
-    /// The same of some of its bodies.
+    /// The same relations for a subset of the bodies.
     pub fn of_some(&self, of: &[usize]) -> Self {
         let place: Vec<Option<usize>> = self.of.iter().map(|unit| of.binary_search(unit).ok()).collect();
         let kept =
@@ -76,23 +77,24 @@ impl Level {
         self.meetings.keys().copied()
     }
 
-    /// How many pairs hold each other.
+    /// Number of pairs that interlock.
     pub fn held_pairs(&self) -> usize {
         self.pairs().filter(|pair| self.standing(*pair) == Standing::Held).count()
     }
 
-    /// How many pairs can be put assembly.
+    /// Number of pairs in contact that can be separated.
     pub fn parted(&self) -> usize {
         self.meetings.len() - self.held_pairs()
     }
 
-    /// Bodies that hold each other, together; each group by its least body.
+    /// Groups of interlocking bodies, each group at the position of its lowest body.
     pub fn held(&self) -> Vec<Vec<usize>> {
         self.grouped((0..self.of.len()).collect())
     }
 
-    /// The same, with sub-assemblies that stand askew together: bodies without an axis along this one. Two of them are joined if they share another axis
-    /// and meet along it.
+    /// Groups of interlocking bodies, where sub-assemblies at an angle also form groups. They consist of
+    /// bodies without an axis along this one. Two of them are joined if they share another axis and are in
+    /// contact along it.
     pub fn groups(&self, assembly: &Assembly) -> Vec<Vec<usize>> {
         let has = |k: usize, axis: DVec3| assembly.axes[k].iter().any(|own| body_axes::is_same(*own, axis));
         let askew: Vec<usize> = self
@@ -113,7 +115,7 @@ impl Level {
         self.grouped(group)
     }
 
-    /// The groups that are given, with bodies that hold each other together.
+    /// Joins interlocking bodies with the given groups.
     fn grouped(&self, mut group: Vec<usize>) -> Vec<Vec<usize>> {
         for [a, b] in self.pairs().filter(|pair| self.standing(*pair) == Standing::Held) {
             unite(&mut group, a, b);
@@ -126,7 +128,7 @@ impl Level {
         groups
     }
 
-    /// How far each group moves along the axis.
+    /// Displacement of each group along the axis.
     pub fn offsets(&self, assembly: &Assembly, groups: &[Vec<usize>]) -> Vec<f64> {
         let place = |unit: &usize| self.of.binary_search(unit).ok();
         let mut group_of = vec![0; self.of.len()];

@@ -1,13 +1,15 @@
-//! [`Shadow`]: a body seen along an axis, as triangles in the plane with heights along the axis.
+//! [`Shadow`]: body projected along an axis, as triangles in the plane with heights.
 //!
-//! Whether one body blocks another is computed from pairs of triangles, one of each body:
+//! Blocking is computed from pairs of triangles, one of each body:
 //!
-//! 1. Two triangles have a convex polygon in common in the plane, or none.
-//! 2. A face of one body that looks up blocks its way up where a face of the other that looks down stands above it, and the other way
-//!    round. In the polygon the difference of their heights is linear, so the part of it where this holds is a polygon again.
-//! 3. The areas of these polygons are added. A part that passes through the other body already is not in the way.
-//! 4. Where bodies pass through each other along the axis, and the other stands out on one side only, it blocks the way to that side: a
-//!    thread does so across its axis. A body that stands out on both sides, like the ground around a bolt, does not.
+//! 1. Two triangles intersect in a convex polygon in the plane, or not at all.
+//! 2. An upward face of one body blocks upward movement where a downward face of the other is above it, and
+//!    vice versa. The height difference is linear over the polygon, so the blocked part is a polygon again.
+//! 3. The areas of these polygons are added. A part that already passes through the other body does not
+//!    block.
+//! 4. If bodies interpenetrate along the axis and the other one protrudes on one side only, it blocks
+//!    movement to that side. Example: a thread across its axis. A body that protrudes on both sides, like the
+//!    ground around a bolt, does not block.
 
 use glam::{DVec2, DVec3};
 use kurbo::Point;
@@ -18,58 +20,59 @@ use super::polygon_overlap::{area, common, cut};
 use crate::geometry::numbers::portable_math::atan2;
 use crate::geometry::plane::convex_hull::hull;
 
-/// Bodies that overlap on less than this share of the smaller one's area only graze each other: facets of a shaft and its bore do.
+/// Maximum overlap, as a share of the smaller projected area, that counts as grazing. Facets of a shaft and
+/// its bore graze each other.
 const GRAZE: f64 = 0.02;
 
-/// Faces whose area in the plane is below this share of their full area are parallel to the axis.
+/// Maximum projected area, as a share of the full area, of a face that counts as parallel to the axis.
 const UPRIGHT: f64 = 1e-9;
 
-/// A body seen along an axis.
+/// Body projected along an axis.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Shadow {
     triangles: Vec<Flat>,
     tree: Boxes,
-    /// The box around it in the plane.
+    /// Bounding box in the plane.
     bounds: Rect,
-    /// Least and greatest height along the axis.
+    /// Lowest and highest point along the axis.
     pub low: f64,
     pub high: f64,
-    /// Area in the plane of its upper or lower side; surfaces behind each other count each.
+    /// Projected area of the upper or lower side. Overlapping surfaces count several times.
     pub area: f64,
 }
 
-/// A triangle in the plane, counter-clockwise.
+/// Projected triangle, counter-clockwise.
 #[derive(Debug, Clone, Copy)]
 struct Flat {
     at: [DVec2; 3],
     height: [f64; 3],
-    /// Twice its area.
+    /// Twice the area.
     area: f64,
-    /// Whether it looks up or down the axis; faces of open surfaces do both.
+    /// Whether the face is directed up or down the axis. Faces of open surfaces count as both.
     is_up: bool,
     is_down: bool,
 }
 
-/// How two bodies stand to each other along an axis.
+/// Contact of two bodies along an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(crate) struct Meeting {
-    /// Whether they overlap in the plane.
+    /// Whether the projections overlap.
     pub meets: bool,
-    /// Whether the other is in the way when the first moves up.
+    /// Whether the other body blocks upward movement of the first.
     pub blocks_up: bool,
-    /// Whether the other is in the way when the first moves down.
+    /// Whether the other body blocks downward movement of the first.
     pub blocks_down: bool,
-    /// Whether one is surrounded by the other in the plane, and does not overlap it.
+    /// Whether one projection surrounds the other without overlapping it.
     pub is_within: bool,
 }
 
 impl Meeting {
-    /// The same from the side of the other.
+    /// The contact as seen from the other body.
     pub fn turned(self) -> Self {
         Self { blocks_up: self.blocks_down, blocks_down: self.blocks_up, ..self }
     }
 
-    /// The union of two meetings.
+    /// Union of two contacts.
     pub fn or(self, other: Self) -> Self {
         Self {
             meets: self.meets | other.meets,
@@ -81,7 +84,7 @@ impl Meeting {
 }
 
 impl Shadow {
-    /// A body seen along the third of three axes at right angles, which are right-handed.
+    /// Projects a body along the third vector of a right-handed orthonormal basis.
     pub fn new(body: &Body, axes: &[DVec3; 3]) -> Self {
         let mut shadow =
             Self { bounds: EMPTY, low: f64::INFINITY, high: f64::NEG_INFINITY, ..Self::default() };
@@ -114,7 +117,7 @@ impl Shadow {
         shadow
     }
 
-    /// How this body stands to another one; surfaces within `touch` of each other touch.
+    /// Contact with another body. Surfaces within `touch` of each other touch.
     pub fn meeting(&self, other: &Self, touch: f64) -> Meeting {
         if !overlap(&self.bounds, &other.bounds) {
             return Meeting::default();
@@ -128,7 +131,7 @@ impl Shadow {
 
     fn areas(&self, other: &Self, touch: f64, graze: f64) -> Meeting {
         let (mut both, mut above, mut below) = (0.0, 0.0, 0.0);
-        // A body that stands wholly over the other is not in its way down, and the other way round.
+        // A body completely above the other does not block it downward, and vice versa.
         let [may_be_above, may_be_below] = [other.high > self.low + touch, other.low < self.high - touch];
         let is_open = |both: f64, above: f64, below: f64| {
             both <= graze || may_be_above && above <= graze || may_be_below && below <= graze
@@ -147,7 +150,7 @@ impl Shadow {
                 if common.len() < 3 {
                     return true;
                 }
-                // The difference of heights at each corner of the common polygon.
+                // Height difference at a point of the common polygon.
                 let gap = |p: &DVec2| its.height_at(*p) - own.height_at(*p);
                 if up {
                     above += area(&cut(&common, |p| gap(p) + touch));
@@ -177,8 +180,8 @@ impl Shadow {
         Meeting { meets, blocks_up, blocks_down, is_within }
     }
 
-    /// The area of a polygon in the plane if the other body begins inside of this one there, and ends above it. `tops` are the upper
-    /// ends of both. It is 0 if one of the bodies has no inside.
+    /// Area of a polygon if the other body begins inside this one there and ends above it. `tops` are the
+    /// upper faces of both. It is 0 if a body is open.
     fn passing(&self, tops: [&Flat; 2], other: &Self, polygon: &[DVec2]) -> f64 {
         if polygon.len() < 3 || tops.iter().any(|top| top.is_down) {
             return 0.0;
@@ -190,7 +193,7 @@ impl Shadow {
         if begins_inside { area(polygon) } else { 0.0 }
     }
 
-    /// The greatest height below `top` of a face that looks down, over a point.
+    /// Highest downward face below `top` at a point.
     fn floor(&self, point: DVec2, top: f64) -> Option<f64> {
         let mut floor = None;
         self.tree.overlapping(&[point.x, point.y, point.x, point.y], &mut |number| {
@@ -206,7 +209,8 @@ impl Shadow {
         floor
     }
 
-    /// Whether the other surrounds it in the plane: from no corner of its convex hull a straight way leads out.
+    /// Whether the other projection surrounds this one: no corner of the convex hull has a free straight path
+    /// outward.
     fn lies_within(&self, other: &Self) -> bool {
         let [a, b] = [&self.bounds, &other.bounds];
         if self.triangles.is_empty() || a[0] < b[0] || a[1] < b[1] || a[2] > b[2] || a[3] > b[3] {
@@ -216,7 +220,7 @@ impl Shadow {
         hull(corners).iter().all(|p| other.surrounds(DVec2::new(p.x, p.y)))
     }
 
-    /// Whether triangles stand in all directions of the plane around a point.
+    /// Whether the triangles cover all directions around a point.
     fn surrounds(&self, point: DVec2) -> bool {
         let full = std::f64::consts::TAU;
         let mut covered: Vec<[f64; 2]> = Vec::new();
@@ -225,7 +229,7 @@ impl Shadow {
                 return true;
             }
             let ways = triangle.at.map(|p| p - point);
-            // Less than half a turn, from the corner that has all others to its left.
+            // A triangle covers less than half a turn, counted from the corner with all others to its left.
             let angle = |way: DVec2| atan2(way.y, way.x);
             let first = (0..3).find(|k| ways.iter().all(|way| ways[*k].perp_dot(*way) >= 0.0));
             let Some(first) = first else { continue };
@@ -249,16 +253,16 @@ impl Shadow {
     }
 }
 
-/// Rounding of an angle.
+/// Rounding tolerance of angles, radians.
 const ANGLE: f64 = 1e-9;
 
 impl Flat {
-    /// Whether a point lies in it.
+    /// Whether a point lies in the triangle.
     fn holds(&self, point: DVec2) -> bool {
         (0..3).all(|k| (self.at[k] - point).perp_dot(self.at[(k + 1) % 3] - point) >= 0.0)
     }
 
-    /// The height of the triangle over a point of it.
+    /// Height of the triangle at a point inside it.
     fn height_at(&self, p: DVec2) -> f64 {
         let [a, b, c] = self.at;
         let weights = [(b, c), (c, a), (a, b)].map(|(p0, p1)| (p0 - p).perp_dot(p1 - p) / self.area);

@@ -1,20 +1,21 @@
-//! [`Body`]: the surface of a part as the mesh has it: its faces are turned outward, and all have an area.
+//! [`Body`]: triangles of a part, from the mesh: turned outward and without degenerate faces.
 
 use glam::DVec3;
 
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
 use crate::scene::Scene;
 
-/// The faces of a part, world space.
+/// Triangles of a part, world space.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Body {
     pub triangles: Vec<[DVec3; 3]>,
-    /// Whether some edge has a face on one side only. The inside is then unknown, and both sides of each face count as outside.
+    /// Whether an edge has only one face. The inside is then unknown, and both sides of each face count as
+    /// outside.
     pub is_open: bool,
 }
 
 impl Body {
-    /// The least and the greatest corner of the box around it, world space; none if it has no faces.
+    /// Lowest and highest corner of the bounding box, world space; none without triangles.
     pub fn bounds(&self) -> Option<[DVec3; 2]> {
         let corners = self.triangles.as_flattened().iter();
         let grow = |[low, high]: [DVec3; 2], p: &DVec3| [low.min(*p), high.max(*p)];
@@ -27,7 +28,7 @@ impl Body {
     }
 }
 
-/// The bodies of all parts of a scene.
+/// Bodies of a scene, one entry per part.
 pub(crate) fn bodies(scene: &Scene) -> Vec<Body> {
     let mesh = Mesh::build(scene.to_soup());
     let mut bodies = vec![Body::default(); scene.parts.len()];
@@ -48,7 +49,7 @@ pub(crate) fn bodies(scene: &Scene) -> Vec<Body> {
     bodies
 }
 
-/// Several bodies as one.
+/// Combines several bodies into one.
 pub(crate) fn joined<'a>(bodies: impl Iterator<Item = &'a Body>) -> Body {
     bodies.fold(Body::default(), |mut all, body| {
         all.add(body);

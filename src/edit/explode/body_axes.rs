@@ -1,28 +1,30 @@
-//! [`axes_of`]: the directions along which a body may have been put together.
+//! [`axes_of`]: directions along which a body may have been assembled.
 //!
-//! 1. The faces of a body are grouped by their planes' directions.
-//! 2. The three directions with the largest area are axes of the body: a box has exactly three.
-//! 3. So is what is at right angles to two of these: the axis of a tube or a nut is at right angles to all its sides.
+//! 1. The faces of a body are grouped by their normals.
+//! 2. The three directions with the largest area are axes of the body. A box has exactly three.
+//! 3. Directions perpendicular to two of these are axes as well. The axis of a tube or a nut is perpendicular
+//!    to all its sides.
 
 use glam::DVec3;
 
 use super::bodies::Body;
 
-/// Sine of the angle below which two directions are one. Rounded to single precision, the faces of the test models turn by less.
+/// Maximum sine of the angle between directions that count as equal. Single-precision rounding turns the
+/// faces of the test models by less.
 const SAME_SINE: f64 = 1e-3;
 
-/// The most directions of planes that are kept: those of the largest faces.
+/// Maximum number of face directions that are kept. The largest faces come first.
 const MOST_PLANES: usize = 64;
 
-/// Axes of one body.
+/// Maximum number of axes from face directions.
 const OF_PLANES: usize = 3;
 
-/// Whether two unit vectors lie along one axis.
+/// Whether two unit vectors are parallel or opposite.
 pub(crate) fn is_same(a: DVec3, b: DVec3) -> bool {
     a.cross(b).length_squared() <= SAME_SINE * SAME_SINE
 }
 
-/// The axes of a body, unit vectors, those of the largest faces first.
+/// Axes of a body as unit vectors, those of the largest faces first.
 pub(crate) fn axes_of(body: &Body) -> Vec<DVec3> {
     let normal = |[a, b, c]: &[DVec3; 3]| (*b - *a).cross(*c - *a);
     let mut normals: Vec<DVec3> = body.triangles.iter().map(normal).collect();
@@ -50,7 +52,7 @@ pub(crate) fn axes_of(body: &Body) -> Vec<DVec3> {
     axes
 }
 
-/// The one of two opposite directions whose largest coordinate is above 0.
+/// The one of two opposite directions whose largest coordinate is positive.
 fn upward(direction: DVec3) -> DVec3 {
     let largest =
         direction.to_array().into_iter().fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });

@@ -1,15 +1,15 @@
-//! [`Boxes`]: a tree of boxes in the plane, which lists what a box may overlap.
+//! [`Boxes`]: tree of 2-D bounding boxes, which finds the boxes that overlap a query box.
 
-/// A box in the plane: least x and y, greatest x and y.
+/// Box in the plane: minimum x and y, maximum x and y.
 pub(crate) type Rect = [f64; 4];
 
-/// Boxes below one node of the lowest level.
+/// Maximum number of boxes in a leaf.
 const LEAF: usize = 8;
 
-/// A tree in an array: each node halves its range of the boxes, put in order along its longer side.
+/// Bounding box tree in an array. Each node splits its boxes at the median along the longer side.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Boxes {
-    /// The boxes in the order of the tree, with their numbers.
+    /// Boxes in tree order, with their indices.
     boxes: Vec<(Rect, u32)>,
     nodes: Vec<Node>,
 }
@@ -18,12 +18,12 @@ pub(crate) struct Boxes {
 struct Node {
     bounds: Rect,
     range: [u32; 2],
-    /// The second child; the first follows the node. None in a leaf.
+    /// Index of the second child; the first child follows the node. None in a leaf.
     second: Option<u32>,
 }
 
 impl Boxes {
-    /// The tree of some boxes.
+    /// Builds the tree.
     pub fn new(boxes: &[Rect]) -> Self {
         let mut tree = Self { boxes: boxes.iter().copied().zip(0..).collect(), nodes: Vec::new() };
         if !boxes.is_empty() {
@@ -49,7 +49,8 @@ impl Boxes {
         self.grow(first + half, last);
     }
 
-    /// Calls `found` with the number of each box that overlaps `probe`, until it returns false; whether it never did.
+    /// Calls `found` with the index of each overlapping box until it returns false. Returns whether it never
+    /// did.
     pub fn overlapping(&self, probe: &Rect, found: &mut impl FnMut(u32) -> bool) -> bool {
         self.nodes.is_empty() || self.visit(0, probe, found)
     }
@@ -70,15 +71,15 @@ impl Boxes {
     }
 }
 
-/// The box around nothing.
+/// Empty box, neutral for [`union`].
 pub(crate) const EMPTY: Rect = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
 
-/// The box around two boxes.
+/// Smallest box around two boxes.
 pub(crate) fn union(a: Rect, b: Rect) -> Rect {
     [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
 }
 
-/// Whether two boxes have a point in common.
+/// Whether two boxes share a point.
 pub(crate) fn overlap(a: &Rect, b: &Rect) -> bool {
     a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3]
 }

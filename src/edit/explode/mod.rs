@@ -1,15 +1,14 @@
 //! Exploded views: moves the parts of an assembly apart until none hides another.
 //!
-//! 1. [`bodies`] takes the surface of each part from the mesh. [`part_rules`] joins parts of one group into a
+//! 1. `bodies` takes the surface of each part from the mesh. `part_rules` joins parts of one group into a
 //!    unit.
-//! 2. [`body_axes`] finds the candidate axes. [`axis_blocking`] tests along an axis which bodies block each
-//!    other, with the projections of [`axis_projection`] (pairs from [`box_tree`], areas from
-//!    [`polygon_overlap`]).
+//! 2. `body_axes` finds the candidate axes. `axis_blocking` tests along an axis which bodies block each
+//!    other, with the projections of `axis_projection` (pairs from `box_tree`, areas from `polygon_overlap`).
 //! 3. Bodies that block each other in both directions move as one. Sub-assemblies at an angle to the axis do,
 //!    too.
-//! 4. [`stacking_order`] sorts the others along the axis and computes offsets with gaps between them.
-//! 5. Groups that move as one are separated the same way along the next best axis ([`assembly`]).
-//! 6. Rules for single parts come last: direction, distance, order, group. [`trail_lines`] draws the paths.
+//! 4. `stacking_order` sorts the others along the axis and computes offsets with gaps between them.
+//! 5. Groups that move as one are separated the same way along the next best axis (`assembly`).
+//! 6. Rules for single parts come last: direction, distance, order, group. `trail_lines` draws the paths.
 //!
 //! Source: Li, Agrawala, Curless, Salesin, Automated generation of interactive 3D exploded view diagrams,
 //! 2008, section 3: blocking along axes, offsets without overlap, sub-assemblies. Deviation: all parts of one
@@ -36,14 +35,14 @@ use assembly::{Assembly, Moves};
 use axis_blocking::Level;
 use bodies::{Body, joined};
 
-/// How an assembly is taken apart.
+/// Settings of an exploded view.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Explosion {
-    /// The axis along which parts move first, world space; found if none is given.
+    /// Axis along which parts move first, world space. The best axis if none.
     pub axis: Option<DVec3>,
-    /// How far apart they come: 1 leaves a gap of 4 % of the model's diagonal.
+    /// Scale of the displacements. 1 leaves gaps of 4 % of the model's diagonal.
     pub factor: f64,
-    /// Settings of single parts. If several name one part, the last one that sets a value counts.
+    /// Rules for single parts. If several match a part, the last one with a value counts.
     pub parts: Vec<PartExplosion>,
 }
 
@@ -53,25 +52,25 @@ impl Default for Explosion {
     }
 }
 
-/// A gap between parts, as a share of the model's diagonal.
+/// Gap between parts, as a share of the model's diagonal.
 const GAP: f64 = 0.04;
 
-/// Surfaces so near, as a share of the model's diagonal, touch.
+/// Distance within which surfaces touch, as a share of the model's diagonal.
 const TOUCH: f64 = 1e-5;
 
-/// How far the parts of a scene move, world units: zero for those that stay.
+/// Displacements of the parts of a scene, world units. Zero for parts that stay.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Ways {
-    /// The whole way of each part.
+    /// Displacement of each part.
     pub offsets: Vec<DVec3>,
-    /// The share of it that the part moves alone, and not with others that hold it.
+    /// Final part of each displacement, without the common movement with interlocking parts.
     pub alone: Vec<DVec3>,
 }
 
-/// How far each part moves.
+/// Computes the displacement of each part.
 ///
-/// Of the parts that hang together the largest stays. Where two parts overlap seen along the axis, one is before the other on it, but for
-/// parts that hold each other along all axes, which move as one.
+/// The largest part of each connected group stays. Parts that overlap along the axis end up one behind the
+/// other. Parts that interlock along all axes move as one.
 #[must_use]
 pub fn explode(scene: &Scene, explosion: &Explosion) -> Ways {
     let count = scene.parts.len();
@@ -108,7 +107,7 @@ pub fn explode(scene: &Scene, explosion: &Explosion) -> Ways {
 }
 
 impl Assembly<'_> {
-    /// Takes some bodies apart, first along a given axis, else along the best one; returns that axis.
+    /// Separates bodies along `told`, or along the best axis. Returns the axis.
     fn all(&self, of: &[usize], told: Option<DVec3>, moves: &mut Moves) -> Option<DVec3> {
         let mut known = Vec::new();
         let level = match told {
@@ -117,15 +116,16 @@ impl Assembly<'_> {
         };
         let mut groups = level.groups(self);
         if groups.len() < 2 {
-            // All of it stands askew, or holds together.
+            // All bodies are at an angle to the axis, or interlock.
             groups = level.held();
         }
         self.along(&level, &groups, (&[level.axis], &known), moves);
         Some(level.axis)
     }
 
-    /// Puts groups apart along the axis of a level, then takes each apart. Along the axes `tried` the whole did not come apart;
-    /// `known` is how its bodies stand along some axes.
+    /// Separates groups along the axis of a level, then separates the bodies of each group. The whole could
+    /// not be separated along the axes `tried`. `known` holds the relations along axes that were already
+    /// computed.
     fn along(
         &self,
         level: &Level,
@@ -155,9 +155,11 @@ impl Assembly<'_> {
         }
     }
 
-    /// The axis along which fewest of some bodies hold each other; of equals the one along which more are put apart, then the first.
-    /// None if nothing can be put apart. Axes of bodies are tried where some hold each other along those of the world. What is found
-    /// of axes is added to what is `known`.
+    /// Axis along which the fewest pairs interlock. Ties go to the axis that separates more pairs, then to
+    /// the first. None if nothing can be separated.
+    ///
+    /// Axes of bodies are tried only if pairs interlock along all world axes. New relations are added to
+    /// `known`.
     fn best(&self, of: &[usize], but: &[DVec3], known: &mut Vec<Level>) -> Option<Level> {
         let mut axes: Vec<DVec3> = vec![DVec3::X, DVec3::Y, DVec3::Z];
         let mut best: Option<((usize, usize), Level)> = None;
@@ -191,10 +193,10 @@ impl Assembly<'_> {
     }
 }
 
-/// Axes of bodies that are tried for one group.
+/// Maximum number of shared body axes tried for one group.
 const MOST_AXES: usize = 3;
 
-/// The scene with its parts moved so.
+/// Moves the parts of a scene.
 #[must_use]
 pub fn moved(mut scene: Scene, ways: &Ways) -> Scene {
     for (part, way) in scene.parts.iter_mut().zip(&ways.offsets) {

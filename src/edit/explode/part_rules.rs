@@ -1,4 +1,4 @@
-//! Settings of single parts: direction, distance, place in the order, group.
+//! Rules for single parts: direction, distance, order, group.
 
 use glam::DVec3;
 
@@ -9,30 +9,31 @@ use super::stacking_order::{Meetings, Stretch, offsets};
 use crate::geometry::names::glob::Glob;
 use crate::scene::Scene;
 
-/// Settings of the parts whose names match. Values that are not set are found.
+/// Rule for the parts whose names match. Missing values are computed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PartExplosion {
-    /// The pattern for their names.
+    /// Pattern for part names.
     pub name: Glob,
-    /// The direction of their way from where they stand in the model: world space, of any length above 0.
+    /// Direction of movement in world space, of any length above 0.
     pub direction: Option<DVec3>,
-    /// How far they move, world units; 0 has them stay.
+    /// Distance of movement, world units. 0 keeps the parts in place.
     pub distance: Option<f64>,
-    /// Their place: of two parts that have one and overlap, that with the greater one comes to stand farther along the axis.
+    /// Order among parts with an order. Of two overlapping parts the one with the greater order ends up
+    /// farther along the axis.
     pub order: Option<f64>,
-    /// Parts of one group move as one and stay together.
+    /// Name of a group. Parts of a group move as one.
     pub group: Option<String>,
 }
 
 impl PartExplosion {
-    /// No settings for the parts whose names match a pattern.
+    /// Rule without values for the parts whose names match a pattern.
     #[must_use]
     pub fn new(name: impl Into<String>) -> Self {
         Self { name: Glob::new(name), direction: None, distance: None, order: None, group: None }
     }
 }
 
-/// The direction that `x`, `-y` or `1,0,-1` names; none if it names none.
+/// Reads a direction from `x`, `-y` or `1,0,-1`; none for other text.
 #[must_use]
 pub fn direction(text: &str) -> Option<DVec3> {
     let (sign, axis) = match text.trim() {
@@ -54,13 +55,13 @@ pub fn direction(text: &str) -> Option<DVec3> {
     direction.try_normalize().map(|_| direction)
 }
 
-/// Parts that move as one, and their settings.
+/// Parts that move as one, with their combined rule.
 pub(crate) struct Unit {
     pub parts: Vec<usize>,
     pub told: PartExplosion,
 }
 
-/// The units of a scene in the order of their first parts; parts without faces are in none.
+/// Units of a scene, in the order of their first parts. Parts without faces belong to none.
 pub(crate) fn units(scene: &Scene, bodies: &[Body], told: &[PartExplosion]) -> Vec<Unit> {
     let mut units: Vec<Unit> = Vec::new();
     for (number, part) in scene.parts.iter().enumerate().filter(|(k, _)| !bodies[*k].triangles.is_empty()) {
@@ -85,7 +86,7 @@ pub(crate) fn units(scene: &Scene, bodies: &[Body], told: &[PartExplosion]) -> V
     units
 }
 
-/// Moves the units with a given direction or distance; `main` is the axis along which the others came apart.
+/// Moves the units with a given direction or distance. `main` is the axis of the other units.
 pub(crate) fn move_told(assembly: &Assembly, units: &[Unit], main: Option<DVec3>, moves: &mut Moves) {
     let direction = |k: usize| units[k].told.direction.and_then(DVec3::try_normalize);
     let mut left: Vec<usize> = (0..units.len()).filter(|k| direction(*k).is_some()).collect();
@@ -107,16 +108,17 @@ pub(crate) fn move_told(assembly: &Assembly, units: &[Unit], main: Option<DVec3>
     }
 }
 
-/// Cosine of the angle below which two directions are one: a tenth of a degree.
+/// Minimum cosine of the angle between directions that count as equal: 0.1 degrees.
 const SAME_WAY: f64 = 0.999_998_5;
 
-/// How far some units move along a direction so that they are past all others, in an order that lets each be taken off.
+/// Displacements of some units along a direction that move them past all others, in an order that allows
+/// disassembly.
 fn offsets_along(assembly: &Assembly, own: &[usize], way: DVec3) -> Vec<f64> {
     let axes = frame(way);
     let others = (0..assembly.bodies.len()).filter(|k| !own.contains(k)).map(|k| &assembly.bodies[k]);
     let others = Shadow::new(&joined(others), &axes);
     let shadows: Vec<Shadow> = own.iter().map(|k| Shadow::new(&assembly.bodies[*k], &axes)).collect();
-    // The others come last, and stay.
+    // The other bodies form the last entry, and stay.
     let last = own.len();
     let stretch =
         |shadow: &Shadow, size: f64, order| Stretch { low: shadow.low, high: shadow.high, size, order };
@@ -130,7 +132,7 @@ fn offsets_along(assembly: &Assembly, own: &[usize], way: DVec3) -> Vec<f64> {
         }
         let past = others.meeting(&shadows[a], assembly.touch);
         if past.meets || past.is_within {
-            // The others are in its way down, and it is in theirs up.
+            // The others block the unit downward, and the unit blocks them upward.
             meetings.insert(
                 [last, a],
                 Meeting { meets: true, blocks_up: true, blocks_down: false, is_within: false },
@@ -139,6 +141,6 @@ fn offsets_along(assembly: &Assembly, own: &[usize], way: DVec3) -> Vec<f64> {
     }
     let mut found = offsets(&stretches, &meetings, assembly.gap);
     found.truncate(last);
-    // A unit with nothing in its way moves by the gap, since a direction was given.
+    // A unit that nothing blocks moves by the gap, because a direction was given.
     found.iter().map(|offset| offset.max(assembly.gap)).collect()
 }

@@ -1,8 +1,9 @@
-//! [`Polygon`]: the common part of two triangles in the plane, and its area.
+//! [`Polygon`]: intersection of two triangles in the plane, and its area.
 
 use glam::DVec2;
 
-/// A convex polygon. Two triangles share one of at most six corners, and each of two more cuts adds one.
+/// Convex polygon of at most 8 corners. Two triangles intersect in at most 6, and each of two further cuts
+/// adds one.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Polygon {
     corners: [DVec2; 8],
@@ -26,9 +27,9 @@ impl std::ops::Deref for Polygon {
     }
 }
 
-/// The polygon that two triangles have in common, both counter-clockwise.
+/// Intersection of two counter-clockwise triangles.
 pub(crate) fn common(one: &[DVec2; 3], other: &[DVec2; 3]) -> Polygon {
-    // Most pairs whose boxes overlap are parted by a side of one of them.
+    // Most triangles with overlapping boxes are separated by a side of one of them.
     let are_parted = |one: &[DVec2; 3], other: &[DVec2; 3]| {
         (0..3).any(|k| {
             let (from, to) = (one[k], one[(k + 1) % 3]);
@@ -50,7 +51,8 @@ pub(crate) fn common(one: &[DVec2; 3], other: &[DVec2; 3]) -> Polygon {
     polygon
 }
 
-/// The part of a convex polygon where a linear function is not negative (Sutherland and Hodgman, Reentrant polygon clipping, 1974).
+/// Part of a convex polygon where a linear function is not negative. Source: Sutherland and Hodgman,
+/// Reentrant polygon clipping, 1974.
 pub(crate) fn cut(polygon: &[DVec2], side: impl Fn(&DVec2) -> f64) -> Polygon {
     let mut left = Polygon::default();
     let Some(last) = polygon.last() else { return left };
@@ -68,7 +70,7 @@ pub(crate) fn cut(polygon: &[DVec2], side: impl Fn(&DVec2) -> f64) -> Polygon {
     left
 }
 
-/// The area of a convex polygon.
+/// Area of a convex polygon.
 pub(crate) fn area(polygon: &[DVec2]) -> f64 {
     let Some(first) = polygon.first() else { return 0.0 };
     let twice: f64 = polygon.windows(2).map(|pair| (pair[0] - *first).perp_dot(pair[1] - *first)).sum();
@@ -87,7 +89,7 @@ mod tests {
         let turned = triangle.map(|p| -p);
         let shared = common(&triangle, &turned);
         assert_eq!(shared.len(), 6);
-        // Of the nine small triangles of each, six.
+        // The hexagon covers six of the nine small triangles.
         assert!((area(&shared) - height / 2.0 * 6.0 / 9.0).abs() < 1e-12);
         assert!((area(&cut(&shared, |p| p.x)) - area(&shared) / 2.0).abs() < 1e-12);
         assert!(common(&triangle, &triangle.map(|p| p + DVec2::X * 2.0)).len() < 3);

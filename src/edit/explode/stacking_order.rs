@@ -1,29 +1,29 @@
-//! [`offsets`]: the order of bodies along an axis once they are apart, and how far each moves for that.
+//! [`offsets`]: order of separated bodies along an axis, and the displacement of each.
 
 use std::collections::BTreeMap;
 
 use super::axis_projection::Meeting;
 
-/// How a body stands to another one along the axis.
+/// Relation of a body to another one along the axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Standing {
-    /// They do not meet.
+    /// They are not in contact.
     Apart,
-    /// It can be taken off along the axis, and not the other one.
+    /// It can only be removed upward.
     Above,
-    /// The other one can.
+    /// It can only be removed downward.
     Below,
-    /// Both can.
+    /// It can be removed in both directions.
     Free,
-    /// Neither can.
+    /// It can be removed in neither direction.
     Held,
 }
 
 impl Meeting {
-    /// How the first body stands to the second.
+    /// Relation of the first body to the second.
     pub fn standing(self) -> Standing {
         match (self.meets, self.blocks_up, self.blocks_down) {
-            // A bearing in its bore is hidden as long as it stays there.
+            // A surrounded body, such as a bearing in its bore, is hidden unless it moves.
             (false, ..) if self.is_within => Standing::Free,
             (false, ..) => Standing::Apart,
             (true, false, false) => Standing::Free,
@@ -34,22 +34,22 @@ impl Meeting {
     }
 }
 
-/// How bodies meet, for each pair that does: the greater number first.
+/// Contact of each pair that has one. The higher index comes first.
 pub(crate) type Meetings = BTreeMap<[usize; 2], Meeting>;
 
-/// A body along the axis.
+/// Extent of a body along the axis.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Stretch {
     pub low: f64,
     pub high: f64,
-    /// Its size. The largest body stays.
+    /// Size of the body. The largest body stays.
     pub size: f64,
-    /// Its place among those that have one, if it is given: a greater one stands higher.
+    /// Given order, if any. Bodies with a greater order end up higher.
     pub order: Option<f64>,
 }
 
 impl Stretch {
-    /// The stretch of several bodies together.
+    /// Combined extent of several bodies.
     pub fn joined(all: impl Iterator<Item = Self>) -> Self {
         let nothing = Self { low: f64::INFINITY, high: f64::NEG_INFINITY, size: 0.0, order: None };
         all.fold(nothing, |sum, own| Self {
@@ -60,7 +60,7 @@ impl Stretch {
         })
     }
 
-    /// How it stands to another one if both are given a place. Then it does not matter which blocks the other.
+    /// Relation given by the orders of both bodies, if they have different ones. It overrides blocking.
     pub fn told(&self, other: &Self) -> Option<Standing> {
         let (own, its) = (self.order?, other.order?);
         (own != its).then_some(if own > its { Standing::Above } else { Standing::Below })
@@ -71,11 +71,12 @@ impl Stretch {
     }
 }
 
-/// How far each body moves along the axis, with a gap between those that meet. The largest of those that hang together stays.
+/// Displacement of each body along the axis, with gaps between bodies in contact. The largest body of each
+/// connected group stays.
 pub(crate) fn offsets(bodies: &[Stretch], meetings: &Meetings, gap: f64) -> Vec<f64> {
     let count = bodies.len();
     let middle = |k: usize| bodies[k].middle();
-    // The others under each body, and over it.
+    // For each body, the bodies that must end up below and above it.
     let (mut under, mut over) = (vec![Vec::new(); count], vec![Vec::new(); count]);
     let mut above = Above::new(count);
     let mut free: Vec<[usize; 2]> = Vec::new();
@@ -94,7 +95,8 @@ pub(crate) fn offsets(bodies: &[Stretch], meetings: &Meetings, gap: f64) -> Vec<
             }
         }
     }
-    // Those that can go both ways go by the nearer end, unless others between them say otherwise; the clearest ones are asked first.
+    // Pairs that can be separated both ways use the shorter one, unless relations with other bodies require
+    // the opposite. Pairs with the largest distance are decided first.
     let far = |[upper, lower]: &[usize; 2]| middle(*upper) - middle(*lower);
     free.sort_by(|a, b| far(b).total_cmp(&far(a)).then(a.cmp(b)));
     for [upper, lower] in free {
@@ -104,7 +106,8 @@ pub(crate) fn offsets(bodies: &[Stretch], meetings: &Meetings, gap: f64) -> Vec<
     let mut offsets: Vec<Option<f64>> = vec![None; count];
     let mut waits: Vec<usize> = under.iter().map(Vec::len).collect();
     for _ in 0..count {
-        // The lowest of those under which nothing is left; where they go round in a circle, the lowest of all.
+        // Topological order: the lowest body with nothing left below it. If there is a cycle, the lowest body
+        // of all.
         let left = || (0..count).filter(|k| offsets[*k].is_none());
         let lowest = |a: &usize, b: &usize| middle(*a).total_cmp(&middle(*b)).then(a.cmp(b));
         let Some(next) = left().filter(|k| waits[*k] == 0).min_by(lowest).or_else(|| left().min_by(lowest))
@@ -123,7 +126,7 @@ pub(crate) fn offsets(bodies: &[Stretch], meetings: &Meetings, gap: f64) -> Vec<
     offsets
 }
 
-/// Shifts those that hang together so that the largest of them stays.
+/// Shifts each connected group so that its largest body stays.
 fn stay(bodies: &[Stretch], under: &[Vec<usize>], offsets: &mut [f64]) {
     let mut piece: Vec<usize> = (0..bodies.len()).collect();
     for (upper, lower) in (0..bodies.len()).flat_map(|k| under[k].iter().map(move |lower| (k, *lower))) {
@@ -142,7 +145,7 @@ fn stay(bodies: &[Stretch], under: &[Vec<usize>], offsets: &mut [f64]) {
     }
 }
 
-/// The least member of the group of `k`.
+/// Root of the group of `k`: its lowest member (union-find).
 pub(crate) fn root(group: &[usize], mut k: usize) -> usize {
     while group[k] != k {
         k = group[k];
@@ -150,15 +153,15 @@ pub(crate) fn root(group: &[usize], mut k: usize) -> usize {
     k
 }
 
-/// Makes one group of the groups of two.
+/// Joins the groups of two members.
 pub(crate) fn unite(group: &mut [usize], a: usize, b: usize) {
     let (a, b) = (root(group, a), root(group, b));
     group[a.max(b)] = a.min(b);
 }
 
-/// What stands above what, by itself or by way of others.
+/// Transitive relation: which body is above which.
 struct Above {
-    /// For each body a bit for each one that it stands above.
+    /// One bit set per body: the bodies below it.
     rows: Vec<Vec<u64>>,
 }
 

@@ -1,4 +1,4 @@
-//! [`with_trails`]: lines from where parts were to where they are.
+//! [`with_trails`]: trail lines from the original to the final positions of parts.
 
 use glam::{DAffine3, DVec3};
 
@@ -7,11 +7,11 @@ use super::bodies::bodies;
 use crate::colour::srgb::Colour;
 use crate::scene::{Geometry, Material, Part, Scene};
 
-/// The name of the parts and of the material of these lines.
+/// Name of the part and of the material of trail lines.
 pub const TRAIL: &str = "trail";
 
-/// The scene with its parts moved so, and with a wire from the middle of where each was, once all that holds it had moved,
-/// to the middle of where it is.
+/// Moves the parts of a scene and adds trail lines. A line starts at the centre of a part after the common
+/// movement with interlocking parts, and ends at its final centre.
 #[must_use]
 pub fn with_trails(scene: Scene, ways: &Ways) -> Scene {
     let mut wires = Geometry::default();
@@ -28,7 +28,7 @@ pub fn with_trails(scene: Scene, ways: &Ways) -> Scene {
     if wires.wires.is_empty() {
         return scene;
     }
-    // What has no material looks like the one after the last.
+    // Parts without a material use the entry after the last, so that entry becomes explicit.
     scene.materials.push(Material::default());
     wires.material = Some(scene.materials.len() as u32);
     scene.materials.push(Material { name: TRAIL.to_owned(), colour: Colour::BLACK, ..Material::default() });

@@ -1,4 +1,4 @@
-//! [`FlatFaces`], [`Kept`]: the remains of faces of the model that lie in the plane of a section and are not cut.
+//! [`FlatFaces`] and [`Kept`]: faces of the model that lie in the section plane and stay uncut.
 
 use glam::DVec2;
 use robust::{Coord, orient2d};
@@ -9,13 +9,13 @@ use super::outline_gaps::closed;
 use super::plane::Plane;
 use super::plane_clip::Clipped;
 
-/// The faces of a solid that lie in the plane and look to the front.
+/// Faces of a solid that lie in the plane and face forward.
 pub(crate) struct FlatFaces {
-    /// Which triangle of the shape each is, and its corners counter-clockwise, by the least x.
+    /// Triangle index and corners of each, counter-clockwise, sorted by lowest x.
     list: Vec<(usize, [DVec2; 3])>,
-    /// The greatest extent along x.
+    /// Largest extent of a face along x.
     widest: f64,
-    /// Whether the solid is open, so that its outlines do not tell what lies behind the plane.
+    /// Whether the solid is open. Its winding numbers are then undefined.
     is_open: bool,
 }
 
@@ -31,12 +31,12 @@ impl FlatFaces {
         Self { list, widest, is_open: closed(cut).1 > 0 }
     }
 
-    /// Which triangle of the shape a face is.
+    /// Triangle index of a face.
     pub fn triangle(&self, face: usize) -> usize {
         self.list[face].0
     }
 
-    /// The faces around a point.
+    /// Faces that contain a point.
     fn around(&self, p: DVec2) -> impl Iterator<Item = usize> {
         let left = |corners: &[DVec2; 3]| corners[0].min(corners[1]).min(corners[2]).x;
         let first = self.list.partition_point(|(_, corners)| left(corners) < p.x - self.widest);
@@ -47,17 +47,17 @@ impl FlatFaces {
     }
 }
 
-/// Positive where three points turn counter-clockwise, exactly.
+/// Orientation of three points, exact: positive if counter-clockwise.
 fn turn(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     let [a, b, c] = [a, b, c].map(|p| Coord { x: p.x, y: p.y });
     orient2d(a, b, c)
 }
 
-/// Which triangles of the plane are pieces of faces of the model.
+/// Triangles of the plane that are pieces of model faces.
 pub(crate) struct Kept {
-    /// For each triangle the solid and its face.
+    /// Solid and face of each triangle.
     of: Vec<Option<[usize; 2]>>,
-    /// For each face of each solid whether it is left as a whole; `None` where it covers nothing.
+    /// Whether each face of each solid is kept as a whole; `None` if it covers no triangle.
     whole: Vec<Vec<Option<bool>>>,
 }
 
@@ -87,17 +87,17 @@ impl Kept {
         Self { of, whole }
     }
 
-    /// The solid and its face that a triangle is a piece of.
+    /// Solid and face that a triangle is a piece of.
     pub fn of(&self, triangle: usize) -> Option<[usize; 2]> {
         self.of[triangle]
     }
 
-    /// Whether a face of a solid is left as a whole.
+    /// Whether a face of a solid is kept as a whole.
     pub fn is_whole(&self, [solid, face]: [usize; 2]) -> bool {
         self.whole[solid][face] == Some(true)
     }
 
-    /// For each solid the triangles of its shape that are left as a whole, ascending.
+    /// Triangle indices of the faces kept as a whole, ascending, one list per solid.
     pub fn whole(&self, flats: &[FlatFaces]) -> Vec<Vec<usize>> {
         let of_solid = |(solid, flats): (usize, &FlatFaces)| {
             let faces = (0..flats.list.len()).filter(|face| self.is_whole([solid, *face]));

@@ -1,5 +1,5 @@
-//! [`Outlines`]: the ways along which solids were cut, in the plane, cut up until none crosses another, and the plane triangulated between
-//! them (Delaunay, under constraints).
+//! [`Outlines`]: outlines of all solids in the plane, split at crossings, and the constrained Delaunay
+//! triangulation between them.
 
 use glam::{DVec2, DVec3};
 use robust::{Coord, orient2d};
@@ -19,45 +19,46 @@ impl HasPosition for Corner {
     }
 }
 
-/// Triangles of the plane; their corners are points of the outlines, by number.
+/// Triangulation of the plane. Its vertices are the points of the outlines, with the same indices.
 pub(crate) type Faces = ConstrainedDelaunayTriangulation<Corner>;
 
-/// A piece of an outline.
+/// Piece of an outline.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Edge {
     pub ends: [u32; 2],
-    /// How many faces there are along it.
+    /// Net number of faces along it.
     pub times: i32,
-    /// The solid it bounds, and which of its open edges it is a piece of.
+    /// Solid with this edge, and index of the open edge that this is a piece of.
     pub solid: u32,
     pub of: u32,
-    /// Whether it is a side of a face in the plane rather than an open edge.
+    /// Whether it is a side of a coplanar face rather than an open edge.
     pub flat: bool,
 }
 
-/// The ways along which solids were cut, in the plane.
+/// Outlines of all solids in the plane.
 #[derive(Default)]
 pub(crate) struct Outlines {
     points: Vec<DVec2>,
-    /// Where each is in the world.
+    /// World position of each point.
     places: Vec<DVec3>,
-    /// Points by the field of a grid that they are in.
+    /// Points by grid cell.
     known: FxHashMap<[i64; 2], Vec<u32>>,
-    /// Points so near are one, and lie on an edge.
+    /// Distance within which points coincide, and lie on an edge.
     reach: f64,
     pub edges: Vec<Edge>,
 }
 
-/// Cutting edges where they cross moves them a little, so that others may cross; seldom once, hardly ever twice.
+/// Maximum number of rounds of splitting. Splitting moves edges slightly, which can cause new crossings. One
+/// round is almost always enough.
 const ROUNDS: usize = 8;
 
 impl Outlines {
-    /// None yet; points so near are one: what rounding leaves of the coordinates.
+    /// Empty set with the distance within which points coincide.
     pub fn new(reach: f64) -> Self {
         Self { reach: reach.max(f64::MIN_POSITIVE), ..Self::default() }
     }
 
-    /// The number of a point.
+    /// Index of the point at a position, added if necessary.
     pub fn point(&mut self, p: DVec2, place: DVec3) -> u32 {
         let field = (p / (2.0 * self.reach)).to_array().map(|x| x.floor() as i64);
         for (i, j) in (-1..=1).flat_map(|i| (-1..=1).map(move |j| (i, j))) {
@@ -82,7 +83,7 @@ impl Outlines {
         self.places[v as usize]
     }
 
-    /// On which side of the way from `a` to `b` a point lies, exactly: positive on its left.
+    /// Side of a point along an edge from `a` to `b`, exact: positive on the left.
     fn side(&self, [a, b]: [u32; 2], p: u32) -> f64 {
         let [a, b, p] = [a, b, p].map(|v| self.at(v)).map(|p| Coord { x: p.x, y: p.y });
         orient2d(a, b, p)
@@ -97,7 +98,7 @@ impl Outlines {
         apart(one, other) && apart(other, one)
     }
 
-    /// Cuts an edge and all that cross it where they do.
+    /// Splits an edge and all edges that cross it at their crossings.
     fn part(&mut self, [a, b]: [u32; 2], plane: &Plane) {
         let is_it = |ends: [u32; 2]| ends == [a, b] || ends == [b, a];
         let mut cuts: Vec<(f64, u32)> = Vec::new();
@@ -126,7 +127,7 @@ impl Outlines {
         self.edges.retain(|edge| edge.ends[0] != edge.ends[1]);
     }
 
-    /// Puts points between the ends of an edge; the pieces behind the first one are added.
+    /// Splits an edge at points. Pieces after the first are appended.
     fn divide(&mut self, k: usize, through: impl IntoIterator<Item = u32>) {
         let own = self.edges[k];
         let mut from = own.ends[0];
@@ -141,7 +142,7 @@ impl Outlines {
         }
     }
 
-    /// Cuts edges at the points that lie on them.
+    /// Splits edges at the points on them.
     fn part_at_points(&mut self) {
         let mut order: Vec<u32> = (0..self.points.len() as u32).collect();
         order.sort_by(|a, b| self.at(*a).x.total_cmp(&self.at(*b).x));
@@ -168,7 +169,7 @@ impl Outlines {
         self.edges.retain(|edge| edge.ends[0] != edge.ends[1]);
     }
 
-    /// The plane between the outlines, which then consist of sides of its triangles.
+    /// Triangulates the plane between the outlines. All outlines then consist of triangle sides.
     pub fn triangulated(&mut self, plane: &Plane) -> Option<Faces> {
         for round in 0..ROUNDS {
             self.part_at_points();
@@ -194,10 +195,10 @@ impl Outlines {
     }
 }
 
-/// The solid that has a triangle of the plane.
+/// Solid that owns a triangle of the plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Owner {
     pub solid: u32,
-    /// Whether anything in front of it was cut off.
+    /// Whether material in front of it was removed.
     pub is_cut: bool,
 }

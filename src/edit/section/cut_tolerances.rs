@@ -1,23 +1,23 @@
-//! [`Reach`]: how near two places are one where a shape is cut.
+//! [`Reach`]: distances within which points coincide when a shape is cut.
 
 use glam::{DAffine3, DVec3};
 
 use crate::geometry::numbers::tolerance;
 use crate::scene::Geometry;
 
-/// How near two places of a shape are one, world.
+/// Distances within which points of a shape coincide, world units.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Reach {
-    /// Points of an outline: what the mesh joins anyway.
+    /// Points of an outline: the distance that the mesh welds.
     pub points: f64,
-    /// A vertex and the plane: nothing is drawn between surfaces that are nearer.
+    /// A vertex and the plane: surfaces closer than this have no space between them in the drawing.
     pub plane: f64,
-    /// The ends of an outline that does not close, which may be the two sides of a seam.
+    /// Ends of an open outline, which may be the two sides of a seam.
     pub gap: f64,
 }
 
 impl Reach {
-    /// That of a shape, by its size and the precision of its coordinates.
+    /// Distances for a shape, from its size and the precision of its coordinates.
     pub fn of(geometry: &Geometry, place: &DAffine3) -> Self {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
         for corner in geometry.triangles.as_flattened() {

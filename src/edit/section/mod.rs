@@ -1,14 +1,13 @@
 //! Section of a scene: removes everything in front of a plane and closes the solids that the plane cuts open.
 //!
 //! 1. [`plane_spec`] reads the [`plane`] from an option such as `y=12.5`.
-//! 2. [`void_winding`] orients each surface so that winding numbers separate material from voids.
-//! 3. [`plane_clip`] clips each part at the plane and lists the open edges along it. [`cut_tolerances`] gives
-//!    the distances within which points coincide. [`outline_gaps`] closes small gaps between open edges.
-//! 4. [`section_caps`] triangulates the plane between the outlines ([`cut_outlines`]) and assigns each
-//!    triangle to a solid by winding number. [`coplanar_faces`] keeps faces of the model that lie in the
-//!    plane.
-//! 5. [`seam_division`] splits the clipped triangles where the caps have vertices.
-//! 6. [`neighbour_kinds`] numbers the cut parts so that touching ones differ.
+//! 2. `void_winding` orients each surface so that winding numbers separate material from voids.
+//! 3. `plane_clip` clips each part at the plane and lists the open edges along it. `cut_tolerances` gives the
+//!    distances within which points coincide. `outline_gaps` closes small gaps between open edges.
+//! 4. `section_caps` triangulates the plane between the outlines (`cut_outlines`) and assigns each triangle
+//!    to a solid by winding number. `coplanar_faces` keeps faces of the model that lie in the plane.
+//! 5. `seam_division` splits the clipped triangles where the caps have vertices.
+//! 6. `neighbour_kinds` numbers the cut parts so that touching ones differ.
 //!
 //! ```
 //! use ligne::Scene;
@@ -50,53 +49,58 @@ use cut_tolerances::Reach;
 use plane_clip::Clipped;
 use section_caps::{Cap, Opened};
 
-/// A scene that is cut open.
+/// Scene that was cut open.
 #[derive(Debug, Clone, Default)]
 pub struct Section {
-    /// What lies behind the plane.
+    /// Remaining scene behind the plane.
     pub scene: Scene,
-    /// The faces along the plane: one entry a part that has any, in the order of parts.
+    /// Cut faces, one entry per part that has any, in the order of parts.
     pub faces: Vec<CutFaces>,
 }
 
-/// The faces of a part along the plane that cuts it.
+/// Cut faces of a part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutFaces {
-    /// The part, an index into the parts of the scene that is left.
+    /// Index of the part in the remaining scene.
     pub part: usize,
-    /// Their material, an index into [`Scene::materials`], which nothing else has: it looks like the part's.
+    /// Index of their material in [`Scene::materials`]. Only these faces use it. It has the colour of the
+    /// part.
     pub material: u32,
-    /// Their area, units of the model squared.
+    /// Area, model units squared.
     pub area: f64,
-    /// The box around them along the axes of the plane: least and greatest coordinates.
+    /// Bounding box along the axes of the plane: lowest and highest coordinates.
     pub bounds: [DVec2; 2],
-    /// A small number that parts whose faces touch have different ones of.
+    /// Small number that differs between parts whose cut faces touch.
     pub kind: usize,
 }
 
-/// The name of the material of cut faces, by the number that tells neighbours apart.
+/// Name of the material of cut faces with a number.
 #[must_use]
 pub fn material_name(kind: usize) -> String {
     format!("cut {}", kind + 1)
 }
 
-/// Cuts a scene along a plane, and leaves what lies behind it.
+/// Cuts a scene along a plane and keeps everything behind it.
 ///
-/// Cut faces belong to the part that is cut, with a material of their own that is called `cut 1`, `cut 2` and so on and has the colour of
-/// the part. They cover what the part's outlines in the plane go round, by number of turns. A closed surface inside another one bounds a
-/// void if the file winds it the other way round, and is a solid otherwise; apart from that the winding does not matter. What lies within
-/// several parts has the one of the least volume. Outlines
-/// of open surfaces are closed over gaps of up to a ten-thousandth of the part; others are left open and counted in the warnings of the
-/// scene. Of parts whose name fits `uncut` nothing is cut off where the plane goes through them.
+/// - Cut faces belong to the part that is cut. Their material is named `cut 1`, `cut 2`, … and has the colour
+///   of the part.
+/// - They cover the area where the winding number of the part's outlines is not zero.
+/// - A closed surface inside another one bounds a void if the file winds it the opposite way. Otherwise it is
+///   a solid. The winding has no other effect.
+/// - Where parts overlap, the one with the smallest volume gets the cut face.
+/// - Outlines of open surfaces are closed over gaps of up to a ten-thousandth of the part. Others stay open
+///   and are counted in the warnings of the scene.
+/// - Parts whose name matches `uncut` stay whole if the plane goes through them.
 #[must_use]
 pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
     let mut keep = vec![true; scene.parts.len()];
-    // What has no material looks like the one after the last, which is another one when there are more.
+    // Parts without a material use the entry after the last. That entry becomes explicit, because materials
+    // are added.
     let plain = scene.materials.len() as u32;
     scene.materials.push(Material::default());
     let mut numbers = Vec::new();
     let mut opened: Vec<Opened> = Vec::new();
-    // Of each of these whether nothing of it lies in front of the plane.
+    // For each solid, whether it has no vertex in front of the plane.
     let mut only_ends = Vec::new();
     let mut unclosed = 0;
     for (number, keep) in keep.iter_mut().enumerate() {
@@ -107,7 +111,7 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
         let reach = Reach::of(shape, &place);
         let (behind, before) = plane_clip::reaches(shape, &place, plane, reach.plane);
         *keep = behind || !before;
-        // What only ends in the plane may lie within what is cut.
+        // A solid with a face in the plane may lie inside a solid that is cut.
         if behind && !stays && (before || plane_clip::has_flat(shape, &place, plane, reach.plane)) {
             let shape = void_winding::wound_right(shape, &plane_clip::by_place(&shape.positions));
             let cut = clipped(&shape, &place, (plane, reach));
@@ -163,7 +167,7 @@ pub fn cut(mut scene: Scene, plane: &Plane, uncut: &[Glob]) -> Section {
     Section { scene, faces: faces_of }
 }
 
-/// The volume that a shape encloses, world.
+/// Volume enclosed by a shape, world units cubed.
 fn volume(shape: &Geometry, place: &DAffine3) -> f64 {
     let corner = |v: u32| shape.positions.get(v as usize).copied().unwrap_or_default();
     let from = shape.triangles.first().map(|t| corner(t[0])).unwrap_or_default();
@@ -174,7 +178,7 @@ fn volume(shape: &Geometry, place: &DAffine3) -> f64 {
     (shape.triangles.iter().map(of).sum::<f64>() / 6.0 * place.matrix3.determinant()).abs()
 }
 
-/// The cut faces of solids, one entry each: those whose places in the plane may overlap are closed together.
+/// Caps of all solids, one entry per solid. Solids whose outlines may overlap are capped together.
 fn capped(opened: &mut [Opened], plane: &Plane) -> Vec<Cap> {
     let bounds: Vec<_> = opened.iter().map(|own| own.bounds(plane)).collect();
     let groups = Groups::new(opened.len(), |join| {
@@ -203,8 +207,8 @@ fn capped(opened: &mut [Opened], plane: &Plane) -> Vec<Cap> {
     made
 }
 
-/// What is left of a shape; where its outlines do not close, vertices that nearly meet are joined as the mesh does it, and gaps closed that
-/// the mesh would sew.
+/// Clips a shape. If its outlines do not close, nearly coincident vertices are joined as in the mesh, and
+/// gaps are closed that the mesh would sew.
 fn clipped(shape: &Geometry, place: &DAffine3, (plane, own): (&Plane, Reach)) -> Clipped {
     let mut cut = plane_clip::clip(shape, place, (plane, own.plane), None);
     let (_, unclosed) = outline_gaps::closed(&cut);
@@ -228,7 +232,7 @@ fn clipped(shape: &Geometry, place: &DAffine3, (plane, own): (&Plane, Reach)) ->
     cut
 }
 
-/// The material of cut faces of a part that looks so.
+/// Opaque, untextured copy of a material for cut faces.
 fn cut_material(of: Option<&Material>) -> Material {
     let own = of.cloned().unwrap_or_default();
     Material {
@@ -243,7 +247,7 @@ fn cut_material(of: Option<&Material>) -> Material {
     }
 }
 
-/// Adds the cut faces to what is left of a shape.
+/// Appends the triangles of a cap to the remaining shape.
 fn close(shape: &mut Geometry, faces: &Cap, material: u32, looks: u32) {
     let before = shape.triangles.len();
     if shape.triangle_material.is_empty() {

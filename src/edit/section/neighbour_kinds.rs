@@ -1,11 +1,11 @@
-//! [`number`]: numbers of cut parts, by which neighbours differ.
+//! [`number`]: numbers of cut parts that differ between neighbours (greedy graph colouring).
 
 use super::CutFaces;
 
-/// Parts are neighbours where the boxes around their faces come nearer than this share of the larger one's diagonal.
+/// Maximum gap between the boxes of neighbouring parts, as a share of the larger diagonal.
 const NEAR: f64 = 0.02;
 
-/// Gives the faces of each part the least number that none of its neighbours with larger faces has.
+/// Assigns numbers by decreasing area: the lowest number that no numbered neighbour has.
 pub(crate) fn number(faces: &mut [CutFaces]) {
     let mut order: Vec<usize> = (0..faces.len()).collect();
     order.sort_by(|a, b| faces[*b].area.total_cmp(&faces[*a].area).then(a.cmp(b)));
@@ -21,7 +21,7 @@ pub(crate) fn number(faces: &mut [CutFaces]) {
     }
 }
 
-/// Whether the faces of two parts touch or nearly do.
+/// Whether the faces of two parts touch or nearly touch, by their boxes.
 pub(crate) fn are_neighbours(a: &CutFaces, b: &CutFaces) -> bool {
     let size = |faces: &CutFaces| faces.bounds[0].distance(faces.bounds[1]);
     let near = NEAR * size(a).max(size(b));

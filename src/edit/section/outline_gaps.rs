@@ -1,11 +1,11 @@
-//! [`closed`], [`close`]: which outlines close; those that do not are closed over small gaps.
+//! [`closed`] and [`close`]: which outlines are closed loops, and closing of small gaps.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
 
 use super::plane_clip::Clipped;
 
-/// The edges that run in closed ways, and the number of connected outlines that do not.
+/// Edges of closed outlines, and the number of connected outlines that do not close.
 pub(crate) fn closed(cut: &Clipped) -> (Vec<([u32; 2], i32)>, u64) {
     let mut parent: Vec<u32> = (0..cut.nodes.len() as u32).collect();
     let mut excess = vec![0_i64; cut.nodes.len()];
@@ -33,8 +33,7 @@ pub(crate) fn closed(cut: &Clipped) -> (Vec<([u32; 2], i32)>, u64) {
     (cut.open.iter().filter(closes).copied().collect(), unclosed)
 }
 
-/// Joins ends of outlines that lie within `reach` (world) of each other, the nearest first: an outline that ends goes on where
-/// another one begins.
+/// Joins ends of outlines to starts of outlines within `reach` (world units), nearest first.
 pub(crate) fn close(cut: &mut Clipped, reach: f64) {
     let mut excess = vec![0_i64; cut.nodes.len()];
     for ([a, b], times) in &cut.open {
@@ -56,7 +55,7 @@ pub(crate) fn close(cut: &mut Clipped, reach: f64) {
             let near = begins.get(&field).into_iter().flatten();
             let distance = |begin: &u32| place(*begin).distance(place(end));
             let near = near.map(|begin| (distance(begin), end, *begin)).filter(|(far, ..)| *far <= reach);
-            // Of very many ends in one place a few will do.
+            // Limited, because many ends at one place would give too many pairs.
             pairs.extend(near.take(MAX_PAIRS));
         }
     }
@@ -71,5 +70,5 @@ pub(crate) fn close(cut: &mut Clipped, reach: f64) {
     }
 }
 
-/// Ends in one field that are tried for each other one.
+/// Maximum number of starts per grid cell that are tried for an end.
 const MAX_PAIRS: usize = 64;

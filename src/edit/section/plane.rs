@@ -1,23 +1,23 @@
-//! [`Plane`]: a plane in the world, and on which side of it a point lies, by exact sign.
+//! [`Plane`]: plane in world space with exact side tests.
 
 use glam::{DVec2, DVec3};
 use robust::{Coord3D, orient3d};
 
-/// A plane in the world.
+/// Plane in world space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
     origin: DVec3,
-    /// Unit vectors at right angles in the plane, and its normal.
+    /// Two orthonormal vectors in the plane, and its normal.
     axes: [DVec3; 3],
 }
 
 impl Plane {
-    /// The plane through a point, across a normal of any length; `None` where that is no direction. What lies where the normal points
-    /// is in front of the plane.
+    /// Plane through a point with a normal of any length; `None` if the normal has no direction. The normal
+    /// points to the front.
     #[must_use]
     pub fn new(point: DVec3, normal: DVec3) -> Option<Self> {
         let normal = normal.try_normalize().filter(|_| point.is_finite())?;
-        // A plane and the same plane turned round have the same three points, so that they part space alike.
+        // A plane and its reverse use the same three points, so both classify points consistently.
         let turned = normal.to_array().into_iter().find(|x| *x != 0.0).is_some_and(|x| x < 0.0);
         let towards = if turned { -normal } else { normal };
         let least = towards.abs().min_element();
@@ -34,27 +34,27 @@ impl Plane {
         Some(Self { origin: point, axes })
     }
 
-    /// A point of the plane, world.
+    /// A point of the plane, world space.
     #[must_use]
     pub fn point(&self) -> DVec3 {
         self.origin
     }
 
-    /// Its unit normal, world.
+    /// Unit normal, world space.
     #[must_use]
     pub fn normal(&self) -> DVec3 {
         self.axes[2]
     }
 
-    /// The same plane seen from its other side.
+    /// The same plane with front and back exchanged.
     #[must_use]
     pub fn turned(&self) -> Self {
         let [u, v, normal] = self.axes;
         Self { origin: self.origin, axes: [v, u, -normal] }
     }
 
-    /// On which side a point lies: 1 in front, -1 behind, 0 on the plane through the origin and the two points that are a unit from it
-    /// along the axes.
+    /// Side of a point, by exact predicate: 1 in front, -1 behind, 0 on the plane. The plane is that of the
+    /// origin and the points one unit along both axes.
     #[must_use]
     pub fn side(&self, p: DVec3) -> i8 {
         let [u, v, _] = self.axes;
@@ -65,31 +65,31 @@ impl Plane {
         i8::from(below < 0.0) - i8::from(below > 0.0)
     }
 
-    /// How far in front of the plane a point lies, rounded.
+    /// Signed distance of a point, rounded; positive in front.
     #[must_use]
     pub fn distance(&self, p: DVec3) -> f64 {
         (p - self.origin).dot(self.axes[2])
     }
 
-    /// The point of the plane that is nearest to one next to it.
+    /// Projection of a point onto the plane.
     pub(crate) fn nearest(&self, p: DVec3) -> DVec3 {
         p - self.axes[2] * self.distance(p)
     }
 
-    /// Where a point lies along the axes of the plane.
+    /// Coordinates of a point along the axes of the plane.
     #[must_use]
     pub fn flat(&self, p: DVec3) -> DVec2 {
         let p = p - self.origin;
         DVec2::new(p.dot(self.axes[0]), p.dot(self.axes[1]))
     }
 
-    /// The point of the plane that lies so along its axes, world.
+    /// World position of a point with coordinates along the axes of the plane.
     #[must_use]
     pub fn raised(&self, p: DVec2) -> DVec3 {
         self.origin + self.axes[0] * p.x + self.axes[1] * p.y
     }
 
-    /// Where the plane crosses the way between two points on different sides of it, and at which part of that.
+    /// Intersection with the segment between two points on different sides, and its parameter from `a`.
     pub(crate) fn crossing(&self, a: DVec3, b: DVec3) -> (DVec3, f64) {
         let (from, to) = (self.distance(a), self.distance(b));
         let t = from / (from - to);

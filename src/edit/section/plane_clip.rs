@@ -1,9 +1,9 @@
-//! [`clip`]: the part of a shape that lies behind a plane, and the edges along which it was cut open.
+//! [`clip`]: part of a shape behind a plane, and the open edges along the plane.
 //!
-//! Each vertex is in front of the plane, behind it or on it, once for all its faces. Those on it are moved onto it, and count as in front:
-//! what is left is what has a corner behind, so that no face is cut along its side. Faces that lie in the plane are listed apart, for
-//! [`caps`](super::section_caps::caps) to decide about. Edges meet because they share vertices: those at one place count as one, and an
-//! edge is cut once for all faces at it.
+//! Each vertex is classified once for all its faces: in front, behind, or on the plane. Vertices on the plane
+//! are moved onto it exactly. Triangles with a vertex behind are kept or clipped, so no triangle is cut along
+//! its own side. Triangles in the plane are listed separately, for [`caps`](super::section_caps::caps). Vertices at
+//! the same position count as one, and an edge is cut once for all its faces.
 
 use glam::{DAffine3, DVec3};
 use rustc_hash::FxHashMap;
@@ -12,29 +12,29 @@ use super::plane::Plane;
 use crate::mesh::EdgeMark;
 use crate::scene::Geometry;
 
-/// What is left of a shape.
+/// Remaining part of a shape.
 #[derive(Debug, Default)]
 pub(crate) struct Clipped {
-    /// The shape, in the world.
+    /// The remaining shape, world space.
     pub geometry: Geometry,
-    /// The vertex of each end of the open edges.
+    /// Vertex of each node of the open edges.
     pub nodes: Vec<u32>,
-    /// Edges along which the shape is open now, as the faces run along them, with the number of faces.
+    /// Open edges as pairs of nodes, in the direction of their faces, with the net number of faces.
     pub open: Vec<([u32; 2], i32)>,
-    /// Faces that lie in the plane.
+    /// Triangles in the plane.
     pub flat: Vec<Flat>,
 }
 
-/// A face that lies in the plane.
+/// Triangle in the plane.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Flat {
-    /// Which triangle of the shape it is.
+    /// Index of the triangle in the shape.
     pub triangle: usize,
-    /// Its corners among the nodes, counter-clockwise seen from its outside in the world.
+    /// Corners as nodes, counter-clockwise as seen from outside in world space.
     pub nodes: [u32; 3],
 }
 
-/// On which sides of a plane a shape has vertices that triangles or wires use.
+/// Whether a shape has used vertices behind and in front of a plane.
 pub(crate) fn reaches(geometry: &Geometry, place: &DAffine3, plane: &Plane, reach: f64) -> (bool, bool) {
     let (mut behind, mut before) = (false, false);
     for corner in geometry.triangles.as_flattened().iter().chain(geometry.wires.as_flattened()) {
@@ -51,7 +51,7 @@ pub(crate) fn reaches(geometry: &Geometry, place: &DAffine3, plane: &Plane, reac
     (behind, before)
 }
 
-/// Whether a shape has triangles that lie in a plane.
+/// Whether a shape has triangles in the plane.
 pub(crate) fn has_flat(geometry: &Geometry, place: &DAffine3, plane: &Plane, reach: f64) -> bool {
     let is_on = |v: &u32| {
         let p = geometry.positions.get(*v as usize);
@@ -60,19 +60,19 @@ pub(crate) fn has_flat(geometry: &Geometry, place: &DAffine3, plane: &Plane, rea
     geometry.triangles.iter().any(|triangle| triangle.iter().all(is_on))
 }
 
-/// On which side of a plane a point lies; 0 where it lies so near that rounding may have moved it.
+/// Side of a point: 1 in front, -1 behind, 0 within `reach` of the plane.
 fn side(plane: &Plane, p: DVec3, reach: f64) -> i8 {
     if plane.distance(p).abs() <= reach { 0 } else { plane.side(p) }
 }
 
-/// A corner of a clipped triangle: one of its own, or on the side behind that.
+/// Corner of a clipped triangle: an original corner, or the cut on the side after a corner.
 #[derive(Clone, Copy)]
 enum Corner {
     Own(usize),
     Between(usize),
 }
 
-/// The part of a shape behind a plane, in the world; vertices that `joined` names alike count as one.
+/// Part of a shape behind a plane, world space. Vertices with the same entry in `joined` count as one.
 pub(crate) fn clip(
     shape: &Geometry,
     place: &DAffine3,
@@ -93,7 +93,7 @@ pub(crate) fn clip(
 struct Clipper<'a> {
     shape: &'a Geometry,
     plane: &'a Plane,
-    /// The vertex that stands for all at its place.
+    /// Representative of each vertex among all at its position.
     one: Vec<u32>,
     sides: Vec<i8>,
     to: Clipped,
@@ -190,7 +190,7 @@ impl<'a> Clipper<'a> {
         }
     }
 
-    /// Adds a triangle of an outline.
+    /// Adds a triangle of a clipped outline.
     fn add(
         &mut self,
         index: usize,
@@ -222,7 +222,7 @@ impl<'a> Clipper<'a> {
                 (Corner::Own(k), Corner::Own(n)) if n == (k + 1) % 3 => k,
                 (Corner::Own(k), Corner::Between(n)) if n == k => k,
                 (Corner::Between(k), Corner::Own(n)) if n == (k + 1) % 3 => k,
-                // The side along which it is cut.
+                // The side along the cut.
                 _ => return EdgeMark::Unmarked,
             };
             marks.map_or(EdgeMark::Unmarked, |marks| marks[side])
@@ -244,7 +244,7 @@ impl<'a> Clipper<'a> {
         }
     }
 
-    /// Where an edge is cut, the same for all that share it, and at which part of the way from its first end.
+    /// Cut point of an edge, equal for all its faces, and its parameter from the first end.
     fn crossing(&self, [a, b]: [u32; 2]) -> (DVec3, f64) {
         let [a, b] = [a, b].map(|v| self.one[v as usize]);
         let at = |v: u32| self.to.geometry.positions[v as usize];
@@ -260,7 +260,7 @@ impl<'a> Clipper<'a> {
         [corners[k], corners[(k + 1) % 3]]
     }
 
-    /// The vertex of a corner.
+    /// Vertex of a corner.
     fn vertex(&mut self, corners: [u32; 3], corner: Corner) -> u32 {
         let k = match corner {
             Corner::Own(k) => return corners[k],
@@ -286,7 +286,7 @@ impl<'a> Clipper<'a> {
         geometry.positions.len() as u32 - 1
     }
 
-    /// The node of a corner that lies on the plane.
+    /// Node of a corner on the plane; none for other corners.
     fn node(&mut self, corners: [u32; 3], corner: Corner, vertex: u32) -> Option<u32> {
         let key = match corner {
             Corner::Own(k) if self.side(corners[k]) == 0 => [self.one[corners[k] as usize]; 2],
@@ -303,7 +303,7 @@ impl<'a> Clipper<'a> {
         }))
     }
 
-    /// The normals (or else the texture coordinates) of the corners of an outline.
+    /// Normals or texture coordinates of the corners of an outline, as indices.
     fn attribute(&mut self, index: usize, outline: &[Corner], normals: bool) -> Vec<u32> {
         let stored = if normals { &self.shape.corner_normals } else { &self.shape.corner_uvs };
         let Some(own) = stored.get(index).copied() else { return vec![u32::MAX; outline.len()] };
@@ -340,7 +340,7 @@ impl<'a> Clipper<'a> {
                 _ => self.to.open.push(([b, a], -net)),
             }
         }
-        // Without marks of the file those of the cut alone count; they are added with the cut faces.
+        // Without marks in the file only the cut needs marks. They are added with the cap.
         if !self.has_marks && self.to.open.is_empty() {
             self.to.geometry.edge_marks.clear();
         }
@@ -348,8 +348,8 @@ impl<'a> Clipper<'a> {
     }
 }
 
-/// Adds a triangle of a shape to what is left of it: all of it, or a piece in its plane with other corners, which has no normals or texture
-/// coordinates of its own.
+/// Adds a triangle in the plane to the remaining shape: unchanged, or as a piece with other corners. A piece
+/// has no normals and texture coordinates.
 pub(crate) fn add_flat(
     to: &mut Geometry,
     shape: &Geometry,
@@ -376,7 +376,7 @@ pub(crate) fn add_flat(
     to.edge_marks.push(piece.map_or(sides, |(_, marks)| marks));
 }
 
-/// Adds what is between two entries; `u32::MAX` where one of them is missing.
+/// Adds the interpolation of two entries. Returns its index, or `u32::MAX` if an entry is missing.
 fn push_between<const N: usize>(
     to: &mut Vec<[f32; N]>,
     from: usize,
@@ -388,11 +388,11 @@ fn push_between<const N: usize>(
     to.len() as u32 - 1
 }
 
-/// For each vertex the first one at its place.
+/// First vertex at the position of each vertex.
 pub(crate) fn by_place(positions: &[DVec3]) -> Vec<u32> {
     let mut known: FxHashMap<[u64; 3], u32> = FxHashMap::default();
     known.reserve(positions.len());
-    // The sum makes zeros positive.
+    // The sum turns negative zeros into positive ones.
     let bits = |p: &DVec3| (*p + DVec3::ZERO).to_array().map(f64::to_bits);
     positions.iter().enumerate().map(|(v, p)| *known.entry(bits(p)).or_insert(v as u32)).collect()
 }

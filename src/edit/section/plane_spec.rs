@@ -1,4 +1,4 @@
-//! [`CutPlane`]: a plane as it is told: `x`, `y=12.5`, `z=50%`, `normal:1,0,1@5mm`.
+//! [`CutPlane`]: plane as written in options: `x`, `y=12.5`, `z=50%`, `normal:1,0,1@5mm`.
 
 use glam::DVec3;
 
@@ -6,36 +6,39 @@ use super::Plane;
 use crate::error::Error;
 use crate::scene::Scene;
 
-/// A plane as it is told.
+/// Plane as written in an option.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CutPlane {
     normal: DVec3,
-    /// Whether what lies where the normal points is taken away, whatever the eye.
+    /// Whether the normal defines the side to remove. Otherwise the view does.
     signed: bool,
     at: At,
 }
 
-/// How far along its normal a plane lies.
+/// Position of a plane along its normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum At {
-    /// Units of the model from its zero.
+    /// Distance from the origin, model units.
     Units(f64),
-    /// Millimetres from its zero.
+    /// Distance from the origin, mm.
     Mm(f64),
-    /// A share of the model's extent.
+    /// Share of the model's extent.
     Share(f64),
 }
 
-/// Units of length, in mm.
+/// Units of length in mm.
 const UNITS: [(&str, f64); 5] = [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", 25.4), ("ft", 304.8)];
 
 impl CutPlane {
-    /// Reads a plane: an axis (through the middle of the model), or `normal:` and a direction behind `@`; where it lies along that, in
-    /// units of the model, in mm, cm, m, in or ft, or as a share of its extent; and before it a sign that says which side is taken
-    /// away.
+    /// Reads a plane.
+    ///
+    /// - Direction: an axis, or `normal:` and three numbers.
+    /// - Position, after `=` or `@`: in model units, with a unit (mm, cm, m, in, ft), or as a share of the
+    ///   extent in percent. The default is the centre of the model.
+    /// - Optional sign before it: the side to remove.
     ///
     /// # Errors
-    /// Says what would be right.
+    /// Returns the expected form.
     pub fn parse(text: &str) -> Result<Self, String> {
         let wrong = || {
             "write a plane such as x, y=12.5, z=10mm, x=30% or normal:1,0,1@5; + or - selects the side to remove"
@@ -83,21 +86,21 @@ impl CutPlane {
         };
         let (At::Units(number) | At::Mm(number) | At::Share(number)) = at;
         let normal = normal.try_normalize().filter(|_| number.is_finite()).ok_or_else(wrong)?;
-        // Where the plane lies is told along the axis itself, whichever side goes.
+        // The position is given along the axis, independent of the sign.
         Ok(CutPlane { normal: normal * sign.unwrap_or(1.0), signed: sign.is_some(), at: at.turned(sign) })
     }
 
-    /// Its normal, and whether that tells the side that is taken away.
+    /// The normal, and whether it defines the side to remove.
     #[must_use]
     pub fn normal(&self) -> (DVec3, bool) {
         (self.normal, self.signed)
     }
 
-    /// The plane in a scene whose unit is so many mm, of which what is in front is taken away: where no sign tells it, what is on the
-    /// side of an eye that looks in the direction `forward`.
+    /// Plane in a scene. `unit_mm` is the length of a model unit in mm. The removed side is in front: the
+    /// side of the sign, or without a sign the side of a camera that looks along `forward`.
     ///
     /// # Errors
-    /// If the plane lies beside the model.
+    /// If the plane misses the model.
     pub fn of(&self, scene: &Scene, unit_mm: f64, forward: DVec3) -> Result<Plane, Error> {
         let (low, high) = scene.bounds().unwrap_or_default();
         let corner = |k: usize| {

@@ -1,4 +1,4 @@
-//! [`sew`]: the surfaces of a solid along the plane that cut them, divided where its cut faces are.
+//! [`sew`]: splits the clipped triangles of a solid where its caps have vertices.
 
 use glam::DVec3;
 use rustc_hash::FxHashMap;
@@ -6,24 +6,24 @@ use rustc_hash::FxHashMap;
 use crate::mesh::EdgeMark;
 use crate::scene::Geometry;
 
-/// What became of an edge along which a solid was cut open, from its first end to the second.
+/// Pieces of an open edge, from its first end to the second.
 #[derive(Debug, Clone)]
 pub(crate) struct Seam {
-    /// Points between its ends.
+    /// Points between the ends.
     pub through: Vec<DVec3>,
-    /// What its pieces are, one more than there are points.
+    /// Marks of the pieces, one more than there are points.
     pub marks: Vec<EdgeMark>,
 }
 
-/// Seams by the places of their ends.
+/// Seams by the bits of their end positions.
 pub(crate) type Seams = FxHashMap<[[u64; 3]; 2], Seam>;
 
-/// The bits of a place, by which it is known.
+/// Bits of a position, as a hash key. Negative zeros become positive.
 pub(crate) fn bits(p: DVec3) -> [u64; 3] {
     (p + DVec3::ZERO).to_array().map(f64::to_bits)
 }
 
-/// Divides the first so many triangles of a shape at its seams, and marks their sides there.
+/// Splits the first `count` triangles of a shape at the seams, and marks their sides.
 pub(crate) fn sew(shape: &mut Geometry, count: usize, seams: &Seams) {
     if seams.is_empty() {
         return;
@@ -39,7 +39,7 @@ pub(crate) fn sew(shape: &mut Geometry, count: usize, seams: &Seams) {
             };
             seams.get(&[a, b]).cloned().or_else(|| seams.get(&[b, a]).map(turned))
         };
-        // A face that lies in the plane as a whole is left as it is.
+        // A triangle with several seams lies in the plane and stays unchanged.
         let found: Vec<(usize, Seam)> = (0..3).filter_map(|side| Some((side, seam(side)?))).collect();
         if let [(side, seam)] = found.as_slice() {
             divide(shape, triangle, *side, seam);
@@ -47,7 +47,7 @@ pub(crate) fn sew(shape: &mut Geometry, count: usize, seams: &Seams) {
     }
 }
 
-/// Divides a triangle into a fan over one of its sides.
+/// Splits a triangle into a fan along one of its sides.
 fn divide(shape: &mut Geometry, triangle: usize, side: usize, seam: &Seam) {
     let [a, b, c] = [0, 1, 2].map(|k| (side + k) % 3);
     let corners = shape.triangles[triangle];
@@ -94,7 +94,7 @@ fn divide(shape: &mut Geometry, triangle: usize, side: usize, seam: &Seam) {
     }
 }
 
-/// Writes an entry, or adds it.
+/// Replaces an entry, or appends it.
 fn put<T>(to: &mut Vec<T>, at: usize, value: T) {
     match to.get_mut(at) {
         Some(place) => *place = value,
@@ -102,7 +102,7 @@ fn put<T>(to: &mut Vec<T>, at: usize, value: T) {
     }
 }
 
-/// Adds what is between two entries; `u32::MAX` where one of them is missing.
+/// Adds the interpolation of two entries. Returns its index, or `u32::MAX` if an entry is missing.
 fn mixed<const N: usize>(to: &mut Vec<[f32; N]>, from: u32, next: u32, t: f32) -> u32 {
     let entry = |k: u32| to.get(k as usize).copied();
     let (Some(a), Some(b)) = (entry(from), entry(next)) else { return u32::MAX };

@@ -1,11 +1,12 @@
-//! [`caps`]: the faces that close solids where a plane has cut them open.
+//! [`caps`]: faces that close solids where the plane cuts them open.
 //!
-//! 1. Between the outlines of all of them, and the sides of faces that lie in the plane, the plane is triangulated.
-//! 2. Just behind the plane a triangle is within a solid by the number of times that its outlines go round it, so that holes stay open, and
-//!    shells of one solid that overlap are one. Of a triangle within several solids the smallest one has it: a bolt in a plate, a pipe in a
-//!    block, where no hole was made for them.
-//! 3. Just in front of the plane that number differs by the faces in the plane: one less where they look to the front, one more where
-//!    they look back. Where nothing is in front, the plane cuts nothing: the surface is a face of the model itself, and stays one.
+//! 1. The plane is triangulated between the outlines of all solids and the sides of coplanar faces.
+//! 2. Just behind the plane, a triangle belongs to a solid if the winding number of the solid's outlines is
+//!    not zero. Holes stay open, and overlapping shells of a solid become one. A triangle in several solids
+//!    belongs to the smallest one, such as a bolt in a plate without a hole.
+//! 3. Just in front of the plane, the winding number changes at coplanar faces: minus one where they face
+//!    forward, plus one where they face backward. If nothing is in front, the triangle is a face of the
+//!    model, and is kept instead of a cap.
 
 use std::cmp::Ordering;
 
@@ -22,35 +23,35 @@ use super::plane_clip::Clipped;
 use super::seam_division::{Seam, Seams, bits};
 use crate::mesh::EdgeMark;
 
-/// Cut faces of a solid.
+/// Cap of a solid.
 #[derive(Debug, Default)]
 pub(crate) struct Cap {
-    /// Vertices of the solid's shape, counter-clockwise seen from the front.
+    /// Triangles of vertices of the solid's geometry, counter-clockwise as seen from the front.
     pub triangles: Vec<[u32; 3]>,
-    /// What their sides are.
+    /// Marks of the triangle sides, one entry per triangle.
     pub marks: Vec<[EdgeMark; 3]>,
-    /// Their area, in units of the world squared.
+    /// Area of the cap, world units squared.
     pub area: f64,
-    /// Least and greatest place along the axes of the plane.
+    /// Lowest and highest corner of the cap along the axes of the plane.
     pub bounds: Option<[DVec2; 2]>,
-    /// What became of the open edges.
+    /// Pieces of the open edges, by their end points.
     pub seams: Seams,
-    /// Triangles of the solid's own shape that lie in the plane and stay unchanged.
+    /// Triangles of the original geometry that lie in the plane and stay unchanged.
     pub whole: Vec<usize>,
-    /// Pieces of such triangles: of which one, the vertices, and what the sides are.
+    /// Pieces of such triangles: the index of the triangle, the vertices, and the marks of the sides.
     pub pieces: Vec<(usize, [u32; 3], [EdgeMark; 3])>,
 }
 
-/// A solid that was cut open.
+/// Solid that was cut open.
 pub(crate) struct Opened {
     pub cut: Clipped,
-    /// Its volume, world.
+    /// Volume of the uncut solid, world units cubed.
     pub volume: f64,
     pub reach: Reach,
 }
 
 impl Opened {
-    /// The box around what lies in the plane, along its axes.
+    /// Bounding box of the outlines along the axes of the plane.
     pub fn bounds(&self, plane: &Plane) -> Option<[DVec2; 2]> {
         let place = |node: &u32| plane.flat(self.cut.geometry.positions[*node as usize]);
         let of = |p: DVec2| [p, p];
@@ -58,9 +59,9 @@ impl Opened {
         nodes.reduce(|[low, high], [p, q]| [low.min(p), high.max(q)])
     }
 
-    /// Which of two solids has what lies in both.
+    /// Order of precedence where solids overlap: the smaller volume first.
     fn precedence(&self, other: &Self, plane: &Plane) -> Ordering {
-        // Rounded, so that the order of triangles does not matter.
+        // Rounded to single precision, so that the order of triangles has no influence.
         let by_volume = (self.volume as f32).total_cmp(&(other.volume as f32));
         let corners = |of: &Self| of.bounds(plane).unwrap_or_default();
         let (own, its) = (corners(self), corners(other));
@@ -74,7 +75,8 @@ impl Opened {
     }
 }
 
-/// The cut faces of solids that may overlap, one entry each; vertices where outlines cross are added to their shapes.
+/// Caps of solids that may overlap, one entry per solid. Vertices at crossings of outlines are added to their
+/// geometry.
 pub(crate) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
     let mut outlines = Outlines::new(solids.iter().map(|own| own.reach.points).fold(0.0, f64::max));
     let mut vertices: Vec<FxHashMap<u32, u32>> = vec![FxHashMap::default(); solids.len()];
@@ -84,13 +86,13 @@ pub(crate) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
         let mut point = |node: u32| {
             let vertex = cut.nodes[node as usize];
             let place = cut.geometry.positions[vertex as usize];
-            // Nodes at one place of the plane are one point.
+            // Nodes at the same position become one point.
             let point = outlines.point(plane.flat(place), place);
             own.entry(point).or_insert(vertex);
             point
         };
         let (edges, _) = closed(cut);
-        // The new faces run the other way along the edges.
+        // Caps run along the open edges in the opposite direction.
         let ends: Vec<_> = edges.iter().map(|([a, b], times)| ([point(*b), point(*a)], *times)).collect();
         let flats: Vec<[u32; 3]> = cut.flat.iter().map(|flat| flat.nodes.map(&mut point)).collect();
         for (of, (ends, times)) in ends.into_iter().enumerate().filter(|(_, ([a, b], _))| a != b) {
@@ -157,7 +159,7 @@ pub(crate) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
         let [low, high] = own.bounds.unwrap_or([a, a]);
         own.bounds = Some([low.min(a).min(b).min(c), high.max(a).max(b).max(c)]);
     }
-    // What became of each open edge: along it faces of its solid end, or those of another one have taken their place.
+    // Marks the pieces of each open edge. A piece is covered if the solid owns both sides of it or neither.
     let corners: Vec<_> = faces.fixed_vertices().collect();
     let mut pieces: Vec<&Edge> = outlines.edges.iter().filter(|edge| !edge.flat).collect();
     pieces.sort_by_key(|edge| (edge.solid, edge.of));
@@ -167,7 +169,7 @@ pub(crate) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
         let [from, to] =
             open[solid as usize][of].map(|v| solids[solid as usize].cut.geometry.positions[v as usize]);
         let along = |point: u32| (place(point) - from).dot(to - from);
-        // Outlines run against the open edge.
+        // Outlines run against the open edges.
         let mut own: Vec<[u32; 2]> = own.iter().map(|edge| [edge.ends[1], edge.ends[0]]).collect();
         own.sort_by(|a, b| along(a[0]).total_cmp(&along(b[0])));
         let mark = |[a, b]: &[u32; 2]| {
@@ -189,7 +191,8 @@ pub(crate) fn caps(solids: &mut [&mut Opened], plane: &Plane) -> Vec<Cap> {
     made
 }
 
-/// How often outlines of a solid go round a triangle: just behind the plane, and by how much less just in front of it.
+/// Winding number of a solid's outlines around a triangle just behind the plane, and the decrease to the
+/// front of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Turns {
     solid: u32,
@@ -197,7 +200,7 @@ struct Turns {
     flat: i32,
 }
 
-/// For each face the solid that has it: of those whose outlines go round it the one of the least rank.
+/// Owner of each triangle: the solid of lowest rank with a winding number other than zero.
 fn owners(faces: &Faces, outlines: &Outlines, rank: &[usize]) -> Vec<Option<Owner>> {
     let mut along: FxHashMap<[u32; 2], Vec<Turns>> = FxHashMap::default();
     for edge in &outlines.edges {
@@ -210,7 +213,8 @@ fn owners(faces: &Faces, outlines: &Outlines, rank: &[usize]) -> Vec<Option<Owne
     let outer = faces.outer_face();
     turns[outer.fix().index()] = Some(Vec::new());
     let mut waiting: Vec<_> = faces.convex_hull().map(|edge| (edge, Vec::new())).collect();
-    // The left side of an edge is gone round as often more than its right side as there are faces along it.
+    // Flood fill from the outside. Crossing an edge changes the winding number by the number of faces along
+    // it.
     while let Some((edge, own)) = waiting.pop() {
         let beyond = edge.rev();
         let Some(next) = beyond.face().as_inner() else { continue };
@@ -234,7 +238,7 @@ fn owners(faces: &Faces, outlines: &Outlines, rank: &[usize]) -> Vec<Option<Owne
     turns.into_iter().map(|turns| turns.and_then(first)).collect()
 }
 
-/// Adds to the numbers that stand for a solid.
+/// Adds winding numbers of a solid, and drops zeros.
 fn add(to: &mut Vec<Turns>, more: Turns) {
     match to.iter().position(|known| known.solid == more.solid) {
         None => to.push(more),

@@ -1,8 +1,9 @@
-//! [`wound_right`]: a shape whose surfaces are wound so that sums of turns tell material from voids.
+//! [`wound_right`]: orients the surfaces of a shape so that winding numbers separate material from voids.
 //!
-//! Each surface is turned to show its outside (see `mesh::orientation`). A closed surface inside others bounds a void if the file
-//! winds it against them: nothing else tells a void from a solid that lies within another one. It is inside if it is so just behind
-//! all its vertices. Surfaces that merely overlap are solids, however they are wound, and become one with their neighbours.
+//! Each surface is turned outward (see `mesh::orientation`). A closed surface inside others bounds a void if
+//! the file winds it the opposite way, since nothing else distinguishes a void from an enclosed solid. It
+//! counts as inside if the points just behind all its vertices are. Overlapping surfaces are solids,
+//! independent of their winding, and merge with their neighbours.
 
 use std::borrow::Cow;
 use std::cmp::Ordering;
@@ -16,11 +17,10 @@ use crate::mesh::Edges;
 use crate::mesh::components::orientation::{Surfaces, Triangles};
 use crate::scene::Geometry;
 
-/// Boxes and faces are compared at most this many times for each face there is; where that is not enough the shape stays as the
-/// file winds it.
+/// Maximum number of box and face tests per face. If it is exceeded, the shape keeps the winding of the file.
 const PATIENCE: usize = 64;
 
-/// The shape, with faces turned where its surfaces are wound wrongly. Each vertex stands for all at its place in `one`.
+/// Orients the surfaces of a shape. `one` maps each vertex to a representative of its position.
 pub(crate) fn wound_right<'a>(shape: &'a Geometry, one: &[u32]) -> Cow<'a, Geometry> {
     let corners = |t: &[u32; 3]| t.map(|v| one.get(v as usize).copied().unwrap_or(v));
     let is_sound = |[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
@@ -41,7 +41,7 @@ pub(crate) fn wound_right<'a>(shape: &'a Geometry, one: &[u32]) -> Cow<'a, Geome
 }
 
 impl Geometry {
-    /// Turns a triangle, with all that is stored for its corners and sides.
+    /// Reverses a triangle with the attributes of its corners and sides.
     fn turn(&mut self, triangle: usize) {
         for list in [&mut self.triangles, &mut self.corner_normals, &mut self.corner_uvs] {
             if let Some(own) = list.get_mut(triangle) {
@@ -55,7 +55,8 @@ impl Geometry {
     }
 }
 
-/// Turns closed surfaces that bound voids inside others; none if that takes too long. Surfaces nearer than `inset` may touch.
+/// Reverses closed surfaces that bound voids; none if the limit of tests is exceeded. Points are tested at a
+/// distance of `inset` behind their vertices.
 fn turn_voids(mesh: &Triangles, surfaces: &mut Surfaces, inset: f64) -> Option<()> {
     let mut budget = PATIENCE * mesh.triangles.len();
     let mut is_void = in_boxes(mesh, surfaces, &mut budget)?;
@@ -79,7 +80,7 @@ fn turn_voids(mesh: &Triangles, surfaces: &mut Surfaces, inset: f64) -> Option<(
     Some(())
 }
 
-/// For each surface 1 if the file winds the larger part of it outward, and -1 if inward.
+/// Winding of each surface in the file: 1 if most of its area faces outward, -1 if inward.
 fn ways(mesh: &Triangles, surfaces: &Surfaces) -> Vec<i32> {
     let mut outward = vec![0.0; surfaces.is_closed.len()];
     for (face, (corners, surface)) in mesh.triangles.iter().zip(&surfaces.of_face.of_face).enumerate() {
@@ -94,7 +95,7 @@ fn is_turned(surfaces: &Surfaces, face: usize) -> bool {
     surfaces.turned.get(face).copied().unwrap_or_default()
 }
 
-/// Which closed surfaces have their box in the box of another one, or at its sides.
+/// Whether the box of each closed surface lies in the box of another one, boundaries included.
 fn in_boxes(mesh: &Triangles, surfaces: &Surfaces, budget: &mut usize) -> Option<Vec<bool>> {
     let count = surfaces.is_closed.len();
     let mut boxes = vec![[DVec3::INFINITY, DVec3::NEG_INFINITY]; count];
@@ -105,7 +106,7 @@ fn in_boxes(mesh: &Triangles, surfaces: &Surfaces, budget: &mut usize) -> Option
         }
     }
     let mut closed: Vec<usize> = (0..count).filter(|surface| surfaces.is_closed[*surface]).collect();
-    // The larger of two boxes that begin at one x comes first.
+    // Of two boxes with the same minimum x, the larger comes first.
     let key = |surface: usize| {
         let [low, high] = boxes[surface];
         [low.x, low.y, low.z, -high.x, -high.y, -high.z]
@@ -117,7 +118,7 @@ fn in_boxes(mesh: &Triangles, surfaces: &Surfaces, budget: &mut usize) -> Option
     let mut inside = vec![false; count];
     for (k, inner) in closed.iter().enumerate() {
         let [low, high] = boxes[*inner];
-        // The box of an outer surface begins before.
+        // The box of an outer surface has a lower minimum, so it comes earlier.
         for outer in closed[..k].iter().rev() {
             *budget = budget.checked_sub(1)?;
             let [from, to] = boxes[*outer];
@@ -130,27 +131,27 @@ fn in_boxes(mesh: &Triangles, surfaces: &Surfaces, budget: &mut usize) -> Option
     Some(inside)
 }
 
-/// A ray along x, and how often other surfaces go round its start, as the file winds them.
+/// Ray along x, with the winding number of other surfaces around its start, by the winding of the file.
 struct Ray {
     from: DVec3,
     surface: u32,
     turns: i32,
 }
 
-/// Rays in rows of about equal height along y, each by z, of where they start.
+/// Rays in rows of equal height along y. Each row is sorted by the z of the starts.
 struct Rays {
     starts: Vec<Ray>,
-    /// Where each row begins, and the end of the last.
+    /// Start of each row, and the end of the last.
     rows: Vec<usize>,
     low: f64,
     height: f64,
 }
 
 impl Rays {
-    /// Those just behind all vertices of some surfaces.
+    /// Rays that start just behind the vertices of some surfaces.
     ///
-    /// Source: Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal", 2005: a point goes into the
-    /// solid against the normals of a vertex, each weighted by its angle.
+    /// Source: Baerentzen and Aanaes, "Signed distance computation using the angle weighted pseudonormal",
+    /// 2005: the inward direction at a vertex is against its angle-weighted normal.
     fn new(mesh: &Triangles, surfaces: &Surfaces, (wanted, inset): (&[bool], f64)) -> Self {
         let mut corners: Vec<((u32, u32), DVec3)> = Vec::new();
         for (face, (t, surface)) in mesh.triangles.iter().zip(&surfaces.of_face.of_face).enumerate() {
@@ -189,12 +190,13 @@ impl Rays {
         rays
     }
 
-    /// The row of a height; what lies below the first is in the first, what lies above the last in the last.
+    /// Row of a height, clamped to the first and last row.
     fn row(&self, y: f64) -> usize {
         (((y - self.low) / self.height).max(0.0) as usize).min(self.rows.len() - 2)
     }
 
-    /// Counts crossings with closed surfaces other than the rays' own; none if that takes too long.
+    /// Counts crossings of rays with closed surfaces except their own; none if the limit of tests is
+    /// exceeded.
     fn cross(
         &mut self,
         mesh: &Triangles,
@@ -226,10 +228,11 @@ impl Rays {
     }
 }
 
-/// 1 if a ray from a point along x crosses a triangle from behind, -1 if from the front, and 0 if not at all. A ray through an edge
-/// crosses one of the two triangles there.
+/// Crossing of a triangle and a ray from a point along x: 1 from behind, -1 from the front, 0 for none. A ray
+/// through an edge crosses exactly one of its two triangles.
 ///
-/// Source: crossing numbers of polygons, Haines, "Point in polygon strategies", Graphics Gems IV, 1994, with exact signs.
+/// Source: crossing numbers of polygons, Haines, "Point in polygon strategies", Graphics Gems IV, 1994, with
+/// exact signs.
 fn crosses([a, b, c]: [DVec3; 3], p: DVec3) -> i32 {
     let flat = |p: DVec3| DVec2::new(p.y, p.z);
     let is_left = |q: DVec3, r: DVec3| {
@@ -243,7 +246,7 @@ fn crosses([a, b, c]: [DVec3; 3], p: DVec3) -> i32 {
     if !is_within {
         return 0;
     }
-    // The first is positive if the normal leads along x, the second if the point lies behind the triangle.
+    // The first is positive if the normal points along x, the second if the point is behind the triangle.
     let (along, behind) = (orient2d(ay, by, cy), orient3d(coord(a), coord(b), coord(c), coord(p)));
     if along > 0.0 && behind > 0.0 {
         1
@@ -258,7 +261,7 @@ fn crosses([a, b, c]: [DVec3; 3], p: DVec3) -> i32 {
 mod tests {
     use super::*;
 
-    /// Cubes with their half sides, of which some are wound inward.
+    /// Cubes by centre and half side; the flag winds a cube inward.
     fn cubes(of: &[(DVec3, f64, bool)]) -> Geometry {
         let mut shape = Geometry::default();
         for (middle, half, inward) in of {
@@ -275,7 +278,7 @@ mod tests {
         shape
     }
 
-    /// Whether each cube is wound inward afterwards.
+    /// Whether each cube is wound inward after orientation.
     fn inward(of: &[(DVec3, f64, bool)]) -> Vec<bool> {
         let shape = cubes(of);
         let one: Vec<u32> = (0..shape.positions.len() as u32).collect();
@@ -295,13 +298,13 @@ mod tests {
         for flags in 0..8_u32 {
             let is = |k: u32| flags >> k & 1 == 1;
             assert_eq!(inward(&[(o, 3.0, is(0)), (o, 2.0, is(1))]), [false, is(0) != is(1)]);
-            // A core in a void is a solid, and a void in a core is one again.
+            // A core in a void is a solid, and a void in that core is a void again.
             let core = [(o, 4.0, is(0)), (o, 3.0, !is(0)), (o, 2.0, is(1)), (o, 1.0, !is(0))];
             assert_eq!(inward(&core), [false, true, false, is(0) == is(1)]);
-            // Inside, and at one side.
+            // Inside, and touching one side.
             let at_side = [(o, 3.0, is(0)), (DVec3::X * 2.0, 1.0, is(1))];
             assert_eq!(inward(&at_side), [false, is(0) != is(1)]);
-            // Next to each other, overlapping, one that sticks out of the other, and two that touch.
+            // Apart, overlapping, protruding, and touching cubes.
             assert_eq!(inward(&[(o, 1.0, is(0)), (DVec3::X * 5.0, 1.0, is(1))]), [false; 2]);
             assert_eq!(inward(&[(o, 1.0, is(0)), (DVec3::ONE, 1.0, is(1))]), [false; 2]);
             assert_eq!(inward(&[(o, 2.0, is(0)), (DVec3::X * 2.0, 1.0, is(1))]), [false; 2]);

@@ -1,4 +1,4 @@
-//! A centrifugal pump and its motor on a base: an assembly of named nodes that share bolts.
+//! A centrifugal pump with its motor on a base: an assembly of named nodes with shared bolts.
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
@@ -13,12 +13,12 @@ use crate::machines::workshop::{
 };
 use crate::writers::glb::{Assembly, Node};
 
-/// The corners of a rectangle at a height.
+/// Corners of a rectangle at a height.
 fn corners(x: [f64; 2], y: f64, z: f64) -> Vec<DVec3> {
     x.into_iter().flat_map(|x| [DVec3::new(x, -y, z), DVec3::new(x, y, z)]).collect()
 }
 
-/// The pump, metres and y up as glTF has it.
+/// The pump, in metres and y up, as glTF requires.
 pub fn pump() -> Assembly {
     let mut shop = Shop::default();
     let bolt = shop.mesh("bolt", ZINC, parts::bolt());
@@ -52,7 +52,7 @@ fn base(shop: &mut Shop, anchor: usize) -> Vec<Node> {
     let plate = shop.part("base-plate", DARK, parts::base_plate());
     let rail = shop.mesh("base-rail", DARK, parts::base_rail());
     let left = place("base-rail-left", rail, DVec3::new(0.0, 108.0, 0.0), UP);
-    // A half turn about z swaps the ends too; the rail is brought back by twice its middle.
+    // A half turn about z also swaps the ends, so the rail is shifted back by twice its centre.
     let right = place("base-rail-right", rail, DVec3::new(400.0, -108.0, 0.0), HALF_TURN);
     let mut nodes = vec![plate, left, right];
     let mut spots = corners([-115.0, 515.0], 128.0, FLOOR);

@@ -1,4 +1,4 @@
-//! The electric motor that drives the pump: finned housing, end shields, fan cover, terminal box, feet.
+//! Electric motor of the pump: finned housing, end shields, fan cover, terminal box, feet.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use crate::geometry::part::together;
 use crate::geometry::solid::Solid;
 use crate::geometry::sweep::{prism, turned};
 
-/// The housing with its cooling fins, from x = 296 to 440.
+/// Housing with cooling fins, from x = 296 to 440.
 pub fn housing() -> Solid {
     const FINS: usize = 36;
     let pitch = TAU / FINS as f64;
@@ -41,7 +41,7 @@ pub fn housing() -> Solid {
     together([core, foot.clone().shifted(322.0, 0.0, 0.0), foot.shifted(414.0, 0.0, 0.0)])
 }
 
-/// The end shield on the driving side.
+/// End shield on the driving side.
 pub fn front_shield() -> Solid {
     shaft_turned(&[
         (0.0, 272.0),
@@ -57,7 +57,7 @@ pub fn front_shield() -> Solid {
     ])
 }
 
-/// The fan cover at the back, with a grille of rings.
+/// Fan cover at the back, with a grille of rings.
 pub fn fan_cover() -> Solid {
     let mut profile = vec![(0.0, 434.0), (91.0, 434.0), (93.0, 436.0), (93.0, 486.0)];
     profile.extend([(91.5, 493.0), (87.0, 498.0), (80.0, 500.0)]);
@@ -69,7 +69,7 @@ pub fn fan_cover() -> Solid {
     shaft_turned(&profile)
 }
 
-/// The terminal box on top, its lid apart.
+/// Terminal box on top, without its lid.
 pub fn terminal_box() -> Solid {
     let base = prism(&rounded_rectangle(at(366.0, 0.0), at(88.0, 74.0), 8.0), &[], 70.0, 114.0);
     let gland = turned(
@@ -86,13 +86,13 @@ pub fn terminal_box() -> Solid {
         36,
     );
     let nut = prism(&circle(DVec2::ZERO, 13.5, 6), &[], 8.0, 15.0);
-    // The cable comes in from the side of negative y.
+    // The cable enters from the side of negative y.
     let sideways = DAffine3::from_mat3(DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y));
     let gland = together([gland, nut]).moved(sideways).shifted(366.0, -37.0, 94.0);
     together([base, gland])
 }
 
-/// The lid of the terminal box.
+/// Lid of the terminal box.
 pub fn terminal_lid() -> Solid {
     let lid = rounded_rectangle(at(366.0, 0.0), at(94.0, 80.0), 10.0);
     let raised = rounded_rectangle(at(366.0, 0.0), at(70.0, 48.0), 5.0);

@@ -1,6 +1,6 @@
-//! The pieces of the pump: casing, bearing frame, coupling, base and fasteners.
+//! Parts of the pump: casing, bearing frame, coupling, base and fasteners.
 //!
-//! Lengths in mm; the shaft is the x axis, z is up, the volute lies around the origin.
+//! Lengths in mm. The shaft is the x axis, z is up, and the volute surrounds the origin.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,24 +12,24 @@ use crate::geometry::part::together;
 use crate::geometry::solid::Solid;
 use crate::geometry::sweep::{prism, tube, turned};
 
-/// Height of the base's top: the shaft's height, downwards.
+/// Height of the top of the base relative to the shaft.
 pub const FLOOR: f64 = -165.0;
-/// Middle of the discharge nozzle and the height of its flange.
+/// Centre of the discharge nozzle, and height of its flange.
 pub const DISCHARGE: [f64; 2] = [104.0, 150.0];
 
 const ROUND: usize = 48;
 
-/// A solid made along z, laid along x.
+/// Rotates a solid from the z axis to the x axis.
 pub fn along_x(solid: Solid) -> Solid {
     solid.moved(DAffine3::from_mat3(DMat3::from_cols(DVec3::NEG_Z, DVec3::Y, DVec3::X)))
 }
 
-/// A part turned about x; the profile lists (radius, x).
+/// Solid turned about x. The profile lists (radius, x).
 pub fn shaft_turned(profile: &[(f64, f64)]) -> Solid {
     along_x(turned(profile, ROUND))
 }
 
-/// A pipe flange from z = 0 up: disc with bore and eight holes, and a raised face.
+/// Pipe flange from z = 0 up: a disc with bore and eight holes, and a raised face.
 fn flange(radius: f64, bore: f64) -> Solid {
     let mut holes: Vec<Vec<DVec2>> = (0..8)
         .map(|i| circle(polar(DVec2::ZERO, radius - 11.0, TAU * (f64::from(i) + 0.5) / 8.0), 5.0, 24))
@@ -43,7 +43,7 @@ fn flange(radius: f64, bore: f64) -> Solid {
     together([disc, face])
 }
 
-/// The spiral casing with its upright discharge nozzle and feet.
+/// Spiral casing with its vertical discharge nozzle and feet.
 pub fn volute() -> Solid {
     const TURNS: usize = 72;
     let ring = |centre: DVec3, outwards: DVec3, radius: f64| -> Vec<DVec3> {
@@ -100,12 +100,12 @@ pub fn volute() -> Solid {
     ])
 }
 
-/// Takes an outline in (x, z) with thickness along -y from the plane of a prism.
+/// Places an outline in (x, z), with thickness along -y.
 fn upright_y() -> DAffine3 {
     DAffine3::from_mat3(DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y))
 }
 
-/// The front cover with the suction nozzle and its flange.
+/// Front cover with the suction nozzle and its flange.
 pub fn suction_cover() -> Solid {
     let bore = 30.0;
     let cover = shaft_turned(&[
@@ -122,12 +122,12 @@ pub fn suction_cover() -> Solid {
         (90.0, -37.0),
         (bore - 0.5, -37.0),
     ]);
-    // The flange faces the other way along x.
+    // The flange faces the opposite direction along x.
     let turn = DAffine3::from_mat3(DMat3::from_cols(DVec3::Z, DVec3::Y, DVec3::NEG_X));
     together([cover, flange(62.0, bore).moved(turn).shifted(-112.0, 0.0, 0.0)])
 }
 
-/// The bearing frame behind the casing, with its foot.
+/// Bearing frame behind the casing, with its foot.
 pub fn bearing_frame() -> Solid {
     let frame = shaft_turned(&[
         (0.0, 37.0),
@@ -164,13 +164,13 @@ pub fn bearing_frame() -> Solid {
         (at(-20.0, FLOOR + 12.0), 12.0),
         (at(-46.0, FLOOR + 12.0), 3.0),
     ]);
-    // The leg's outline lies across the shaft.
+    // The outline of the leg lies across the shaft.
     let across = DAffine3::from_mat3(DMat3::from_cols(DVec3::Y, DVec3::Z, DVec3::X));
     let leg = prism(&leg, &[], -11.0, 11.0).moved(across).shifted(130.0, 0.0, 0.0);
     together([frame, leg].into_iter().chain(ribs))
 }
 
-/// The cap that closes the bearing towards the coupling.
+/// Cap that closes the bearing towards the coupling.
 pub fn bearing_cap() -> Solid {
     shaft_turned(&[
         (0.0, 168.0),
@@ -188,7 +188,7 @@ pub fn shaft(from: f64, to: f64) -> Solid {
     shaft_turned(&[(0.0, from), (11.0, from), (11.0, to), (0.0, to)])
 }
 
-/// A coupling hub from x = 0 towards positive x, its three jaws at the far end.
+/// Coupling hub from x = 0 towards positive x, with three jaws at the far end.
 pub fn coupling_hub() -> Solid {
     let hub = shaft_turned(&[
         (0.0, 0.0),
@@ -212,7 +212,7 @@ pub fn coupling_hub() -> Solid {
     together([hub].into_iter().chain(jaws))
 }
 
-/// The elastic star between the jaws of the coupling.
+/// Elastic star between the jaws of the coupling.
 pub fn coupling_star() -> Solid {
     let corners: Vec<(DVec2, f64)> = (0..12)
         .map(|i| {
@@ -223,13 +223,13 @@ pub fn coupling_star() -> Solid {
     along_x(prism(&rounded(&corners), &[], 0.0, 12.0))
 }
 
-/// The base plate and the two channels under it.
+/// Base plate.
 pub fn base_plate() -> Solid {
     let plate = rounded_rectangle(at(200.0, 0.0), at(680.0, 300.0), 14.0);
     prism(&plate, &[], FLOOR - 12.0, FLOOR)
 }
 
-/// One channel of the base, open to the outside on the side of positive y.
+/// Channel of the base, open on the side of positive y.
 pub fn base_rail() -> Solid {
     let (low, high) = (FLOOR - 60.0, FLOOR - 12.0);
     let profile = [
@@ -246,7 +246,7 @@ pub fn base_rail() -> Solid {
     prism(&profile, &[], -110.0, 510.0).moved(along)
 }
 
-/// A hexagonal prism from z = `low` with a chamfered top.
+/// Hexagonal prism from z = `low` with a chamfered top.
 fn hexagon(radius: f64, low: f64, height: f64) -> Solid {
     let ring = |scale: f64, z: f64| {
         circle(DVec2::ZERO, radius * scale, 6).into_iter().map(|p| p.extend(z)).collect()
@@ -254,37 +254,37 @@ fn hexagon(radius: f64, low: f64, height: f64) -> Solid {
     tube(&[ring(1.0, low), ring(1.0, low + 0.82 * height), ring(0.88, low + height)])
 }
 
-/// A hexagon bolt's head on its washer, seat at z = 0.
+/// Head of a hexagon bolt on its washer, with the seat at z = 0.
 pub fn bolt() -> Solid {
     let washer = turned(&[(0.0, 0.0), (8.6, 0.0), (8.6, 1.7), (0.0, 1.7)], 36);
     together([washer, hexagon(7.2, 1.7, 5.6)])
 }
 
-/// A foundation bolt: washer, nut and the thread's end.
+/// Foundation bolt: washer, nut and the end of the thread.
 pub fn anchor() -> Solid {
     let washer = turned(&[(0.0, 0.0), (14.0, 0.0), (14.0, 2.5), (0.0, 2.5)], 36);
     let end = turned(&[(0.0, 8.0), (6.0, 8.0), (6.0, 22.0), (5.0, 23.0), (0.0, 23.0)], 36);
     together([washer, hexagon(11.0, 2.5, 10.0), end])
 }
 
-/// A socket screw's head, seat at z = 0.
+/// Head of a socket screw, with the seat at z = 0.
 pub fn screw() -> Solid {
     turned(&[(0.0, 0.0), (4.0, 0.0), (4.0, 3.6), (3.6, 4.0), (2.2, 4.0), (2.2, 1.6), (0.0, 1.6)], 24)
 }
 
-/// The filler plug on top of the bearing frame, seat at z = 0.
+/// Filler plug on top of the bearing frame, with the seat at z = 0.
 pub fn plug() -> Solid {
     let neck = turned(&[(0.0, 0.0), (11.0, 0.0), (11.0, 6.0), (0.0, 6.0)], 36);
     let cap = turned(&[(0.0, 9.0), (6.0, 9.0), (6.0, 14.0), (5.0, 15.5), (0.0, 16.0)], 36);
     together([neck, hexagon(9.0, 6.0, 6.0), cap])
 }
 
-/// The sight glass in the bearing frame's side, seat at z = 0: a bezel around a lower pane.
+/// Sight glass in the side of the bearing frame, with the seat at z = 0: a bezel around a recessed pane.
 pub fn sight_glass() -> Solid {
     turned(&[(0.0, 0.0), (13.0, 0.0), (13.0, 5.0), (12.0, 6.0), (9.0, 6.0), (8.4, 4.0), (0.0, 4.0)], 48)
 }
 
-/// A lifting eye, seat at z = 0.
+/// Lifting eye, with the seat at z = 0.
 pub fn eye_bolt() -> Solid {
     let collar = turned(&[(0.0, 0.0), (11.0, 0.0), (11.0, 3.0), (6.0, 6.0), (0.0, 6.0)], 36);
     let rings: Vec<Vec<DVec3>> = (0..36)

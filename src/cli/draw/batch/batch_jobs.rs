@@ -1,4 +1,4 @@
-//! [`Job`]s: which drawings are made of which model, and where they go; no two to one place.
+//! [`Job`]: drawings of one model with their output paths. No two drawings share a path.
 
 use std::collections::HashMap;
 use std::path::{Component, Path, PathBuf};
@@ -10,31 +10,31 @@ use crate::cli::request::draw_request::{DrawRequest, check_apart, same_file};
 use crate::error::Error;
 use crate::scene::NamedView;
 
-/// All drawings of one model.
+/// Drawings of one model.
 #[derive(Debug)]
 pub(crate) struct Job {
-    /// One a view.
+    /// One request per view.
     pub(crate) requests: Vec<DrawRequest>,
 }
 
 impl Job {
-    /// The model's name in messages.
+    /// Path of the model, for messages.
     pub(crate) fn model(&self) -> &Path {
         self.requests.first().map_or(Path::new(""), |request| &request.model)
     }
 }
 
-/// The models that are named.
+/// Models named in a call.
 pub(crate) fn models(args: &DrawArgs) -> Vec<PathBuf> {
     let into_folder = args.many.out_dir.is_some();
     let others = args.out.iter().chain(&args.more).filter(|_| into_folder);
     std::iter::once(&args.model).chain(others).cloned().collect()
 }
 
-/// The drawings of all models, in the order in which they are named. A model that is named twice is drawn once.
+/// Drawings of all models, in the order of the call. A model that is named twice is drawn once.
 ///
 /// # Errors
-/// If options do not go together, and if drawings of two models would have one name.
+/// If options contradict each other, or if drawings of two models would have the same path.
 pub(crate) fn jobs(args: &DrawArgs) -> Result<Vec<Job>, Error> {
     let models = models(args);
     let piped = args.many.piped(&models)?;
@@ -84,7 +84,7 @@ pub(crate) fn jobs(args: &DrawArgs) -> Result<Vec<Job>, Error> {
     Ok(jobs)
 }
 
-/// Each view that is named, once; none where angles or a camera say it, or nothing does.
+/// Named views without duplicates. A single none stands for angles, a camera, or the default view.
 fn views(args: &DrawArgs) -> Vec<Option<NamedView>> {
     let mut views: Vec<Option<NamedView>> = Vec::new();
     for view in &args.how.view {
@@ -95,7 +95,7 @@ fn views(args: &DrawArgs) -> Vec<Option<NamedView>> {
     if views.is_empty() { vec![None] } else { views }
 }
 
-/// Where the drawings of a model go in the folder.
+/// Output paths of a model in the output folder.
 fn in_folder(folder: &Path, model: &Path, args: &DrawArgs) -> Result<Vec<PathBuf>, Error> {
     let mut place = folder.to_path_buf();
     if args.many.folders {
@@ -123,7 +123,7 @@ fn in_folder(folder: &Path, model: &Path, args: &DrawArgs) -> Result<Vec<PathBuf
     Ok(endings.into_iter().map(path).collect())
 }
 
-/// The name with that of the view, where there are several.
+/// Adds the name of the view to the path if there are several views.
 fn seen_from(path: &Path, view: Option<NamedView>, args: &DrawArgs) -> PathBuf {
     let Some(view) = view.filter(|_| args.how.view.len() > 1) else { return path.to_path_buf() };
     let mut name = path.file_stem().unwrap_or_default().to_owned();
@@ -135,7 +135,7 @@ fn seen_from(path: &Path, view: Option<NamedView>, args: &DrawArgs) -> PathBuf {
     path.with_file_name(name)
 }
 
-/// What is one place to the file system.
+/// Key that is equal for paths of the same file. Case is ignored on Windows and macOS.
 fn key(path: &Path) -> PathBuf {
     if cfg!(any(windows, target_os = "macos")) {
         return PathBuf::from(path.to_string_lossy().to_lowercase());

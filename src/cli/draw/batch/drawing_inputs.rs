@@ -1,4 +1,4 @@
-//! What a drawing is made from, and whether that is younger than the drawing.
+//! Input files of a drawing, and whether the drawing is newer than all of them.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -8,10 +8,10 @@ use crate::cli::request::draw_request::DrawRequest;
 use crate::cli::request::viewpoint::View;
 use crate::style::Style;
 
-/// Sheets that extend one another, at most.
+/// Maximum number of input files. Stops at cyclic style sheets.
 const MOST_SHEETS: usize = 32;
 
-/// The files that a drawing is made from: the model, the style sheet and those it extends, the camera record.
+/// Input files of a drawing: the model, the camera record, the style sheet and the sheets it extends.
 pub(crate) fn inputs(request: &DrawRequest) -> Vec<PathBuf> {
     let mut files = Vec::new();
     if request.piped.is_none() {
@@ -28,26 +28,27 @@ pub(crate) fn inputs(request: &DrawRequest) -> Vec<PathBuf> {
     files
 }
 
-/// The file of a style that is not built in.
+/// Path of a style sheet; none for a built-in style.
 fn sheet(name: &str, folder: &Path) -> Option<PathBuf> {
     Style::sheet_text(name).is_none().then(|| folder.join(name))
 }
 
-/// The sheet that a sheet extends.
+/// Style sheet that a sheet extends.
 fn parent(path: &Path) -> Option<PathBuf> {
     let table: toml::Table = fs::read_to_string(path).ok()?.parse().ok()?;
     sheet(table.get("extends")?.as_str()?, path.parent().unwrap_or(Path::new("")))
 }
 
-/// Whether all files of a drawing are there, and younger than all they are made from.
+/// Whether all files of a drawing exist and are newer than all its inputs.
 ///
-/// A file of the same time as its model is made again: clocks of file systems may stand still for seconds.
+/// A file with the same time as its model is drawn again, because clocks of file systems can be seconds
+/// coarse.
 pub(crate) fn is_current(request: &DrawRequest) -> bool {
     let time = |path: &Path| stamp(path).map(|(time, _)| time);
     let Some(oldest) = request.outputs.iter().map(|output| time(&output.path)).min().flatten() else {
         return false;
     };
-    // What standard input held before, nobody knows.
+    // The previous contents of standard input are unknown.
     request.piped.is_none()
         && inputs(request).iter().all(|input| time(input).is_some_and(|time| time < oldest))
 }

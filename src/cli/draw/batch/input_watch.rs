@@ -1,4 +1,4 @@
-//! Drawing again whenever a file changes.
+//! Waits for changes of the input files of jobs.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -8,31 +8,31 @@ use super::batch_jobs::Job;
 use super::drawing_inputs::inputs;
 use crate::cli::output::file_stamp::{Stamp, stamp};
 
-/// Time between two looks at all files.
+/// Time between two checks of all files.
 const LOOK: Duration = Duration::from_millis(60);
 
-/// How long a file is to stay as it is before it is read: programs write in several strokes.
+/// Time that a file must stay unchanged before it is read, because programs write files in several steps.
 const REST: Duration = Duration::from_millis(80);
 
 type Stamps = BTreeMap<PathBuf, Stamp>;
 
-/// Looks at the files of jobs.
+/// Watch over the input files of jobs.
 pub(crate) struct Watch<'a> {
     jobs: &'a [Job],
-    /// The files of each job: a sheet may come to extend another one.
+    /// Input files of each job. They change when a style sheet extends another sheet.
     files: Vec<Vec<PathBuf>>,
     seen: Stamps,
 }
 
 impl<'a> Watch<'a> {
-    /// Begins; what changes from now on is noticed.
+    /// Starts watching. Later changes are detected.
     pub(crate) fn new(jobs: &'a [Job]) -> Self {
         let files = files(jobs);
         let seen = stamps(&files);
         Self { jobs, files, seen }
     }
 
-    /// Waits until something has changed, and gives the jobs that are to be done again.
+    /// Waits for a change, and returns the jobs with changed inputs.
     pub(crate) fn changed(&mut self) -> Vec<&'a Job> {
         loop {
             std::thread::sleep(LOOK);
@@ -49,7 +49,7 @@ impl<'a> Watch<'a> {
                     break;
                 }
             }
-            // A file that is away may be on its way back: programs that save replace files.
+            // A missing file may come back: programs often save by replacing a file.
             now.retain(|_, stamp| stamp.is_some());
             let is_new =
                 |path: &PathBuf| now.get(path).is_some_and(|stamp| self.seen.get(path) != Some(stamp));

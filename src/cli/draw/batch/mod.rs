@@ -29,12 +29,12 @@ use crate::cli::{library_calls, say};
 use crate::error::Error;
 use crate::pipeline::Stopwatch;
 
-/// Whether more is asked for than one drawing, made once.
+/// Whether a call draws more than one drawing once.
 pub(crate) fn is_asked(args: &DrawArgs) -> bool {
     args.many.is_asked() || args.how.view.len() > 1
 }
 
-/// Draws all that is to be drawn here, and says so; where files are watched it goes on until it is stopped.
+/// Draws all models of this shard and prints a summary. With `--watch` it continues until it is stopped.
 pub(crate) fn run(args: DrawArgs) -> Result<ExitCode, Error> {
     let watch = Stopwatch::start();
     check(&args)?;
@@ -43,7 +43,7 @@ pub(crate) fn run(args: DrawArgs) -> Result<ExitCode, Error> {
     let mine = |(number, job)| shard.is_none_or(|shard| shard.has(number)).then_some(job);
     let jobs: Vec<Job> = jobs.into_iter().enumerate().filter_map(mine).collect();
     if let Some(request) = jobs.iter().flat_map(|job| &job.requests).next() {
-        // Told once, and not by every model.
+        // Style errors are reported once, not for each model.
         library_calls::load_style(&request.style, &request.sets, request.background)?;
         match usage_warnings::bare_lengths(request) {
             Some(warning) if request.strict => {
@@ -54,7 +54,7 @@ pub(crate) fn run(args: DrawArgs) -> Result<ExitCode, Error> {
         }
     }
     if args.many.out_dir.is_none() {
-        // No folder is made but the one that is asked for.
+        // Only the folder of `--out-dir` is created.
         let mut outputs = jobs.iter().flat_map(|job| &job.requests).flat_map(|request| &request.outputs);
         outputs.try_for_each(|output| check_place(&output.path))?;
     }
@@ -89,7 +89,7 @@ pub(crate) fn run(args: DrawArgs) -> Result<ExitCode, Error> {
     Ok(ExitCode::from(tally.status()))
 }
 
-/// Refuses what does not go together, before any work.
+/// Refuses contradictory options before any work.
 fn check(args: &DrawArgs) -> Result<(), Error> {
     let of_one = [
         ("--report", args.report.is_some()),
@@ -112,7 +112,7 @@ fn check(args: &DrawArgs) -> Result<(), Error> {
     }
 }
 
-/// The share of the work that is to be done here. One model is nobody's share: it was picked already.
+/// Shard of this call. A single model is not split, because it was already selected.
 fn shard(args: &DrawArgs, models: usize) -> Result<Option<Shard>, Error> {
     match args.many.shard {
         Some(share) => share.shard().map(Some),
@@ -121,7 +121,7 @@ fn shard(args: &DrawArgs, models: usize) -> Result<Option<Shard>, Error> {
     }
 }
 
-/// What is to be drawn: all, or where a run is resumed what is missing or old.
+/// Drawings to make: all, or under `--resume` only missing and outdated ones.
 fn tasks(jobs: &[Job], resume: bool) -> Vec<Task<'_>> {
     let mut tasks: Vec<Task> = jobs.iter().map(whole).collect();
     if resume {
@@ -137,7 +137,7 @@ fn whole(job: &Job) -> Task<'_> {
     Task { job, requests: job.requests.iter().collect() }
 }
 
-/// `drawings: shard 2/4, 245 models drawn, 490 files, 1.2 MB, 3.40 s, 5 refused, 3 up to date`
+/// Summary line: `drawings: shard 2/4, 245 models drawn, 490 files, 1.2 MB, 3.40 s, 5 refused, 3 up to date`
 fn summary(into: &Path, tally: &Tally, current: u64, shard: Option<Shard>, seconds: f64) -> String {
     let shard = shard.map_or_else(String::new, |shard| format!("shard {shard}, "));
     let mut line = format!(

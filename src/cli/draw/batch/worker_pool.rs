@@ -1,4 +1,4 @@
-//! [`Crew`]: threads that draw models one after another, and what they tell of it.
+//! [`Crew`]: worker threads that draw models in parallel, and their messages.
 
 use std::cell::Cell;
 use std::fs;
@@ -18,47 +18,48 @@ use crate::cli::{LATER, WRONG};
 use crate::error::{Error, ErrorKind};
 use crate::pipeline::Stopwatch;
 
-/// Those drawings of a model that are to be made.
+/// Drawings of one model that are still to be made.
 pub(crate) struct Task<'a> {
     pub(crate) job: &'a Job,
     pub(crate) requests: Vec<&'a DrawRequest>,
 }
 
-/// Who draws.
+/// Workers that draw models.
 pub(crate) struct Crew<'a> {
     pub(crate) pool: &'a ThreadPool,
-    /// Where drawings go, for people.
+    /// Output folder or model, for messages.
     pub(crate) into: &'a Path,
     pub(crate) quiet: bool,
-    /// Whether each file is told.
+    /// Whether each file is reported.
     pub(crate) in_detail: bool,
 }
 
-/// What became of models.
+/// Counts of drawn and failed models.
 #[derive(Debug, Default)]
 pub(crate) struct Tally {
     /// Models that were drawn.
     pub(crate) drawn: u64,
     pub(crate) files: u64,
     pub(crate) bytes: u64,
-    /// Models that are wrong.
+    /// Models with errors in the input.
     pub(crate) refused: u64,
-    /// Models that may well be drawn at another time.
+    /// Models with errors that may be temporary.
     pub(crate) failed: u64,
 }
 
-/// The files that were written for a model.
+/// Files that were written for a model.
 #[derive(Default)]
 struct Made {
     lines: Vec<String>,
-    /// Hints and choices made for the user, each once.
+    /// Hints and choices made for the user, without duplicates.
     notes: Vec<String>,
     files: u64,
     bytes: u64,
 }
 
 impl Crew<'_> {
-    /// Draws all, as many models at once as there are threads. A model that fails is told; the others go on.
+    /// Draws all models, as many in parallel as there are threads. Failures are reported, and the other
+    /// models continue.
     pub(crate) fn draw(&self, tasks: &[Task]) -> Tally {
         let progress = Progress::start(self.quiet, self.into);
         let started = Instant::now();
@@ -75,8 +76,8 @@ impl Crew<'_> {
             }
         };
         progress.step(course(&Tally::default(), tasks.len(), Duration::ZERO));
-        // Threads of their own hand models to the pool: a thread of the pool that waits inside a drawing would begin
-        // another one, and another one inside that.
+        // Models are started from separate threads. A pool thread that waits inside a drawing would begin
+        // another drawing in the same stack.
         let at_once = self.pool.current_num_threads().min(tasks.len());
         std::thread::scope(|scope| {
             for _ in 0..at_once {
@@ -119,7 +120,7 @@ impl Crew<'_> {
 }
 
 impl Tally {
-    /// The exit status: what may pass goes before what is wrong, for a second call does that part of the work.
+    /// Exit status. Temporary errors take precedence, because a second call can complete that work.
     pub(crate) const fn status(&self) -> u8 {
         match (self.failed, self.refused) {
             (0, 0) => 0,
@@ -131,11 +132,11 @@ impl Tally {
 
 struct Failure {
     error: Error,
-    /// Whether the same may well succeed later.
+    /// Whether the same call may succeed later.
     passes: bool,
 }
 
-/// Draws a model from all sides and writes that, all or nothing. Gives the warnings as well, each once.
+/// Draws a model from all views and writes the files, all or none. Returns the warnings without duplicates.
 fn make(task: &Task) -> Result<(Made, Vec<String>), Box<Failure>> {
     let (since, mut watch) = (Stopwatch::start(), Stopwatch::start());
     let mut staging = Staging::default();
@@ -178,7 +179,7 @@ fn make(task: &Task) -> Result<(Made, Vec<String>), Box<Failure>> {
             Ok(())
         },
     );
-    // The place that drawings are written to is no input: whatever is wrong with it, other models are as good as before.
+    // Any error of the output folder may be temporary, because it says nothing about the model.
     let failure = |error: Error, writes: bool| {
         let passes = exit_status::passes(&error) || (writes && error.kind == ErrorKind::Io);
         Box::new(Failure { error, passes })
@@ -188,7 +189,7 @@ fn make(task: &Task) -> Result<(Made, Vec<String>), Box<Failure>> {
     Ok((made, warnings))
 }
 
-/// `312 drawn, 3 failed, 688 left, 12 s to go, into`
+/// Progress text: `312 drawn, 3 failed, 688 left, 12 s to go, into`
 fn course(tally: &Tally, all: usize, elapsed: Duration) -> String {
     let failed = tally.refused + tally.failed;
     let done = tally.drawn + failed;
@@ -204,7 +205,7 @@ fn course(tally: &Tally, all: usize, elapsed: Duration) -> String {
     text + "into"
 }
 
-/// A time as people say it: `45 s`, `12 min`, `3 h 20 min`.
+/// Duration as text: `45 s`, `12 min`, `3 h 20 min`.
 fn time(seconds: f64) -> String {
     let (seconds, minutes) = (seconds.ceil() as u64, (seconds / 60.0).ceil() as u64);
     match seconds {

@@ -30,13 +30,13 @@ use crate::error::Error;
 use crate::export::DxfOptions;
 use crate::export::encoding::gzip;
 
-/// Pictures in a row of views and moments.
+/// Number of columns of views and moments.
 pub(crate) const COLUMNS: usize = 3;
 
-/// Pictures on a sheet of views or moments.
+/// Number of pictures on a sheet of views or moments.
 pub(crate) const PICTURES: usize = 9;
 
-/// A sheet that is being made.
+/// Contact sheet that is being filled.
 #[derive(Debug, Default)]
 pub(crate) struct Sheet {
     pictures: Vec<Picture>,
@@ -44,7 +44,7 @@ pub(crate) struct Sheet {
 }
 
 impl Sheet {
-    /// Adds a drawing, and the warnings that no other had.
+    /// Adds a drawing, and its warnings if they are new.
     fn add(&mut self, drawn: Drawn, caption: String, key: String) {
         for warning in &drawn.report.warnings {
             if !self.warnings.contains(warning) {
@@ -54,7 +54,7 @@ impl Sheet {
         self.pictures.push(Picture { drawing: drawn.into_drawing(), caption, key });
     }
 
-    /// Writes the sheet, and reports what is on it: `what` is the name of a picture.
+    /// Writes the sheet and prints a summary. `what` is the noun for a picture.
     fn finish(
         self,
         request: &DrawRequest,
@@ -82,7 +82,7 @@ impl Sheet {
     }
 }
 
-/// The request for one picture: nothing is written of it, and it has the size of a small one unless another is given.
+/// Request for one picture: without outputs, and small unless a size is given.
 pub(crate) fn picture_request(mut request: DrawRequest) -> DrawRequest {
     let side = Extent { width: SIDE_PX, height: SIDE_PX };
     request.sheet.extent = request.sheet.extent.or(Some((side, Unit::Px)));
@@ -90,13 +90,13 @@ pub(crate) fn picture_request(mut request: DrawRequest) -> DrawRequest {
     request
 }
 
-/// Refuses places that nothing can be written to.
+/// Refuses output paths that cannot be written.
 pub(crate) fn check_outputs(outputs: &[Output]) -> Result<(), Error> {
     let mut files = outputs.iter().filter(|output| output.format != Format::SvgToStdout);
     files.try_for_each(|output| check_place(&output.path))
 }
 
-/// Writes the pictures as one sheet; returns the number of bytes of each file.
+/// Writes the pictures as one sheet. Returns the number of bytes of each file.
 pub(crate) fn write<'a>(
     pictures: Vec<Picture>,
     columns: usize,

@@ -1,4 +1,4 @@
-//! A grid of captioned drawings as one drawing.
+//! Grid of captioned drawings, combined in one drawing.
 
 use std::collections::BTreeSet;
 
@@ -10,28 +10,28 @@ use crate::drawing::{
     Cap, Drawing, Join, Layer, LayerKind, Mark, Page, Paint, Provenance, StrokePaint, Unit,
 };
 
-/// Side of each picture where no size is given, px.
+/// Default side length of a picture, px.
 pub(crate) const SIDE_PX: f64 = 320.0;
 
-/// Room between pictures, and around the sheet, px.
+/// Gap between pictures and around the sheet, px.
 const GAP_PX: f64 = 20.0;
 
-/// Room for the caption below a picture, the height of its letters and the width of its lines, px.
+/// Height of the caption area, and height and line width of its letters, px.
 const CAPTION_PX: f64 = 34.0;
 const LETTER_PX: f64 = 9.0;
 const PEN_PX: f64 = 1.4;
 
-/// A drawing of the grid.
+/// Captioned drawing of the grid.
 #[derive(Debug)]
 pub(crate) struct Picture {
-    /// All pictures of a grid are of one size, in px.
+    /// The drawing. All drawings of a grid have the same size in px.
     pub(crate) drawing: Drawing,
     pub(crate) caption: String,
-    /// The name of its layers.
+    /// Name of the layers of this picture.
     pub(crate) key: String,
 }
 
-/// The sheet: pictures in rows, captions below them. Each picture's layers are labelled by its key.
+/// Arranges pictures in rows with captions below them. Layers are named by the picture's key.
 pub(crate) fn grid(pictures: Vec<Picture>, columns: usize) -> Drawing {
     let columns = columns.min(pictures.len()).max(1);
     let rows = pictures.len().div_ceil(columns);
@@ -67,7 +67,7 @@ pub(crate) fn grid(pictures: Vec<Picture>, columns: usize) -> Drawing {
     Drawing::new(title, page, layers)
 }
 
-/// The key as an id, with a number if it is taken.
+/// Turns a key into a unique id by appending a number if it is taken.
 fn unique(key: &str, taken: &mut BTreeSet<String>) -> String {
     let is_kept = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
     let plain: String = key.chars().map(|c| if is_kept(c) { c } else { '-' }).collect();
@@ -78,12 +78,12 @@ fn unique(key: &str, taken: &mut BTreeSet<String>) -> String {
     free
 }
 
-/// A layer that is known by the picture it is of.
+/// Layer named by the key of its picture.
 fn layer(kind: LayerKind, key: &str, marks: Vec<Mark>, ordered: bool) -> Layer {
     Layer { kind, pen: Some(key.to_owned()), ordered, marks }
 }
 
-/// A caption in lines, smaller where it would be wider than its picture. It can be read as text too.
+/// Caption drawn as strokes and shrunk to the width of its picture. The text is stored as a note as well.
 fn written(caption: &str, middle: Point, width: f64) -> Mark {
     let path: BezPath = lettered(caption, LETTER_PX, middle);
     let long = path.bounding_box().width();

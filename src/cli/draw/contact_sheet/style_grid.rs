@@ -1,4 +1,4 @@
-//! `ligne styles --sheet`: one model in many styles, to choose from.
+//! `ligne styles --sheet`: one model drawn in many styles.
 
 use std::path::{Path, PathBuf};
 
@@ -15,10 +15,10 @@ use crate::geometry::names::glob::Glob;
 use crate::pipeline::Stopwatch;
 use crate::style::Style;
 
-/// Pictures in a row.
+/// Number of columns.
 const COLUMNS: usize = 6;
 
-/// Draws the model in the styles that are named, or in all built-in ones.
+/// Draws the model in the named styles, or in all built-in styles.
 pub(crate) fn run(args: &StyleSheetArgs, out: &Path, model: &str) -> Result<(), Error> {
     let model = PathBuf::from(model);
     if args.how.page.is_some() {
@@ -60,7 +60,7 @@ pub(crate) fn run(args: &StyleSheetArgs, out: &Path, model: &str) -> Result<(), 
     sheet.finish(first, &outputs, COLUMNS, "style")
 }
 
-/// The name of a style's layers.
+/// Name of the layers of a style.
 fn key(style: &str) -> String {
     match Style::sheet_text(style) {
         Some(_) => style.to_owned(),
@@ -68,7 +68,7 @@ fn key(style: &str) -> String {
     }
 }
 
-/// The styles that are named: names, globs of names, and files, each alone or in a list.
+/// Expands names, globs and files of styles, each alone or in a list.
 ///
 /// # Errors
 /// If a glob matches no style.
@@ -78,7 +78,7 @@ fn styles(typed: &[String]) -> Result<Vec<String>, Error> {
     }
     let mut styles: Vec<String> = Vec::new();
     let words = typed.iter().flat_map(|typed| {
-        // The name of a file may have commas in it.
+        // A file name may contain commas.
         if Path::new(typed).is_file() { vec![typed.as_str()] } else { typed.split(',').collect() }
     });
     for word in words.map(str::trim).filter(|word| !word.is_empty()) {

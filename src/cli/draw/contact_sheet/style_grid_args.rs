@@ -7,11 +7,11 @@ use clap::{ArgAction, ArgMatches, Args, Command, FromArgMatches};
 
 use crate::cli::options::draw_args::HowArgs;
 
-/// Options of `ligne styles --sheet`: those of `ligne draw`, where `--style` may be given again.
+/// Options of `ligne styles --sheet`: those of `ligne draw`, with a repeatable `--style`.
 #[derive(Debug)]
 pub(crate) struct StyleSheetArgs {
     pub(crate) sheet: Option<PathBuf>,
-    /// Names, globs and files of styles, as typed; all built-in styles if there are none.
+    /// Names, globs and files of styles as typed; empty for all built-in styles.
     pub(crate) styles: Vec<String>,
     pub(crate) how: HowArgs,
 }
@@ -23,7 +23,7 @@ struct SheetArg {
     sheet: Option<PathBuf>,
 }
 
-/// Options that a sheet has no use for.
+/// Options without effect on a sheet.
 const HIDDEN: [&str; 5] = ["page", "landscape", "margin", "scale", "group"];
 
 impl Args for StyleSheetArgs {

@@ -1,4 +1,4 @@
-//! `ligne draw --contact-sheet`: a model from nine sides.
+//! `ligne draw --contact-sheet`: one model drawn from nine sides.
 
 use super::{COLUMNS, PICTURES, Sheet, check_outputs, picture_request};
 use crate::cli::draw::model_drawing;
@@ -11,15 +11,15 @@ use crate::error::Error;
 use crate::pipeline::Stopwatch;
 use crate::scene::cameras::named_views::{THREE_QUARTER_AZIMUTH_DEG, THREE_QUARTER_ELEVATION_DEG};
 
-/// Angles between the views all around, and the elevation of the one from above, degrees.
+/// Angle between the views around the model, and elevation of the view from above, degrees.
 const AROUND_DEG: f64 = 45.0;
 const ABOVE_DEG: f64 = 70.0;
 
-/// Angles between neighbours of a view, degrees.
+/// Angles between neighbouring views, degrees.
 const AZIMUTH_STEP_DEG: f64 = 20.0;
 const ELEVATION_STEP_DEG: f64 = 15.0;
 
-/// Draws the model from all sides, or from around the view that is given.
+/// Draws the model from all sides, or from angles around the given view.
 pub(crate) fn run(args: DrawArgs) -> Result<(), Error> {
     let how = args.how.clone();
     let whole = DrawRequest::new(args)?;
@@ -47,13 +47,13 @@ pub(crate) fn run(args: DrawArgs) -> Result<(), Error> {
     sheet.finish(&whole, &whole.outputs, COLUMNS, "view")
 }
 
-/// The options that repeat a view.
+/// Caption: the options that repeat the view.
 fn caption([azimuth, elevation]: [f64; 2]) -> String {
     format!("--azimuth {} --elevation {}", number_text::plain(azimuth, 2), number_text::plain(elevation, 2))
 }
 
-/// Azimuth and elevation of each view. Without angles they go all around, the default view in the middle, and the last one is from
-/// above. Otherwise they are the neighbours of the given view.
+/// Azimuth and elevation of each view, degrees. Without given angles the views go around the model, with the
+/// default view in the middle and a view from above last. Otherwise they surround the given view.
 fn angles(azimuth: Option<f64>, elevation: Option<f64>) -> [[f64; 2]; PICTURES] {
     let centre =
         [azimuth.unwrap_or(THREE_QUARTER_AZIMUTH_DEG), elevation.unwrap_or(THREE_QUARTER_ELEVATION_DEG)];
@@ -64,7 +64,7 @@ fn angles(azimuth: Option<f64>, elevation: Option<f64>) -> [[f64; 2]; PICTURES] 
             _ => [turned(centre[0] + (place as f64 - middle as f64) * AROUND_DEG), centre[1]],
         });
     }
-    // At the poles the neighbours are on one side.
+    // Near a pole all rows lie on one side of it.
     let up = if centre[1] + ELEVATION_STEP_DEG > 90.0 {
         0.0
     } else if centre[1] - ELEVATION_STEP_DEG < -90.0 {
@@ -78,7 +78,7 @@ fn angles(azimuth: Option<f64>, elevation: Option<f64>) -> [[f64; 2]; PICTURES] 
     })
 }
 
-/// The same direction between -180 and 180 degrees.
+/// Normalises an azimuth to the range from -180 to 180 degrees.
 fn turned(azimuth: f64) -> f64 {
     let turned = azimuth.rem_euclid(360.0);
     if turned > 180.0 { turned - 360.0 } else { turned }

@@ -1,4 +1,4 @@
-//! Keys as aligned text and as JSON.
+//! Lists of style keys as aligned text and as JSON.
 
 use std::fmt::Write as _;
 
@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use crate::style::{KeyType, StyleKey};
 
-/// Longer defaults are not aligned.
+/// Maximum width of the column of defaults. Longer defaults are not aligned.
 const MAX_DEFAULT_COLUMNS: usize = 22;
 
 /// A line for each key: path, type, default, and help with the allowed values.
@@ -28,7 +28,7 @@ fn row(key: &StyleKey) -> [String; 4] {
     [key.path.clone(), key.kind.name().to_owned(), default(key), key.full_help()]
 }
 
-/// The default in the form that is shown.
+/// Default of a key in the displayed form.
 pub(crate) fn default(key: &StyleKey) -> String {
     match (key.default, &key.inherits) {
         (Some(default), _) => default.to_owned(),
@@ -43,7 +43,7 @@ pub(crate) fn default(key: &StyleKey) -> String {
 /// The keys as a JSON list of objects.
 pub(crate) fn json(keys: &[&StyleKey]) -> String {
     let list: Vec<Value> = keys.iter().map(|key| object(key)).collect();
-    // Text and numbers always serialise.
+    // Serialising text and numbers cannot fail.
     let mut text = serde_json::to_string_pretty(&list).unwrap_or_default();
     text.push('\n');
     text

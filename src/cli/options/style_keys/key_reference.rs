@@ -1,4 +1,4 @@
-//! The page `docs/reference/style-keys.md`.
+//! Reference page `docs/reference/style-keys.md`.
 
 use std::fmt::Write as _;
 
@@ -18,7 +18,7 @@ All keys of a style sheet. In the terminal, `ligne styles --keys` lists them and
 - `color` is accepted for `colour`.
 ";
 
-/// The page.
+/// Text of the reference page.
 pub(crate) fn page() -> String {
     let mut page = HEAD.to_owned();
     page += "\n## Types\n\n| type | written as |\n| --- | --- |\n";
@@ -59,7 +59,7 @@ fn row(page: &mut String, key: &StyleKey) {
             .map(|values| format!(", {values}"))
             .unwrap_or_default(),
     };
-    // Lengths are explained above.
+    // The unit of lengths is explained at the top of the page.
     let unit = if key.unit.is_empty() || key.unit == "px" { String::new() } else { format!(" {}", key.unit) };
     let default = match default(key) {
         default if default == "-" => String::new(),

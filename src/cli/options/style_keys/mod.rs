@@ -20,7 +20,8 @@ use crate::geometry::names::glob::Glob;
 use crate::style::StyleKey;
 use crate::style::keys::advice::{alternatives, listed};
 
-/// The keys that a pattern fits, as text, as JSON or as the page of the reference. Without `*` and `?` it fits any part of a key.
+/// Lists the keys that match a pattern as text or JSON, or returns the reference page. A pattern without `*`
+/// and `?` matches any part of a key.
 pub(crate) fn list(glob: &str, json: bool, reference: bool) -> Result<String, Error> {
     if reference {
         return Ok(key_reference::page());
@@ -43,12 +44,12 @@ pub(crate) fn list(glob: &str, json: bool, reference: bool) -> Result<String, Er
     Ok(if json { key_listing::json(&keys) } else { key_listing::text(&keys) })
 }
 
-/// Completions of shells for `--set`: the keys that it sets, each with `=`.
+/// Values for shell completion of `--set`: all settable keys, each with `=`.
 pub(crate) fn settings() -> &'static [&'static str] {
     static SETTINGS: OnceLock<Vec<&'static str>> = OnceLock::new();
     SETTINGS.get_or_init(|| {
         let settable = StyleKey::all().iter().filter(|key| key.is_settable());
-        // The list lives as long as the program.
+        // The list lives as long as the program, so leaking is intended.
         settable.map(|key| &*format!("{}=", key.path).leak()).collect()
     })
 }

@@ -1,4 +1,4 @@
-//! [`with_tip`]: unknown options that have the name of a style key.
+//! [`with_tip`]: tip for unknown options that have the name of a style key.
 
 use std::ffi::OsString;
 
@@ -10,7 +10,7 @@ use crate::error::spelling::british;
 use crate::style::StyleKey;
 use crate::style::keys::advice::ending;
 
-/// The error about an unknown option, with a tip if a style key has its name and the command has `--set`.
+/// Adds a tip to the error about an unknown option, if a style key has its name and the command has `--set`.
 pub(crate) fn with_tip(mut error: Error, words: &[OsString], program: &Command) -> Error {
     if error.kind() != ErrorKind::UnknownArgument || !takes_settings(words, program) {
         return error;
@@ -29,7 +29,7 @@ pub(crate) fn with_tip(mut error: Error, words: &[OsString], program: &Command) 
     error
 }
 
-/// Whether the command that is called has `--set`; a call without a command draws.
+/// Whether the called command has `--set`. A call without a command draws.
 fn takes_settings(words: &[OsString], program: &Command) -> bool {
     let called = words.iter().skip(1).find_map(|word| program.find_subcommand(word));
     called.is_none_or(|command| command.get_arguments().any(|option| option.get_long() == Some("set")))

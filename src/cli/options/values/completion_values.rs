@@ -1,4 +1,4 @@
-//! [`Offered`]: values that a shell offers for an option that takes others as well.
+//! [`Offered`]: values for shell completion of an option that also accepts other values.
 
 use std::ffi::OsStr;
 
@@ -6,11 +6,11 @@ use clap::builder::{PossibleValue, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Arg, Command, Error};
 
-/// Parses by a function, and offers some values to the completions of shells.
+/// Parser with a list of values for shell completion.
 #[derive(Clone)]
 pub(crate) struct Offered<T> {
     values: Vec<&'static str>,
-    /// Values that are made only when they are needed.
+    /// Values that are computed when needed.
     late: Option<fn() -> &'static [&'static str]>,
     parse: fn(&str) -> Result<T, String>,
 }
@@ -23,7 +23,7 @@ impl<T> Offered<T> {
         Self { values: values.into_iter().collect(), late: None, parse }
     }
 
-    /// The same with values that take time to make.
+    /// Parser whose completion values are computed when needed.
     pub(crate) fn late(
         values: fn() -> &'static [&'static str],
         parse: fn(&str) -> Result<T, String>,

@@ -1,11 +1,11 @@
-//! The unit of length that the numbers of a model count.
+//! Unit of length of a model.
 
 use clap::ValueEnum;
 
 use crate::cli::output::number_text::plain;
 use crate::scene::Scene;
 
-/// What a unit of the model is.
+/// Unit of length of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(crate) enum ModelUnit {
     /// Millimetres
@@ -20,13 +20,13 @@ pub(crate) enum ModelUnit {
     Ft,
 }
 
-/// Models of which the longest side is shorter or longer than this, mm, are seldom meant so.
+/// Plausible range of the longest side of a model without a stated unit, mm, and maximum for glTF, metres.
 const SHORTEST_MM: f64 = 1.0;
 const LONGEST_MM: f64 = 10_000.0;
 const LONGEST_METRES: f64 = 1_000.0;
 
 impl ModelUnit {
-    /// Millimetres in it.
+    /// Length of the unit in mm.
     pub(crate) const fn mm(self) -> f64 {
         match self {
             Self::Mm => 1.0,
@@ -37,7 +37,7 @@ impl ModelUnit {
         }
     }
 
-    /// How it is written.
+    /// Abbreviation of the unit.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Mm => "mm",
@@ -48,24 +48,25 @@ impl ModelUnit {
         }
     }
 
-    /// The unit of a scene: the one that is given, else that of its format. glTF demands metres; the other formats leave it open, and CAD
-    /// programs write millimetres.
+    /// Unit of a scene: the given one, or the unit of its format. glTF requires metres. The other formats
+    /// define no unit, and CAD programs write millimetres.
     pub(crate) fn of(scene: &Scene, given: Option<Self>) -> Self {
         given.unwrap_or(if is_in_metres(scene) { Self::M } else { Self::Mm })
     }
 }
 
-/// Whether the unit of a scene is known without asking: glTF demands metres, and converters of STEP return millimetres.
+/// Whether the unit of a scene is defined: glTF requires metres, and STEP converters return millimetres.
 pub(crate) fn is_stated(scene: &Scene) -> bool {
     scene.format == "STEP" || is_in_metres(scene)
 }
 
-/// Whether the format of a scene demands metres.
+/// Whether the format of a scene requires metres.
 fn is_in_metres(scene: &Scene) -> bool {
     scene.format == "glTF"
 }
 
-/// What to wonder about a model whose longest side is `longest`, in its own numbers, where nobody said in which unit it is.
+/// Warning about a model of implausible size. `longest` is its longest side in model units. For models
+/// without a given unit.
 pub(crate) fn doubt(scene: &Scene, longest: f64) -> Option<String> {
     let number = |value: f64| plain(value, if value < 1.0 { 4 } else { 1 });
     let long = number(longest);
@@ -73,7 +74,7 @@ pub(crate) fn doubt(scene: &Scene, longest: f64) -> Option<String> {
         return None;
     }
     if scene.format == "STEP" {
-        // The converter has read the unit of the file.
+        // The converter reads the unit from the file.
         return None;
     }
     if is_in_metres(scene) {

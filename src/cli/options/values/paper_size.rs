@@ -1,13 +1,13 @@
-//! Paper as it is written on the command line: `1000x1000`, `A4`, `210x297mm`, `10mm`, `1:2`.
+//! Paper sizes, margins and scales as written in options: `1000x1000`, `A4`, `210x297mm`, `10mm`, `1:2`.
 
 use crate::drawing::length::MM_PER_PX;
 use crate::drawing::{Length, Page, Unit};
 use crate::error::Error;
 
-/// Larger sizes, in user units, are slips of the finger.
+/// Maximum side length, user units. Rejects typing errors.
 const LARGEST: f64 = 1e6;
 
-/// Named sheets: width and height in mm, upright.
+/// Named sheets: width and height in mm, portrait.
 const SHEETS: [(&str, f64, f64); 10] = [
     ("A0", 841.0, 1189.0),
     ("A1", 594.0, 841.0),
@@ -37,7 +37,7 @@ impl Extent {
         }
     }
 
-    /// The sheet lying on its longer side.
+    /// The size in landscape orientation.
     pub(crate) fn lying(self) -> Self {
         Self { width: self.width.max(self.height), height: self.width.min(self.height) }
     }
@@ -50,7 +50,7 @@ pub(crate) fn size_px(text: &str) -> Result<Extent, String> {
         text.parse::<f64>().map_err(|_| "write WIDTHxHEIGHT in px, such as 1000x800".to_owned())
     };
     match text.split_once(['x', 'X', '×']) {
-        // `800px` has an x that parts nothing.
+        // The x in `800px` is not a separator.
         Some((width, height)) if !width.trim_end().ends_with(['p', 'P']) => {
             Extent::new(side(width)?, side(height.trim_start())?)
         }
@@ -58,7 +58,7 @@ pub(crate) fn size_px(text: &str) -> Result<Extent, String> {
     }
 }
 
-/// The names of sheets.
+/// Names of the named sheets.
 pub(crate) fn sheet_names() -> impl Iterator<Item = &'static str> {
     SHEETS.iter().map(|(name, _, _)| *name)
 }
@@ -77,7 +77,7 @@ pub(crate) fn page_mm(text: &str) -> Result<Extent, String> {
     let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(wrong)?;
     let height = Measure::parse(height).ok_or_else(wrong)?;
     let mut width = Measure::parse(width).ok_or_else(wrong)?;
-    // The unit behind the height counts for both.
+    // A unit after the height applies to both sides.
     if width.unit_left_out && !height.unit_left_out {
         width = Measure::parse(&format!("{}{}", width.length.value, unit_of(text))).ok_or_else(wrong)?;
     }
@@ -88,7 +88,7 @@ fn unit_of(text: &str) -> &str {
     text.rfind(|c: char| !c.is_ascii_alphabetic()).map_or("", |i| text.get(i + 1..).unwrap_or(""))
 }
 
-/// A length that takes the unit of the page where it is written without.
+/// Length whose default unit is the unit of the page.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Measure {
     length: Length,
@@ -114,7 +114,7 @@ pub(crate) fn margin(text: &str) -> Result<Measure, String> {
         .ok_or_else(|| "write a length such as 10mm".to_owned())
 }
 
-/// Reads `1:2` or `0.5`: the length on paper of one unit of length.
+/// Reads `1:2` or `0.5`: length on paper per length of the model.
 pub(crate) fn scale(text: &str) -> Result<f64, String> {
     let number = |text: &str| text.trim().parse::<f64>().ok().filter(|n| n.is_finite() && *n > 0.0);
     let ratio = match text.split_once(':') {
@@ -124,19 +124,19 @@ pub(crate) fn scale(text: &str) -> Result<f64, String> {
     ratio.filter(|r| r.is_finite() && *r > 0.0).ok_or_else(|| "write a scale such as 1:2 or 5:1".to_owned())
 }
 
-/// The sheet that is drawn on: its size, and the margin round the frame of the picture.
+/// Sheet of a drawing, with a margin around the frame of the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Paper {
     /// Width and height in user units.
     pub(crate) extent: Extent,
-    /// What a user unit is.
+    /// User unit.
     pub(crate) unit: Unit,
     /// Width of the margin in user units.
     pub(crate) margin: f64,
 }
 
 impl Paper {
-    /// A sheet with its margin; without one a page of mm has 10 mm, a picture of px none.
+    /// Sheet with a margin. The default margin is 10 mm on a page in mm and 0 on a picture in px.
     pub(crate) fn new(extent: Extent, unit: Unit, margin: Option<Measure>) -> Result<Self, Error> {
         let margin = match (margin, unit) {
             (Some(margin), unit) => margin.in_unit(unit),
@@ -160,7 +160,7 @@ impl Paper {
         (self.extent.width - 2.0 * self.margin, self.extent.height - 2.0 * self.margin)
     }
 
-    /// The page without its colour.
+    /// The page without a background.
     pub(crate) fn page(&self) -> Page {
         Page { width: self.extent.width, height: self.extent.height, unit: self.unit, background: None }
     }

@@ -1,27 +1,27 @@
-//! [`Shard`]: the share of the work that is one computer's, told by the call or by the job array that it runs in.
+//! [`Shard`]: share of the work of one computer, from an option or from the job array of the process.
 
 use std::fmt;
 
 use crate::error::Error;
 
-/// Some of all there is to do: every `of`th, from the `first` on.
+/// Every `of`-th item, from item `first` on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Shard {
     first: usize,
     of: usize,
 }
 
-/// What was typed: which shard, or of how many.
+/// Value of `--shard`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Share {
-    /// `2/4`.
+    /// Shard K of N: `2/4`.
     Given(Shard),
-    /// `/4`: the job array knows which.
+    /// Number of shards; the job array provides the index: `/4`.
     Of(usize),
 }
 
 impl Shard {
-    /// Whether what has this number, from 0 on, is in it.
+    /// Whether the item with a number, counted from 0, belongs to the shard.
     pub(crate) const fn has(self, number: usize) -> bool {
         number % self.of == self.first
     }
@@ -47,10 +47,10 @@ impl Share {
         share.ok_or_else(|| "write K/N, such as 1/4 for the first of four, or /4 in a job array".to_owned())
     }
 
-    /// The shard, asking the environment if need be.
+    /// Resolves the shard, from the job array if necessary.
     ///
     /// # Errors
-    /// If this is no task of a job array, or none of so many.
+    /// If this process is not a task of a job array, or if the task number is out of range.
     pub(crate) fn shard(self) -> Result<Shard, Error> {
         match self {
             Self::Given(shard) => Ok(shard),
@@ -63,10 +63,10 @@ impl Share {
     }
 }
 
-/// The shard of the job array that this process is a task of, if it is one.
+/// Shard of this process in its job array; none outside a job array.
 ///
 /// # Errors
-/// If the environment does not tell of how many.
+/// If the environment does not define the number of tasks.
 pub(crate) fn of_array() -> Result<Option<Shard>, Error> {
     counted(&variable)
 }
@@ -75,7 +75,7 @@ fn variable(name: &str) -> Option<String> {
     std::env::var(name).ok().filter(|value| !value.is_empty())
 }
 
-/// A number in a variable, if it is set.
+/// Number in an environment variable; none if it is not set.
 fn number(name: &str, variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<usize>, Error> {
     let Some(value) = variable(name) else { return Ok(None) };
     let number = value.trim().parse();
@@ -83,7 +83,7 @@ fn number(name: &str, variable: &dyn Fn(&str) -> Option<String>) -> Result<Optio
     number.map(Some).map_err(wrong)
 }
 
-/// The shard of a task of `of`: Slurm's tasks are numbered from 1, those of Kubernetes from 0.
+/// Shard of a task among `of` tasks. Tasks of Slurm count from 1, tasks of Kubernetes from 0.
 fn numbered(of: usize, variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<Shard>, Error> {
     let slurm = number("SLURM_ARRAY_TASK_ID", variable)?.map(|id| ("SLURM_ARRAY_TASK_ID", id, 1));
     let kubernetes = || number("JOB_COMPLETION_INDEX", variable);
@@ -101,7 +101,7 @@ fn numbered(of: usize, variable: &dyn Fn(&str) -> Option<String>) -> Result<Opti
     Ok(Some(Shard { first, of }))
 }
 
-/// The shard of a task of an array that says itself how many tasks it has.
+/// Shard of a task of an array that defines its number of tasks.
 fn counted(variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<Shard>, Error> {
     let number = |name| number(name, variable);
     let unsaid = |name: &str, missing: &str| {
@@ -119,7 +119,7 @@ fn counted(variable: &dyn Fn(&str) -> Option<String>) -> Result<Option<Shard>, E
         let most =
             number("SLURM_ARRAY_TASK_MAX")?.unwrap_or(least.saturating_add((of - 1).saturating_mul(step)));
         let place = |id: usize| id.checked_sub(least).filter(|off| off % step == 0).map(|off| off / step);
-        // A list such as 3,7 has gaps: which of its tasks this is, nobody says.
+        // A list such as 3,7 has gaps, so the position of this task in it is unknown.
         return match place(id).filter(|first| *first < of && place(most) == Some(of - 1)) {
             Some(first) => Ok(Some(Shard { first, of })),
             None => unsaid(name, "its task numbers have gaps"),
@@ -178,7 +178,7 @@ mod tests {
         ] {
             assert!(counted(&set(wrong)).is_err(), "{wrong}");
         }
-        // A task that runs again alone is still the one of its number.
+        // A single task that is run again keeps its number.
         let again = "SLURM_ARRAY_TASK_ID=3 SLURM_ARRAY_TASK_COUNT=1 SLURM_ARRAY_TASK_MIN=3";
         assert_eq!(numbered(4, &set(again))?, shard(2, 4));
         assert_eq!(numbered(4, &set("JOB_COMPLETION_INDEX=3"))?, shard(3, 4));

@@ -1,4 +1,4 @@
-//! How bodies meet, against columns through both.
+//! Contacts of random boxes, compared with vertical columns through both.
 
 use super::*;
 use crate::geometry::dice::Dice;
@@ -20,7 +20,7 @@ fn body(boxes: &[Box3]) -> Body {
     body
 }
 
-/// The areas by columns: between the sides of boxes, what stands at a place of the plane is the same everywhere.
+/// Overlap and blocked areas by columns. Between the sides of boxes, each column has constant contents.
 fn by_columns(a: &[Box3], b: &[Box3]) -> [f64; 3] {
     let sides = |k: usize| {
         let mut sides: Vec<f64> = a.iter().chain(b).flatten().map(|p| p[k]).collect();
@@ -51,7 +51,7 @@ fn bodies_meet_as_columns_through_both_say() {
     let mut dice = Dice::new(8);
     let (mut held, mut apart) = (0, 0);
     for round in 0..200 {
-        // Two boxes a body, one over the other.
+        // Two boxes per body, one above the other.
         let mut random = || {
             let mut box_between = |low: f64, high: f64| {
                 let (x, y, z) = (dice.between(0.0, 1.5), dice.between(0.0, 1.5), dice.between(low, high));
@@ -66,7 +66,7 @@ fn bodies_meet_as_columns_through_both_say() {
         let meeting = of_a.meeting(&of_b, 1e-9);
         assert_eq!(of_b.meeting(&of_a, 1e-9), meeting.turned(), "round {round}");
         let graze = GRAZE * of_a.area.min(of_b.area);
-        // Columns count once where several boxes stand over each other.
+        // Columns count once even if several boxes overlap there.
         let columns = by_columns(&a, &b);
         let said = [meeting.meets, meeting.blocks_up, meeting.blocks_down];
         for (said, area) in said.iter().zip(columns).filter(|(_, area)| *area == 0.0 || *area > graze) {
@@ -91,7 +91,7 @@ fn what_stands_in_a_ring_is_surrounded() {
     let within = |inner: &[Box3], outer: &[Box3]| shadow(inner).meeting(&shadow(outer), 1e-9).is_within;
     assert!(within(&[block([-1.0, 1.0], [-1.0, 1.0])], &ring));
     assert!(within(&ring, &[block([-2.0, 2.0], [-2.0, 2.0])]));
-    // Through a gap there is a way out.
+    // A gap in the ring is a free path outward.
     assert!(!within(&[block([-1.0, 1.0], [-1.0, 1.0])], &ring[..3]));
     assert!(!within(&[block([4.0, 5.0], [-1.0, 1.0])], &ring));
 }
