@@ -1,4 +1,5 @@
-//! [`Part`]: the part of a picture that a view shows, as large as it is shown, and where its pieces lie on the page.
+//! [`Part`]: the part of a picture that a view shows, resampled to the size it is shown in, and where its
+//! pieces are on the page.
 
 use glam::{DMat2, DVec2};
 use kurbo::{Affine, BezPath, PathEl, Vec2};
@@ -7,24 +8,25 @@ use crate::colour::pixel_picture::Picture;
 use crate::images::clusters::affine_fit::Affinity;
 use crate::scene::textures::Imaged;
 
-/// No more pixels of a picture are put into a drawing.
+/// Largest number of pixels of a picture in a drawing.
 const MOST_PIXELS: f64 = 4_194_304.0;
 
-/// Pixels around what is shown, for those that are mixed with their neighbours.
+/// Margin around the shown part for interpolation between neighbours, pixels.
 const MARGIN: f64 = 1.5;
 
-/// A piece of the page on which one map brings the picture.
+/// Piece of the page that one affine map covers.
 pub(crate) struct Mapped {
     pub outline: BezPath,
     map: Affinity,
-    /// From the place where it shows the picture to where the same is seen first.
+    /// Offset from the place it shows to the first repetition of the picture, texels.
     shift: DVec2,
     low: DVec2,
     high: DVec2,
 }
 
 impl Mapped {
-    /// A piece with this outline on the page, whose frame is moved by `offset`; the picture comes again after `periods`.
+    /// Piece with this outline on the page, with the frame shifted by `offset`. The picture repeats after
+    /// `periods`.
     pub fn new(outline: BezPath, map: Affinity, offset: Vec2, periods: [Option<f64>; 2]) -> Self {
         let points = outline.elements().iter().filter_map(PathEl::end_point);
         let places = points.map(|p| map.place(DVec2::new(p.x - offset.x, p.y - offset.y)));
@@ -36,17 +38,17 @@ impl Mapped {
     }
 }
 
-/// The part of a picture that a view shows.
+/// Part of a picture that a view shows.
 pub(crate) struct Part {
     pub picture: Picture,
-    /// In the plane of the texels, and pixels of the part in a texel.
+    /// Origin in the plane of the texels, and pixels per texel.
     from: DVec2,
     scale: DVec2,
 }
 
 impl Part {
-    /// With so many pixels in a texel, or fewer if there were too many; no farther than `reach` beyond the picture where
-    /// that is not repeated. None if nothing is shown.
+    /// Resamples the shown part with `scale` pixels per texel, or fewer where the picture would be too large.
+    /// Without repetition, it reaches at most one picture size past each edge. `None` if nothing is shown.
     pub fn of(imaged: &Imaged, pieces: &[Mapped], scale: f64, periods: [Option<f64>; 2]) -> Option<Self> {
         let mut low = DVec2::INFINITY;
         let mut high = DVec2::NEG_INFINITY;
@@ -67,7 +69,7 @@ impl Part {
         }
         let pixels = (wide.x * scale + 2.0 * MARGIN) * (wide.y * scale + 2.0 * MARGIN);
         let scale = scale * (MOST_PIXELS / pixels).min(1.0).sqrt();
-        // From the side of one texel to that of another one, which keeps them as they are.
+        // The bounds are borders of texels, which keeps texels unchanged at full scale.
         let margin = MARGIN / scale;
         let from = (low - margin + 0.5).floor() - 0.5;
         let to = (high + margin + 0.5).ceil() - 0.5;
@@ -76,7 +78,7 @@ impl Part {
         Some(Self { picture, from, scale: count / (to - from) })
     }
 
-    /// What brings the pixels of the part to where a piece shows them.
+    /// Transform from pixels of the part to the page, for one piece.
     pub fn transform(&self, piece: &Mapped, offset: Vec2) -> Affine {
         let (page_from_place, origin) = piece.map.to_page();
         let matrix = page_from_place * DMat2::from_diagonal(DVec2::ONE / self.scale);

@@ -4,7 +4,7 @@
 //!    per piece is accurate.
 //! 2. Pieces with the same map or colour are joined into clusters.
 //! 3. The clusters are sorted from back to front and get outlines with a small overlap.
-//! 4. The shown part of the image is resampled to the size in which it is seen.
+//! 4. The shown part of the image is resampled to the size it has on the page.
 //!
 //! The clip path of the mark limits the result to the visible part of the surface.
 //! Files, in reading order: [`facets`] step 1; [`clusters`] steps 2 and 3; [`image_part`] step 4;
@@ -30,30 +30,31 @@ use facets::facet::Facet;
 pub(crate) use facets::image_context::Stage;
 use image_part::{Mapped, Part};
 
-/// How far pieces reach under those beside them, px.
+/// Overlap of pieces under their neighbours, px.
 const REACH_PX: f64 = 0.5;
 
-/// Repetitions of a picture that are less wide than this, px, are its mean colour.
+/// Width of a repetition below which the mean colour is shown, px.
 const LEAST_PERIOD_PX: f64 = 1.5;
 
-/// A picture that is repeated is put into the drawing so many pixels wide or high at most, or once.
+/// Largest width and height in the drawing of a picture that is repeated, pixels, unless one repetition is
+/// larger.
 const MOST_SPAN: f64 = 1024.0;
 
-/// Pieces shorter than this, px, are shown in their mean colour.
+/// Length below which a piece shows its mean colour, px.
 const FLAT_PIECE_PX: f64 = 2.5;
 
-/// This part of what is seen of a picture may be shown less finely than asked for.
+/// Share of the visible area of a picture that may be shown less finely than requested.
 const COARSE_PART: f64 = 0.1;
 
-/// What becomes of a picture in a view.
+/// Result for one picture in a view.
 pub(crate) struct Pieces {
-    /// The pieces of each part of the model, by its number.
+    /// Pieces of each part of the model.
     pub of_part: Vec<(PartId, ImagePaint)>,
-    /// How far beside its place it may be seen, px, if that is farther than usual, and how many pieces were left out.
+    /// Largest displacement, px, if it is larger than usual, and the number of pieces left out.
     pub coarse: Option<(f64, usize)>,
 }
 
-/// The pieces of a picture, whose colours are made others by `toned`; none if it is not seen.
+/// Pieces of a picture, with colours changed by `toned`; `None` if it is not visible.
 pub(crate) fn pictures(
     stage: &Stage,
     imaged: &Imaged,
@@ -112,7 +113,7 @@ pub(crate) fn pictures(
         toned(&mut picture);
         picture.at(0, 0)
     };
-    // Nothing but pieces of one colour shows none of it.
+    // Where all pieces have one colour, the drawing holds one white pixel as their picture.
     let nothing = Picture { width: 1, height: 1, pixels: vec![Colour::WHITE] };
     let transform = |piece: &Mapped| part.as_ref().map(|part| part.transform(piece, offset));
     shown.sort_by_key(|(part, _)| *part);
@@ -140,14 +141,14 @@ pub(crate) fn pictures(
     Some(Pieces { of_part: of_part.into_iter().map(with).collect(), coarse })
 }
 
-/// A piece on its way.
+/// Fill of a piece before assembly.
 enum Made {
     Flat(kurbo::BezPath, Colour),
-    /// By its number.
+    /// Index of the mapped piece.
     Mapped(usize),
 }
 
-/// The longer side of the box around a cluster.
+/// Longer side of the bounding box of a cluster.
 fn length(cluster: &Cluster, facets: &[Facet]) -> f64 {
     let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let corners = cluster.facets.iter().flat_map(|facet| facets[*facet as usize].corners);
@@ -158,18 +159,18 @@ fn length(cluster: &Cluster, facets: &[Facet]) -> f64 {
     (high - low).max_element()
 }
 
-/// The mean colour of a small cluster: that of the box around its places.
+/// Mean colour of a small cluster: that of the bounding box of its places.
 fn mean(imaged: &Imaged, cluster: &Cluster, facets: &[Facet]) -> Colour {
     let none = (DVec2::INFINITY, DVec2::NEG_INFINITY);
     let places = cluster.facets.iter().flat_map(|facet| facets[*facet as usize].places());
     let (low, high) = places.fold(none, |(low, high), p| (low.min(p), high.max(p)));
-    // No less than a texel, and no more than can be looked at.
+    // At least a texel, and at most an area that is cheap to average.
     let (middle, half) =
         ((low + high) / 2.0, ((high - low) / 2.0).clamp(DVec2::splat(0.5), DVec2::splat(32.0)));
     imaged.part(middle - half, middle + half, [1, 1]).at(0, 0)
 }
 
-/// How many px a texel is wide and high where that is most, in nearly all that is seen of a picture; none if nothing is.
+/// Largest width or height of a texel, px, in nearly all of the visible area; `None` if nothing is visible.
 fn stretch(facets: &[Facet], px: f64) -> Option<f64> {
     let of = |facet: &Facet| {
         let [a, b, c] = facet.corners;

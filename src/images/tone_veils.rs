@@ -1,10 +1,12 @@
-//! [`Shades`]: what lies over a picture where it is in another tone than the one that it is painted in.
+//! [`Shades`]: transparent veils painted over a picture to show the tones other than its own.
 //!
-//! A drawing holds a picture once, in its lightest tone. Colours between black and white, painted over it with an opacity, make the
-//! other tones of it: where a tone leaves a part t of every channel, a veil of opacity 1 − t does so exactly, in whatever
-//! program shows it, which cannot be said of blending by multiplication. A tone that tints gets the veil that is right for the
-//! mean colour of the picture and for its contrast in the channel that loses most. Veils lie on each other, each
-//! over all darker tones, so that between two tones one border is seen, not two.
+//! 1. A drawing holds a picture once, in its lightest tone.
+//! 2. Each other tone is a veil: a colour between black and white, painted with an opacity. If the tone
+//!    leaves a share t of every channel, the opacity 1 − t is exact. It looks the same in every program,
+//!    unlike blending by multiplication.
+//! 3. A tone that tints gets the veil that is exact for the mean colour of the picture, and for its contrast
+//!    in the channel that loses most.
+//! 4. Veils lie on each other, each over all darker tones. So one border shows between two tones, not two.
 
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
@@ -12,32 +14,32 @@ use crate::light::Shading;
 use crate::scene::Paint;
 use crate::scene::textures::Imaged;
 
-/// What lies over a picture.
+/// Veils over a picture.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Shades {
-    /// What the tone that the picture is painted in makes of the channels of a colour: a factor, and what is added.
+    /// Effect of the picture's own tone on each channel of a colour: a factor and an addend.
     tone: [[f64; 2]; 3],
-    /// Veils, to be painted first to last, and the tones that each lies over.
+    /// Veils in the order of painting, with the tones that each lies over.
     pub veils: Vec<(Colour, Vec<u16>)>,
 }
 
-/// What a tone makes of colours.
+/// Effect of a tone on colours.
 #[derive(Debug, Clone, Copy)]
 struct Made {
-    /// Of the difference of two, channel by channel.
+    /// Factor for the difference of two colours, per channel.
     slope: [f64; 3],
-    /// Of the mean colour of the picture.
+    /// Resulting mean colour of the picture.
     mean: [f64; 3],
 }
 
-/// A picture of less contrast than this is none: its tones stand for it.
+/// Contrast below which a picture shows nothing, so its plain tones replace it.
 const LEAST_SLOPE: f64 = 0.02;
 
-/// A veil may miss its colour by this much to lie on those before.
+/// Largest colour error of a veil that is laid over earlier ones.
 const SLACK: f64 = 0.012;
 
 impl Shades {
-    /// The veils for a picture; none if tones have colours of their own, whatever the picture.
+    /// Veils for a picture; `None` if the tones have fixed colours that do not depend on the picture.
     pub fn of(shading: &Shading, paints: &[Paint], imaged: &Imaged) -> Option<Self> {
         let channels = |paint: crate::mesh::PaintId| Some(paints.get(paint.index())?.colour.channels());
         let probes = [channels(imaged.probes[0])?, channels(imaged.probes[1])?];
@@ -59,7 +61,7 @@ impl Shades {
             return None;
         }
         let tone = [0, 1, 2].map(|c| [lit.slope[c], lit.mean[c] - lit.slope[c] * mean[c]]);
-        // How much of the picture each tone leaves, and what it adds.
+        // Share of the picture that a tone leaves, and its addend.
         let left = |made: &Made| {
             let parts = [0, 1, 2].map(|c| made.slope[c] / lit.slope[c].max(LEAST_SLOPE));
             let part = parts.into_iter().fold(1.0, f64::min);
@@ -75,7 +77,7 @@ impl Shades {
         others.sort_by(|a, b| b.1.total_cmp(&a.1).then(b.0.cmp(&a.0)));
         let mut veils: Vec<(Colour, Vec<u16>)> = Vec::new();
         let mut alone: Vec<(Colour, Vec<u16>)> = Vec::new();
-        // What the veils so far leave, and what they add.
+        // Share that the veils up to here leave, and their addend.
         let (mut part, mut added) = (1.0, [0.0; 3]);
         for (tone, own_part, own_added) in others {
             let more = own_part / part;
@@ -84,7 +86,7 @@ impl Shades {
                 alone.extend(veil(own_part, own_added).map(|(veil, _, _)| (veil, vec![tone])));
                 continue;
             }
-            // What is left is reckoned with the opacity as it is written, so that errors do not add up.
+            // The opacity is used as written, so errors do not accumulate.
             if let Some((veil, more, rest)) = veil(more, rest) {
                 part *= more;
                 added = [0, 1, 2].map(|c| added[c] * more + rest[c]);
@@ -97,7 +99,7 @@ impl Shades {
         Some(Self { tone, veils })
     }
 
-    /// Brings a picture into the tone that it is painted in.
+    /// Applies the picture's own tone to its pixels.
     pub fn tone(&self, picture: &mut Picture) {
         let tables = self.tone.map(|[factor, added]| {
             let of = |c: u8| ((f64::from(c) * factor + added * 255.0).round().clamp(0.0, 255.0)) as u8;
@@ -111,8 +113,8 @@ impl Shades {
     }
 }
 
-/// The veil that leaves a part of what is below and adds so much, and what it leaves and adds as it is written; none if it cannot
-/// be seen.
+/// Veil that leaves the share `part` of the colours below and adds `added`, followed by both values as
+/// written in 8 bits. `None` if it is invisible.
 fn veil(part: f64, added: [f64; 3]) -> Option<(Colour, f64, [f64; 3])> {
     let opacity = ((1.0 - part) * 255.0).round() / 255.0;
     if opacity <= 0.0 {
@@ -127,7 +129,7 @@ fn veil(part: f64, added: [f64; 3]) -> Option<(Colour, f64, [f64; 3])> {
 mod tests {
     use super::*;
 
-    /// What is seen of a colour in a tone.
+    /// Resulting colour in a tone.
     fn seen(shades: &Shades, colour: [f64; 3], tone: u16) -> [f64; 3] {
         let below = [0, 1, 2].map(|c| colour[c] * shades.tone[c][0] + shades.tone[c][1]);
         shades.veils.iter().filter(|(_, tones)| tones.contains(&tone)).fold(below, |below, (veil, _)| {

@@ -1,9 +1,10 @@
-//! [`openness`]: how much of the sky each vertex of a mesh sees.
+//! [`openness`]: ambient visibility, the share of the sky that each vertex of a mesh sees.
 //!
-//! Source: Zhukov, Iones and Kronin, "An ambient light illumination model", Rendering Techniques
-//! 1998: the share of a hemisphere that nothing near obscures, weighted by the cosine. The directions
-//! are the same at all vertices, so that what one of them meets changes at few places, and the result
-//! has no noise to be smoothed.
+//! Source: Zhukov, Iones and Kronin, "An ambient light illumination model", Rendering Techniques 1998: the
+//! cosine-weighted share of a hemisphere that nothing near obscures.
+//!
+//! All vertices use the same directions. So the result of a direction changes at few places, and the total
+//! has no noise to smooth.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -14,17 +15,17 @@ use crate::mesh::bvh::rays::parallel_rays::{ParallelRays, Start};
 use crate::mesh::bvh::rays::ray_tree::RayTree;
 use crate::mesh::{FaceId, Mesh};
 
-/// Directions over the whole sphere; a vertex looks into nearly half of them.
+/// Number of directions over the whole sphere; nearly half of them are above a vertex.
 const DIRECTIONS: usize = 256;
 
-/// Below this cosine a direction counts for little, and its ray passes the most faces: left out.
+/// Smallest cosine of a direction that counts. Lower ones contribute little, and their rays pass the most
+/// faces.
 const LEAST_COSINE: f64 = 0.1;
 
-/// How much of the sky each vertex of a mesh sees on the outer side of the surface, from 0 (none) to 1
-/// (all). Nothing farther from a place than `reach` says there (world units) counts; with infinity all does.
+/// Share of the sky that each vertex sees on the outer side of the surface, from 0 (none) to 1 (all).
 ///
-/// Vertices without a normal see all, and so do those of whose faces none is asked for: `asked` tells of each face, and all are
-/// where it is empty.
+/// Only obstacles within `reach` of a position (world units) count; with infinity all do. Vertices without a
+/// normal see everything, and so do vertices of faces that are not `asked`. An empty `asked` means all faces.
 #[must_use]
 pub fn openness(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> f64 + Sync) -> Vec<f64> {
     let rays = ParallelRays::new(mesh);
@@ -36,7 +37,7 @@ pub fn openness(mesh: &Mesh, asked: &[bool], reach: impl Fn(DVec3) -> f64 + Sync
         faces.flat_map(|(face, _)| face).for_each(|v| is_asked[*v as usize] = true);
         normals.iter_mut().zip(is_asked).filter(|(_, asked)| !asked).for_each(|(n, _)| *n = DVec3::ZERO);
     }
-    // From a little above the surface, faces around a hollow are in the way as well.
+    // Starts slightly above the surface, so that faces around a hollow block as well.
     let start = |v: usize| {
         let at = mesh.positions[v];
         Start { point: at + normals[v] * lifts[v], reach: reach(at) }
@@ -90,8 +91,8 @@ fn directions() -> Vec<DVec3> {
         .collect()
 }
 
-/// The unit normal of each vertex, 0 where no face has area, and how far above the surface it looks
-/// from: a share of the mean length of the edges around it.
+/// Unit normal of each vertex, 0 where no face has area, and the height above the surface where its rays
+/// start: a share of the mean length of its edges.
 fn normals(mesh: &Mesh) -> (Vec<DVec3>, Vec<f64>) {
     let mut normals = vec![DVec3::ZERO; mesh.positions.len()];
     let mut contacts = vec![0.0f64; mesh.positions.len()];
@@ -125,7 +126,7 @@ mod tests {
     use crate::geometry::numbers::noise::hash;
     use crate::mesh::Soup;
 
-    /// A grid of squares over a parallelogram.
+    /// Grid of squares over a parallelogram.
     fn add_sheet(soup: &mut Soup, corner: DVec3, u: DVec3, v: DVec3, cells: u32) {
         let first = soup.positions.len() as u32;
         for i in 0..=cells {
@@ -159,7 +160,7 @@ mod tests {
         add_sheet(&mut soup, DVec3::new(-1.0, -1.0, 0.0), DVec3::X * 2.0, DVec3::Y * 2.0, 4);
         let alone = Mesh::build(soup.clone());
         assert!(openness(&alone, &[], everywhere).iter().all(|o| *o == 1.0));
-        // A square of side 2 at height 1 covers a known part of the sky of the point below its middle:
+        // A square of side 2 at height 1 covers a known part of the sky for the point below its middle. It is
         // the view factor of four rectangles with sides 1 and 1 at distance 1.
         add_sheet(&mut soup, DVec3::new(-1.0, -1.0, 1.0), DVec3::Y * 2.0, DVec3::X * 2.0, 4);
         let mesh = Mesh::build(soup);
@@ -178,10 +179,10 @@ mod tests {
         add_sheet(&mut soup, DVec3::new(0.0, -20.0, 0.0), DVec3::Y * 40.0, DVec3::Z * 20.0, 8);
         let mesh = Mesh::build(soup);
         let found = openness(&mesh, &[], everywhere);
-        // In the corner the normal is halfway, and a wedge of a right angle is left: sin 45°.
+        // In the corner the normal is halfway, and a right-angled wedge is left: sin 45°.
         let corner = at(&mesh, &found, DVec3::ZERO);
         assert!((corner - 0.5_f64.sqrt()).abs() < 0.03, "{corner}");
-        // On the floor, a long wall of height 20 leaves (1 + cos α)/2, where α is how high it stands.
+        // On the floor, a long wall of height 20 leaves (1 + cos α)/2, where α is its elevation angle.
         for x in [2.5, 17.5] {
             let (found, wanted) = (at(&mesh, &found, DVec3::X * x), (1.0 + x / (x * x + 400.0).sqrt()) / 2.0);
             assert!((found - wanted).abs() < 0.04, "{x}: {found} {wanted}");
@@ -218,7 +219,7 @@ mod tests {
 
     #[test]
     fn a_thicket_of_large_faces_is_as_open_on_any_number_of_threads() {
-        // So many of them over each other that rays go down a tree.
+        // Enough overlapping faces to make the rays use a tree.
         let part = |n: u32| hash(7, &[u64::from(n)]) as f64 / u64::MAX as f64 * 2.0 - 1.0;
         let point = |n: u32| DVec3::new(part(3 * n), part(3 * n + 1), part(3 * n + 2));
         let count = 1500;

@@ -1,8 +1,9 @@
-//! [`ShadedNormals`]: the normals by which light falls on a mesh, three for each face.
+//! [`ShadedNormals`]: the normals used for lighting a mesh, three for each face.
 //!
-//! Rounded surfaces are lit as what their outline is made from. Elsewhere the normals are the file's own
-//! where it has any, or the faces around a vertex that no hard edge parts share one, so that
-//! tessellation does not show and corners stay corners.
+//! 1. Rounded surfaces use the normals that also give their contour.
+//! 2. Other faces use the normals of the file, if there are any.
+//! 3. Otherwise, the faces around a vertex that no hard edge separates share one normal. So tessellation does
+//!    not show, and corners stay sharp.
 
 use crate::parallel::prelude::*;
 use glam::{DVec3, Vec3};
@@ -10,19 +11,18 @@ use glam::{DVec3, Vec3};
 use crate::mesh::{FaceId, Mesh, Share, shares};
 use crate::surface::{HardEdges, SmoothNormals};
 
-/// The normals by which light falls on a mesh. Inside a face they are interpolated and made unit
-/// length again.
+/// Normals used for lighting a mesh. Inside a face they are interpolated and normalized.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ShadedNormals {
     /// Unit normals, local space, on the outer side of their faces.
     pub normals: Vec<DVec3>,
-    /// Which of them stand at the corners of each face. One per face.
+    /// Indices of the normals at the corners of each face.
     pub corners: Vec<[u32; 3]>,
 }
 
 impl ShadedNormals {
-    /// The normals of a mesh with these hard edges, and with these normals on its rounded parts, from
-    /// which their outline is made as well.
+    /// Normals of a mesh with these hard edges. `smooth` gives the normals of its rounded parts, which also
+    /// give their contour.
     #[must_use]
     pub fn new(mesh: &Mesh, hard: &HardEdges, smooth: &SmoothNormals) -> Self {
         if smooth.corners_of_all() {
@@ -41,7 +41,7 @@ impl ShadedNormals {
         shaded
     }
 
-    /// Puts the normals of rounded faces in their place.
+    /// Replaces the normals of rounded faces by those of the rounded surface.
     fn take_rounded(&mut self, smooth: &SmoothNormals) {
         let first = self.normals.len() as u32;
         self.normals.extend(&smooth.normals);
@@ -52,16 +52,17 @@ impl ShadedNormals {
         }
     }
 
-    /// The normals at the corners of a face.
+    /// Normals at the corners of a face.
     #[inline]
     #[must_use]
     pub fn of(&self, face: u32) -> [DVec3; 3] {
         self.corners[face as usize].map(|id| self.normals[id as usize])
     }
 
-    /// Gives each normal the direction of the faces that share it, weighed by their area: large faces
-    /// are shaded as what they are, and the narrow ones of a rim do not bend the light on them. Normals that stand at
-    /// `rounded` faces alone are left as they are, since these have their own.
+    /// Gives each normal the direction of the faces that share it, weighted by their area.
+    ///
+    /// Large faces then keep their shading, and the narrow faces of a rim do not bend the light on them.
+    /// Normals used by `rounded` faces alone are left unchanged, because these faces have other normals.
     fn weigh_by_area(&mut self, mesh: &Mesh, rounded: &SmoothNormals) {
         let mut is_asked = vec![false; self.normals.len()];
         for (face, ids) in (0..).zip(&self.corners) {
@@ -93,7 +94,7 @@ impl ShadedNormals {
         self.normals = weighed.concat();
     }
 
-    /// Puts the file's normals where it has some, on the side of their face that most of them are on.
+    /// Uses the file's normals where it has some, flipped to the outer side of their face by majority.
     fn take_from_file(&mut self, mesh: &Mesh) {
         let first = self.normals.len() as u32;
         let count = mesh.normals.len() as u32;
@@ -112,7 +113,7 @@ impl ShadedNormals {
         }
     }
 
-    /// Gives faces whose normals are zero or leave the face altogether the face's own normal.
+    /// Replaces corner normals that are zero or turned away from the face by the normal of the face.
     fn mend(&mut self, mesh: &Mesh) {
         let own = |face: usize| Vec3::from_array(mesh.face_normals[face]).as_dvec3();
         let bad = |normal: DVec3, own: DVec3| normal == DVec3::ZERO || normal.dot(own) < LEAST_COSINE;
@@ -133,10 +134,10 @@ impl ShadedNormals {
     }
 }
 
-/// Faces whose normals one task looks at.
+/// Faces per task.
 const FACES_PER_TASK: usize = 1 << 12;
 
-/// Normals farther than this from their face's own (cosine) do not belong to it.
+/// Smallest cosine between a corner normal and the normal of its face.
 const LEAST_COSINE: f64 = -0.2;
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! [`joined`]: the borders of shadows as segments on the surface that share their ends.
+//! [`joined`]: shadow borders as segments on the surface that share their ends.
 
 use std::collections::BTreeMap;
 
@@ -15,21 +15,21 @@ use crate::view::Frame;
 pub(crate) struct Joined {
     /// Ends of the segments, local space.
     pub points: Vec<DVec3>,
-    /// The face on which each lies, and its ends.
+    /// Face and ends of each segment.
     pub segments: Vec<(u32, [u32; 2])>,
 }
 
-/// Planes seen at this cosine or less are placed by interpolation.
+/// Cosine between a plane's normal and the line of sight below which points are interpolated.
 const GRAZING_COSINE: f64 = 1e-7;
 
-/// Joins the borders that the views of one light show.
+/// Joins the borders from all views of one light.
 ///
-/// Pieces share a point where the border goes on from one face to the next, where two pieces of the
-/// light's view share a node, and where loose ends meet: there the shadow of one edge goes on as that
-/// of another.
+/// Pieces share a point where the border continues from one face to the next and where they share a vertex of
+/// the light's view map. They also share one where loose ends meet: there the shadow of one edge continues as
+/// that of another.
 pub(crate) fn joined(mesh: &Mesh, views: Vec<Borders>) -> Joined {
     let mut all = Joined::default();
-    // How far from each point another may lie that is the same.
+    // Distance from each point within which another one is the same.
     let mut reaches: Vec<f64> = Vec::new();
     for borders in &views {
         let frame = &borders.light.view.frame;
@@ -78,13 +78,12 @@ impl Joined {
         self.points.len() as u32 - 1
     }
 
-    /// The first of some points that lies near a place.
+    /// First of some points that is near a place.
     fn near(&self, points: &[u32], place: DVec3, reach: f64) -> Option<u32> {
         points.iter().copied().find(|point| self.points[*point as usize].distance(place) <= reach)
     }
 
-    /// Joins points that end one segment each and lie near each other, and drops what is left of
-    /// no length.
+    /// Joins points that end one segment each and are near each other, and drops segments of zero length.
     fn join_loose_ends(&mut self, reaches: &[f64]) {
         let greatest = reaches.iter().copied().fold(0.0, f64::max);
         let mut uses = vec![0u32; self.points.len()];
@@ -133,15 +132,15 @@ impl Joined {
     }
 }
 
-/// A point rounded to a small part of the length within which points are one, so that what the light's
-/// frame does to the last digits does not show.
+/// Rounds a point to a small fraction of the merging distance, so the last digits do not depend on the
+/// light's frame.
 fn rounded(p: DVec3, reach: f64) -> DVec3 {
     let step = power_of_two_below(reach / 64.0);
     (p / step).round() * step
 }
 
-/// The point of a face behind a point of the light's image, local space; `nearness` is where it lies as
-/// far as interpolation tells.
+/// Point of a face behind a point of the light's image, local space. `nearness` is the interpolated nearness
+/// of the face.
 fn on_face(mesh: &Mesh, frame: &Frame, run: &EdgePart, image: DVec3, nearness: f64) -> DVec3 {
     let interpolated = local_from_image(frame, image, frame.depth_of(nearness));
     let [a, b, c] = mesh.corners(FaceId(run.face));
@@ -154,7 +153,7 @@ fn on_face(mesh: &Mesh, frame: &Frame, run: &EdgePart, image: DVec3, nearness: f
     interpolated + ray * (normal.dot(a - interpolated) / fall)
 }
 
-/// The local point at a place of the image and a depth.
+/// Local point at an image position and a depth.
 fn local_from_image(frame: &Frame, image: DVec3, depth: f64) -> DVec3 {
     let k = if frame.perspective { frame.scale / depth } else { frame.scale };
     let (x, y) = ((image.x - frame.width / 2.0) / k, (frame.height / 2.0 - image.y) / k);

@@ -1,4 +1,4 @@
-//! [`CastEdge`]: a piece of a contour or border that a light sees, and whose shadow falls behind it.
+//! [`CastEdge`]: a piece of a contour or border visible from a light, which casts a shadow behind it.
 
 use glam::{DVec2, DVec3};
 use kurbo::Point;
@@ -10,22 +10,22 @@ use crate::view::View;
 use crate::visibility::projection::image_segments::between;
 use crate::visibility::{self, ViewMap, ViewVertexId};
 
-/// A piece of a contour or border that a light sees.
+/// Piece of a contour or border visible from a light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct CastEdge {
-    /// Its start in the light's image space.
+    /// Start in the light's image space.
     pub a: DVec3,
-    /// Its end.
+    /// End in the light's image space.
     pub b: DVec3,
-    /// The vertices of the edge of the mesh that it is a piece of.
+    /// Vertices of the mesh edge it is a piece of.
     pub vertices: [u32; 2],
     /// Whether it starts and ends at those vertices.
     pub whole: [bool; 2],
-    /// The faces that meet in it.
+    /// Faces that meet in it.
     pub hosts: [u32; 2],
-    /// The nodes of the light's view map where it starts and ends.
+    /// Vertices of the light's view map at its start and end.
     pub nodes: [u32; 2],
-    /// Unit vector across it in the image, away from the faces that meet in it.
+    /// Unit vector across it in the image, away from its faces.
     pub outward: DVec2,
 }
 
@@ -37,7 +37,7 @@ impl CastEdge {
     }
 }
 
-/// Contours along edges of the mesh, and borders: where what a light sees may jump in depth.
+/// Options for contours along mesh edges and for borders, where the depth seen from a light may jump.
 fn options() -> LineOptions {
     LineOptions {
         kinds: vec![LineKind::Contour, LineKind::Border],
@@ -56,7 +56,7 @@ pub(crate) fn edges(surface: &Surface, light: &LightView) -> Vec<CastEdge> {
     let map = visibility::build(mesh, view, &lines, &options);
     let mut found = Vec::new();
     for edge in &map.edges {
-        // Behind a silhouette there is nothing for a shadow to fall on.
+        // Behind a silhouette there is no surface for a shadow to fall on.
         if edge.invisibility > 0 || (edge.silhouette && edge.kind == LineKind::Contour) {
             continue;
         }
@@ -87,8 +87,8 @@ fn image_point(map: &ViewMap, view: &View, vertex: ViewVertexId) -> DVec3 {
     DVec3::new(x, y, if view.frame.perspective { 1.0 / vertex.depth } else { -vertex.depth })
 }
 
-/// The unit vector across an edge, away from the host that stands out farthest from it; `None` for a
-/// point, or where no host stands out.
+/// Unit vector across an edge, away from the host that extends farthest from it. `None` for a point, or where
+/// no host extends to either side.
 fn outward(mesh: &Mesh, view: &View, edge: &CastEdge) -> Option<DVec2> {
     let across = (edge.b - edge.a).truncate().perp().try_normalize()?;
     let mut farthest = 0.0_f64;

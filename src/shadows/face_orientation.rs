@@ -1,29 +1,28 @@
-//! [`outside`]: on which side of each face it is outside, as far as the mesh tells.
+//! [`outside`]: the outer side of each face, where the mesh determines it.
 
 use glam::DVec3;
 
 use crate::mesh::{EdgeFaces, FaceId, Groups, Mesh};
 
-/// On which side of a face it is outside.
+/// Outer side of a face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Outside {
-    /// Where its normal points.
+    /// The side of its normal.
     Front,
-    /// Behind it: the face belongs to a solid that is wound inside out.
+    /// The opposite side: the face belongs to a solid that is wound inside out.
     Back,
-    /// The face belongs to a sheet, or to a surface that is wound both ways.
+    /// Undetermined: the face belongs to a sheet, or to a surface with mixed winding.
     Unknown,
 }
 
-/// The sum of the normals of a solid, each as long as its face is large, is 0. A surface whose sum is
-/// no longer than this share of its area is a solid, perhaps with a few holes.
+/// Largest length of the sum of area-weighted normals of a solid, as a share of its area. The sum is 0 for a
+/// closed surface; a few holes are allowed.
 const OPEN: f64 = 0.1;
 
-/// More edges than this share across which faces are wound against each other, and the winding says
-/// nothing.
+/// Share of edges with inconsistent winding above which the winding is not trusted.
 const MIXED: f64 = 0.01;
 
-/// What is known of a connected piece of the surface.
+/// Sums over a connected component of the surface.
 #[derive(Debug, Clone, Copy, Default)]
 struct Component {
     area: f64,
@@ -31,7 +30,7 @@ struct Component {
     volume: f64,
     edges: usize,
     mixed: usize,
-    /// A point on it.
+    /// A point on it, the reference point of its volume.
     place: DVec3,
 }
 
@@ -49,7 +48,7 @@ impl Component {
     }
 }
 
-/// On which side of each face it is outside: one for each face of the mesh.
+/// Outer side of each face of the mesh.
 pub(crate) fn outside(mesh: &Mesh) -> Vec<Outside> {
     let connected = Groups::new(mesh.triangles.len(), |join| {
         for edge in 0..mesh.edges.len() {
@@ -62,7 +61,7 @@ pub(crate) fn outside(mesh: &Mesh) -> Vec<Outside> {
     for face in 0..mesh.triangles.len() as u32 {
         let [a, b, c] = mesh.corners(FaceId(face));
         let piece = &mut pieces[connected.of(face) as usize];
-        // The least face of a piece comes first.
+        // The first face of a component gives its reference point.
         if piece.area == 0.0 {
             piece.place = a;
         }
@@ -91,7 +90,7 @@ mod tests {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
         let solid = [[0u32, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
         let mut soup = Soup::default();
-        // A solid, one inside out and one wound both ways in the file, and one without a side.
+        // A solid, one inside out, one with mixed winding in the file, and one with a missing side.
         for kind in 0..4_u32 {
             let first = soup.positions.len() as u32;
             soup.positions.extend(corners.map(|p| p + DVec3::splat(5.0 * f64::from(kind))));

@@ -1,4 +1,4 @@
-//! [`LightView`]: what a light sees, in one image or six.
+//! [`LightView`]: the view of the mesh from a light, in one image or six.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -9,26 +9,26 @@ use crate::mesh::Mesh;
 use crate::scene::{Camera, Projection};
 use crate::view::View;
 
-/// Sides of the image, in the units by which lines are judged to be short or doubled.
+/// Side of the image, user units. A thousandth of it is the px of the line tolerances.
 const SIDE: f64 = 1000.0;
 
-/// How much wider the image is than the ball around the mesh.
+/// Width of the image, relative to the bounding sphere of the mesh.
 const MARGIN: f64 = 1.001;
 
-/// A point light farther from the middle of the mesh than this many times the radius of the ball
-/// around it sees all of it in one image.
+/// A point light farther than this from the centre of the mesh, in radii of its bounding sphere, needs only
+/// one image.
 const FAR: f64 = 1.3;
 
-/// What a light sees in one direction.
+/// View from a light in one direction.
 #[derive(Debug, Clone)]
 pub(crate) struct LightView {
     pub(crate) view: View,
-    /// For one of six images: the axis it looks along (0 to 2), and whether upward.
+    /// For one of six images: the axis of its direction (0 to 2), and whether it is the positive direction.
     side: Option<(usize, bool)>,
 }
 
 impl LightView {
-    /// Whether a point is one that this image shows.
+    /// Whether a point belongs to this image.
     pub(crate) fn shows(&self, point: DVec3) -> bool {
         let Some((axis, upward)) = self.side else { return true };
         let d = point - self.view.frame.eye;
@@ -44,7 +44,7 @@ impl LightView {
     }
 }
 
-/// The views of a light over a mesh; none for a light that is nowhere.
+/// Views of a light over a mesh; none for a light without valid position or direction.
 pub(crate) fn views(mesh: &Mesh, caster: &Caster) -> Vec<LightView> {
     let (middle, radius) = mesh.extents.counted_ball();
     let camera = |eye: DVec3, forward: DVec3, projection: Projection| {

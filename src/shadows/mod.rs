@@ -32,30 +32,30 @@ use crate::mesh::Mesh;
 use face_orientation::Outside;
 use light_views::LightView;
 
-/// No more lights than this cast shadows: as many as a mask has bits.
+/// Largest number of lights that cast shadows: the number of bits in a mask.
 pub const MOST_CASTERS: usize = 32;
 
-/// The shadows of some lights on a mesh.
+/// Shadows of some lights on a mesh.
 #[derive(Debug, Clone, Default)]
 pub struct Shadows {
-    /// Where the shadows end.
+    /// Borders of the shadows.
     pub lines: ShadowLines,
     casters: Vec<Caster>,
-    /// The views of each light.
+    /// Views from each light.
     views: Vec<Vec<LightView>>,
-    /// On which side of each face it is outside.
+    /// Outer side of each face.
     outside: Vec<Outside>,
 }
 
 impl Shadows {
-    /// The shadows of these lights, the first [`MOST_CASTERS`] of them.
+    /// Computes the shadows of these lights, at most of the first [`MOST_CASTERS`].
     #[must_use]
     pub fn new(mesh: &Mesh, casters: &[Caster]) -> Self {
         let casters = casters[..casters.len().min(MOST_CASTERS)].to_vec();
         if mesh.triangles.is_empty() || casters.is_empty() {
             return Self::default();
         }
-        // In local space, so that models far from the origin keep their digits.
+        // In local space, so models far from the origin keep their precision.
         let surface = Surface { mesh: Mesh { origin: DVec3::ZERO, ..mesh.clone() }, ..Surface::default() };
         let mut lines = ShadowLines::default();
         let mut views = Vec::with_capacity(casters.len());
@@ -69,23 +69,24 @@ impl Shadows {
         Self { lines, casters, views, outside: face_orientation::outside(mesh) }
     }
 
-    /// The lights that casts these shadows; bit k of a mask is the k-th of them.
+    /// Lights that cast these shadows; bit k of a mask belongs to light k.
     #[must_use]
     pub fn casters(&self) -> &[Caster] {
         &self.casters
     }
 
-    /// Which lights do not reach a point (local space) on a face: bit k is set where another face
-    /// stands between it and light k.
+    /// Mask of the lights that do not reach a point (local space) on a face: bit k is set where another face
+    /// lies between it and light k.
     ///
-    /// Faces of solids that are turned away from a light are dark by themselves; for them its bit is
-    /// never set. On sheets, of which either side may be seen, it is. For many points, [`Shadows::shadowed`] is much faster.
+    /// Faces of solids that are turned away from a light are dark anyway, so their bit is never set. On
+    /// sheets, which are visible from both sides, it is. For many points, [`Shadows::shadowed`] is much
+    /// faster.
     #[must_use]
     pub fn unlit(&self, mesh: &Mesh, face: u32, point: DVec3) -> u32 {
         self.shadowed(mesh, &[(face, point)])[0]
     }
 
-    /// The masks of many points, each on a face: which lights do not reach them.
+    /// Masks of many points, each on a face: the lights that do not reach them.
     #[must_use]
     pub fn shadowed(&self, mesh: &Mesh, points: &[(u32, DVec3)]) -> Vec<u32> {
         let mut masks = vec![0; points.len()];

@@ -1,4 +1,4 @@
-//! Which points of the surface a light does not reach.
+//! Shadow test for points of the surface.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
@@ -9,7 +9,7 @@ use super::light_views::LightView;
 use crate::mesh::{FaceId, Mesh};
 use crate::visibility::front_faces;
 
-/// Sets a bit in the masks of those points that another face keeps from a light.
+/// Sets a bit in the masks of the points that another face shades from a light.
 pub(crate) fn mark(
     mesh: &Mesh,
     caster: &Caster,
@@ -48,7 +48,7 @@ pub(crate) fn mark(
     }
 }
 
-/// The direction from a point towards a light, of any length.
+/// Direction from a point towards a light, of any length.
 fn towards(caster: &Caster, point: DVec3) -> DVec3 {
     match *caster {
         Caster::Directional { towards } => towards,
@@ -67,7 +67,7 @@ fn is_averted(mesh: &Mesh, caster: &Caster, outside: &[Outside], face: u32, poin
     }
 }
 
-/// The distance of a point from a triangle.
+/// Distance of a point from a triangle.
 ///
 /// Source: Christer Ericson, "Real-time collision detection", 2005, section 5.1.5.
 fn distance(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {

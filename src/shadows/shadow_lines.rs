@@ -1,4 +1,4 @@
-//! [`ShadowLines`]: where shadows end, as segments on the faces that they fall on.
+//! [`ShadowLines`]: shadow borders, as segments on the faces that they fall on.
 
 use glam::DVec3;
 
@@ -7,27 +7,27 @@ use crate::lines::{FeatureLines, FeatureSegment, LineKind, NO_FACE, Role};
 use crate::mesh::Mesh;
 use crate::surface::Origin;
 
-/// A straight piece of the border of a shadow.
+/// Straight piece of a shadow border.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ShadowSegment {
-    /// The face it lies on.
+    /// Face it lies on.
     pub face: u32,
-    /// Its ends: indices of [`ShadowLines::points`].
+    /// Its ends, as indices into [`ShadowLines::points`].
     pub ends: [u32; 2],
-    /// Which of the lights casts it.
+    /// Index of the light that casts it.
     pub caster: u32,
 }
 
-/// Where the shadows of some lights end.
+/// Borders of the cast shadows of some lights.
 ///
-/// The border of a cast shadow is where an edge that a light sees falls onto what is behind it. Where
-/// the surface itself turns away from the light, and where two surfaces meet, is no line of these:
-/// those are known without the light's view.
+/// A border is the projection of an edge, visible from a light, onto the surface behind it. Places where the
+/// surface turns away from the light, and where two surfaces meet, are not included. They follow without the
+/// light's view.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ShadowLines {
-    /// Ends of the segments, local space; segments that share one go on there.
+    /// Ends of the segments, local space. Segments that share an end are connected.
     pub points: Vec<DVec3>,
-    /// The pieces, light by light.
+    /// Segments, light by light.
     pub segments: Vec<ShadowSegment>,
 }
 
@@ -41,7 +41,7 @@ impl ShadowLines {
         self.segments.extend(joined.segments.into_iter().map(segment));
     }
 
-    /// Adds them to the feature lines of a view of the mesh, as borders of tones.
+    /// Adds them to the feature lines of a view of the mesh, as tone borders.
     pub fn append_to(&self, mesh: &Mesh, lines: &mut FeatureLines) {
         let first = (mesh.positions.len() + lines.points.len()) as u32;
         lines.points.extend_from_slice(&self.points);

@@ -1,8 +1,8 @@
-//! Onto what the shadow of an edge falls: of all faces behind it, the nearest to the light.
+//! Receivers of the shadow of an edge: of all faces behind it, the nearest to the light.
 //!
-//! In the light's image space edges are straight and faces flat, so that a face is behind an edge
-//! over an interval of the edge's parameter, with computed ends, and is as near as a linear function
-//! says. The nearest of several is their upper envelope ([`super::upper_envelope`]).
+//! In the light's image space edges are straight and faces flat. So a face is behind an edge over an interval
+//! of the edge's parameter, with computed ends, and its nearness is linear there. The nearest of several
+//! faces is their upper envelope ([`super::upper_envelope`]).
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -19,18 +19,18 @@ use crate::visibility::occlusion::triangle_occlusion::covered;
 use crate::visibility::tiles::tile_grid::Grid;
 use crate::visibility::view_tolerances::Limits;
 
-/// Most tiles across the image.
+/// Largest number of tiles across the image.
 const MOST_TILES: u32 = 512;
 
-/// Tiles that one task works through. Fixed, so that nothing depends on the number of threads.
+/// Tiles per task. Fixed, so the result does not depend on the number of threads.
 const TASK: usize = 32;
 
-/// The borders of the shadows in one view of a light.
+/// Shadow borders in one view of a light.
 pub(crate) struct Borders<'a> {
     pub light: &'a LightView,
-    /// The edges that cast them.
+    /// Edges that cast the shadows.
     pub edges: Vec<CastEdge>,
-    /// What each edge casts: what receives its shadow from where to where.
+    /// Parts of each edge, with the faces that receive their shadow.
     pub runs: Vec<Vec<EdgePart>>,
 }
 
@@ -42,7 +42,7 @@ struct Item {
     end: f64,
 }
 
-/// All borders of shadows that one view of a light shows.
+/// Computes all shadow borders in one view of a light.
 pub(crate) fn borders<'a>(surface: &Surface, light: &'a LightView) -> Borders<'a> {
     let Surface { mesh, .. } = surface;
     let edges = cast_edges::edges(surface, light);
@@ -62,7 +62,7 @@ pub(crate) fn borders<'a>(surface: &Surface, light: &'a LightView) -> Borders<'a
     Borders { light, edges, runs }
 }
 
-/// What may receive the shadow of each edge, in the order of the edges.
+/// Faces that may receive the shadow of each edge, in the order of the edges.
 fn candidates(mesh: &Mesh, view: &View, edges: &[CastEdge]) -> Vec<(u32, Candidate)> {
     let Some(first) = edges.first() else { return Vec::new() };
     let limits = &Limits::new(&view.frame);
@@ -114,7 +114,7 @@ fn candidates(mesh: &Mesh, view: &View, edges: &[CastEdge]) -> Vec<(u32, Candida
     found
 }
 
-/// An edge that is compared with faces.
+/// Edge that is compared with faces.
 struct Tester<'a> {
     view: &'a View,
     limits: &'a Limits,
@@ -122,7 +122,7 @@ struct Tester<'a> {
 }
 
 impl Tester<'_> {
-    /// Adds what the faces of a tile receive from a part of the edge.
+    /// Adds the faces of a tile that may receive the shadow of a part of the edge.
     fn gather(&self, item: &Item, faces: &[(Reach, Occluder)], found: &mut Vec<(u32, Candidate)>) {
         let edge = self.edge;
         let (p, q) = (edge.at(item.start), edge.at(item.end));
@@ -140,7 +140,7 @@ impl Tester<'_> {
         }
     }
 
-    /// The parts over which a face lies behind the edge, or touches it on its outer side.
+    /// Reports the parts where a face lies behind the edge, or touches it on its outer side.
     fn receive(
         &self,
         item: &Item,
@@ -154,7 +154,7 @@ impl Tester<'_> {
         let at = |t: f64| if t >= 1.0 { item.end } else { item.start + (item.end - item.start) * t };
         let neighbour = shared[0].is_some() || shared[1].is_some();
         let nearness = |t: f64| nearness(corners, edge.at(t), shared[0].or(shared[1]).unwrap_or(0));
-        // How much farther than the edge the face is.
+        // Difference in nearness between the edge and the face behind it.
         let depth = |t: f64| edge.at(t).z - nearness(t);
         let step = |q: f64| self.limits.step(q, &face.slack, neighbour, &self.view.frame);
         let is_behind = |t: f64| depth(t) > step(edge.at(t).z);
@@ -165,8 +165,8 @@ impl Tester<'_> {
             nearness: [nearness(start), nearness(end)],
             touches,
         };
-        // The part of an interval over which the face is farther, or if not `behind`, nearer; touching is
-        // no reason to cut.
+        // Part of an interval where the face is farther or, without `behind`, nearer. Touching is no reason
+        // to cut.
         let part = |start: f64, end: f64, behind: bool| {
             let [at_start, at_end] = [start, end].map(|t| if behind { depth(t) } else { -depth(t) });
             let crossing = start + (end - start) * (at_start / (at_start - at_end));
@@ -182,7 +182,7 @@ impl Tester<'_> {
         if neighbour {
             return;
         }
-        // A surface that the edge lies on takes no shadow of it, and hides what is behind.
+        // A surface that the edge lies on receives no shadow from it, and hides everything behind.
         let shift = edge.outward * self.limits.beside;
         let Some((start, end)) = covered(p + shift, q + shift, corners, self.limits) else { return };
         let (start, end) = (at(start), at(end));
@@ -197,7 +197,7 @@ impl Tester<'_> {
     }
 }
 
-/// How near the plane of a triangle is at a point of the image, kept within the triangle's own depths:
+/// Nearness of the plane of a triangle at a point of the image, clamped to the triangle's own range because
 /// steep triangles extrapolate badly. Measured from corner `base`, where it is exact.
 pub(crate) fn nearness(corners: &[DVec3; 3], at: DVec3, base: usize) -> f64 {
     let [a, b, c] = *corners;

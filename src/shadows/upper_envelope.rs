@@ -1,17 +1,18 @@
-//! [`envelope`]: of faces that lie behind an edge over parts of it, the nearest one everywhere.
+//! [`envelope`]: the nearest of the faces behind an edge over each part of it (upper envelope of their
+//! nearness).
 
-/// A face behind an edge, or touching it, over a part of the edge.
+/// Face behind an edge, or touching it, over a part of the edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Candidate {
-    /// The face.
+    /// Id of the face.
     pub face: u32,
-    /// Where on the edge it starts, as a parameter.
+    /// Start on the edge, as a parameter.
     pub start: f64,
-    /// Where it ends.
+    /// End on the edge, as a parameter.
     pub end: f64,
-    /// How near the face is at both, in image space.
+    /// Nearness of the face at start and end, in image space.
     pub nearness: [f64; 2],
-    /// Whether the edge lies on it, so that it takes no shadow.
+    /// Whether the edge lies on the face, so the face receives no shadow.
     pub touches: bool,
 }
 
@@ -29,18 +30,18 @@ impl Candidate {
 /// A part of an edge whose shadow falls on one face.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct EdgePart {
-    /// The face.
+    /// Id of the face.
     pub face: u32,
-    /// Where on the edge it starts, as a parameter.
+    /// Start on the edge, as a parameter.
     pub start: f64,
-    /// Where it ends.
+    /// End on the edge, as a parameter.
     pub end: f64,
-    /// How near the face is at both, in image space.
+    /// Nearness of the face at start and end, in image space.
     pub nearness: [f64; 2],
 }
 
-/// The nearest candidate over each part of an edge, ascending; nothing where that one touches. Runs no
-/// longer than `shortest` are rounding, and so are gaps.
+/// Nearest candidate over each part of an edge, ascending; nothing where that candidate touches the edge.
+/// Runs and gaps no longer than `shortest` are rounding.
 pub(crate) fn envelope(mut candidates: Vec<Candidate>, shortest: f64) -> Vec<EdgePart> {
     candidates.retain(|c| c.end > c.start);
     let mut stops: Vec<f64> = candidates.iter().flat_map(|c| [c.start, c.end]).collect();
@@ -64,14 +65,14 @@ pub(crate) fn envelope(mut candidates: Vec<Candidate>, shortest: f64) -> Vec<Edg
     runs(&winners, shortest)
 }
 
-/// The nearest of candidates all of which reach from one parameter to another.
+/// Nearest of the candidates between two parameters; all of them must cover that range.
 fn nearest_over(active: &[Candidate], from: f64, to: f64, winners: &mut Vec<(Candidate, f64, f64)>) {
     let ahead = |a: &Candidate, b: &Candidate| {
         (a.at(to).total_cmp(&b.at(to))).then(a.touches.cmp(&b.touches)).then(b.face.cmp(&a.face))
     };
     let first = active.iter().max_by(|a, b| a.at(from).total_cmp(&b.at(from)).then(ahead(a, b)));
     let (Some(mut best), mut at) = (first, from) else { return };
-    // Each that takes over is nearer at the end than the one before, so this comes to an end.
+    // Each successor is nearer at the end than the one before, so the loop terminates.
     loop {
         let mut end = to;
         let mut heir: Option<&Candidate> = None;
@@ -92,7 +93,7 @@ fn nearest_over(active: &[Candidate], from: f64, to: f64, winners: &mut Vec<(Can
     }
 }
 
-/// Joins neighbouring winners that are one face, and drops what is too short.
+/// Joins neighbouring winners on one face and drops those that are too short.
 fn runs(winners: &[(Candidate, f64, f64)], shortest: f64) -> Vec<EdgePart> {
     struct Part {
         face: u32,
@@ -116,7 +117,7 @@ fn runs(winners: &[(Candidate, f64, f64)], shortest: f64) -> Vec<EdgePart> {
         let nearness = [c.at(*start), c.at(*end)];
         add(&mut parts, Part { face: c.face, touches: c.touches, start: *start, end: *end, nearness });
     }
-    // Without what is too short, its neighbours may meet.
+    // Once short parts are dropped, their neighbours may meet.
     let mut long: Vec<Part> = Vec::new();
     for part in parts {
         if part.end - part.start > shortest {

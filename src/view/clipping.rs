@@ -1,20 +1,20 @@
-//! Clipping at the near plane.
+//! Clipping to the near plane and to the page.
 
 use glam::DVec3;
 
 use super::Frame;
 use crate::mesh::{FaceId, Mesh};
 
-/// A triangle of what is left of a face that the near plane cuts.
+/// Triangle of the part of a face that the near plane leaves.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClippedFace {
-    /// The face it is left of.
+    /// Face it is part of.
     pub face: FaceId,
     /// Its corners in image space.
     pub points: [DVec3; 3],
 }
 
-/// The triangles left of all faces that the near plane cuts, in mesh order.
+/// Triangles left of all faces that the near plane cuts, in mesh order.
 pub(crate) fn clip_faces(mesh: &Mesh, frame: &Frame, points: &[DVec3]) -> Vec<ClippedFace> {
     let Some(near) = frame.near else { return Vec::new() };
     if !points.iter().any(|p| p.z.is_nan()) {
@@ -48,8 +48,8 @@ pub(crate) fn clip_faces(mesh: &Mesh, frame: &Frame, points: &[DVec3]) -> Vec<Cl
     out
 }
 
-/// Where the segment between two points in camera axes meets the plane of depth `near`; the same
-/// point whichever end comes first.
+/// Intersection of a segment, in camera axes, with the plane of depth `near`. The order of the ends does not
+/// matter.
 fn at_plane(a: DVec3, b: DVec3, near: f64) -> DVec3 {
     let (a, b) = if a.z < b.z { (a, b) } else { (b, a) };
     let p = a + (b - a) * ((near - a.z) / (b.z - a.z));
@@ -57,8 +57,8 @@ fn at_plane(a: DVec3, b: DVec3, near: f64) -> DVec3 {
 }
 
 impl Frame {
-    /// The part of a local segment beyond the near plane, in image space; `None` if nothing is.
-    /// The flags tell which ends were cut off.
+    /// Part of a local segment behind the near plane, in image space; `None` if there is none. The flags say
+    /// which ends were cut off.
     #[must_use]
     pub fn clip_segment(&self, a: DVec3, b: DVec3) -> Option<([DVec3; 2], [bool; 2])> {
         let (mut ca, mut cb) = (self.camera_from_local(a), self.camera_from_local(b));
@@ -78,8 +78,9 @@ impl Frame {
         Some(([self.image_from_camera(ca), self.image_from_camera(cb)], cut))
     }
 
-    /// The range of parameters of the image segment a→b that lies inside the frame; `None` if
-    /// nothing does. Source: Liang and Barsky, "A new concept and method for line clipping", 1984.
+    /// Parameter range of the image segment a→b inside the frame; `None` if there is none.
+    ///
+    /// Source: Liang and Barsky, "A new concept and method for line clipping", 1984.
     #[must_use]
     pub fn clip_to_page(&self, a: DVec3, b: DVec3) -> Option<(f64, f64)> {
         let d = b - a;

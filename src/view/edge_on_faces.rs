@@ -1,14 +1,16 @@
-//! Which faces are seen edge-on, decided once for all faces of a plane.
+//! Facing, averted and edge-on faces, decided once for all faces of a plane.
 //!
-//! 1. A face is edge-on if the angle between its plane and the line of sight is below
-//!    [`EDGE_ON_SINE`](tolerance::EDGE_ON_SINE): nothing of it can be seen.
-//! 2. Rounding turns a face by up to the rounding divided by its height. Where the angle is smaller than that, the face is *unsure*.
-//! 3. Connected unsure faces of one plane ([`carriers`](crate::mesh::normals::normal_carriers)) are decided together. They follow the widest sure face of
-//!    the plane next to them.
-//! 4. If there is none, they are edge-on. But on a bent surface, which goes on all around them, each face keeps its own angle: the
-//!    contour runs on one side of them or the other, and both are as right.
+//! 1. A face is edge-on if the sine of the angle between its plane and the line of sight is below
+//!    [`EDGE_ON_SINE`](tolerance::EDGE_ON_SINE). No part of it can be seen.
+//! 2. Rounding turns a face by up to the rounding error divided by the face's height. Where the angle is
+//!    smaller than that, the face is *unsure*.
+//! 3. Connected unsure faces of one plane ([`carriers`](crate::mesh::normals::normal_carriers)) are decided together. They
+//!    follow the widest sure face of the plane next to them.
+//! 4. If there is none, they are edge-on. On a bent surface that continues all around them, each face keeps
+//!    its own angle instead. The contour runs on one side of them or the other, and both are equally right.
 //!
-//! Edge-on faces count as averted. Pieces of faces that were cut to bend are exact: nothing rounded their corners.
+//! Edge-on faces count as averted. Pieces of faces that were cut to bend are exact, because their corners
+//! were not rounded.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -19,10 +21,12 @@ use crate::mesh::normals::normal_carriers::Faces;
 use crate::mesh::{FaceId, Mesh};
 use crate::parallel::task_size::GRAIN;
 
-/// Beyond an angle with this sine no face is unsure; narrow faces that rounding may turn by more have a carrier in the mesh, or none.
+/// Largest sine of the angle of an unsure face. Narrower faces, which rounding may turn by more, have a
+/// carrier in the mesh, or none.
 const MAX_UNSURE_SINE: f64 = 1e-2;
 
-/// Whether each face turns its outside to the eye, and the faces, ascending, for which this does not follow from their own angle.
+/// Whether each face turns its outside to the eye, and the faces, ascending, for which this does not follow
+/// from their own angle.
 pub(crate) fn facing(mesh: &Mesh, frame: &Frame) -> (Vec<bool>, Vec<u32>) {
     let is_rounded = mesh.extents.is_rounded();
     let whole = mesh.first_piece.unwrap_or(mesh.triangles.len() as u32);
@@ -54,7 +58,8 @@ pub(crate) fn facing(mesh: &Mesh, frame: &Frame) -> (Vec<bool>, Vec<u32>) {
     (facing, others)
 }
 
-/// Decides for each plane in which unsure faces, ascending, are connected, and gives those that do not keep their own angle.
+/// Decides each connected set of unsure faces (ascending) in one plane. Returns the faces that do not keep
+/// their own angle.
 fn decide(faces: &Faces, unsure: &[u32], facing: &mut [bool]) -> Vec<u32> {
     let near: Vec<Vec<u32>> = unsure.par_iter().map(|face| faces.neighbours_in_plane(*face)).collect();
     let mut is_seen = vec![false; unsure.len()];

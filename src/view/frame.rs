@@ -1,4 +1,4 @@
-//! [`Frame`]: the camera's axes and the map from local space to the image.
+//! [`Frame`]: the camera's axes and the projection from local space to the image.
 
 use glam::{DVec2, DVec3, DVec4};
 
@@ -6,7 +6,7 @@ use crate::geometry::numbers::portable_math::tan;
 use crate::geometry::numbers::tolerance;
 use crate::scene::{Camera, Projection};
 
-/// A camera relative to the origin of a mesh, ready to project.
+/// Camera relative to the origin of a mesh, ready to project.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
     /// Eye point.
@@ -17,7 +17,7 @@ pub struct Frame {
     pub up: DVec3,
     /// Unit vector along the optical axis, away from the eye.
     pub forward: DVec3,
-    /// Whether lines of sight meet in the eye.
+    /// Whether the projection is a perspective: lines of sight meet in the eye.
     pub perspective: bool,
     /// User units per unit of tangent (perspective) or of world length (parallel).
     pub scale: f64,
@@ -25,17 +25,17 @@ pub struct Frame {
     pub width: f64,
     /// Height of the frame in user units.
     pub height: f64,
-    /// Depth of the near plane; `None` cuts nothing.
+    /// Depth of the near plane; `None` for no clipping.
     pub near: Option<f64>,
-    /// Depth of the camera's target: where lengths are measured that are the same all over the picture.
+    /// Depth of the camera's target. Lengths that are constant all over the picture are measured there.
     pub focus: f64,
 }
 
 impl Frame {
-    /// The camera's frame, with the world point `origin` as zero.
+    /// Frame of a camera, with the world point `origin` as zero.
     ///
-    /// A camera whose eye is its target or whose up is along its axis gets some frame rather than
-    /// none; the readers of camera records refuse such cameras.
+    /// A camera whose eye is its target, or whose up vector is along its axis, gets some valid frame. The
+    /// readers of camera records reject such cameras.
     #[must_use]
     pub fn new(camera: &Camera, origin: DVec3) -> Self {
         let forward = (camera.target - camera.eye).try_normalize().unwrap_or(DVec3::NEG_Z);
@@ -62,14 +62,14 @@ impl Frame {
         }
     }
 
-    /// What tolerances call a px: a thousandth of the longer side of the frame, user units.
+    /// One px of the tolerances: a thousandth of the longer side of the frame, user units.
     #[inline]
     #[must_use]
     pub fn px(&self) -> f64 {
         self.width.max(self.height) / 1000.0
     }
 
-    /// The length in the world of a px at some depth, seen square on.
+    /// World length of a px at a depth, measured across the line of sight.
     #[inline]
     #[must_use]
     pub fn px_at(&self, depth: f64) -> f64 {
@@ -84,7 +84,7 @@ impl Frame {
         (p - self.eye).dot(self.forward)
     }
 
-    /// A local point in camera axes: right, up, depth.
+    /// Local point in camera axes: right, up, depth.
     #[inline]
     #[must_use]
     pub fn camera_from_local(&self, p: DVec3) -> DVec3 {
@@ -92,7 +92,7 @@ impl Frame {
         DVec3::new(d.dot(self.right), d.dot(self.up), d.dot(self.forward))
     }
 
-    /// A point in camera axes in image space; its depth must not be nearer than the near plane.
+    /// Image-space point of a point in camera axes. Its depth must not be nearer than the near plane.
     #[inline]
     #[must_use]
     pub fn image_from_camera(&self, c: DVec3) -> DVec3 {
@@ -100,7 +100,7 @@ impl Frame {
         DVec3::new(self.width / 2.0 + k * c.x, self.height / 2.0 - k * c.y, q)
     }
 
-    /// A local point in image space; q is NaN where the near plane cuts it off.
+    /// Image-space point of a local point; q is NaN where the near plane cuts it off.
     #[inline]
     #[must_use]
     pub fn image_from_local(&self, p: DVec3) -> DVec3 {
@@ -111,7 +111,7 @@ impl Frame {
         }
     }
 
-    /// The local point that is seen at a point of image space.
+    /// Local point seen at a point of image space.
     #[inline]
     #[must_use]
     pub fn local_from_image(&self, p: DVec3) -> DVec3 {
@@ -149,23 +149,25 @@ impl Frame {
         if self.perspective { 1.0 / depth } else { -depth }
     }
 
-    /// The difference in nearness that a small difference in depth makes at nearness `q`.
+    /// Difference in nearness, at nearness `q`, for a small difference in depth.
     #[inline]
     #[must_use]
     pub fn nearness_step(&self, q: f64, depth_step: f64) -> f64 {
         if self.perspective { depth_step * q * q } else { depth_step }
     }
 
-    /// The difference in nearness at nearness `q` of a depth difference that is as long as something across the line of sight that is
-    /// `length` user units long in the image.
+    /// Difference in nearness, at nearness `q`, for a depth difference equal to a length across the line of
+    /// sight. That length measures `length` user units in the image.
     #[inline]
     #[must_use]
     pub fn nearness_across(&self, q: f64, length: f64) -> f64 {
         if self.perspective { length / self.scale * q } else { length / self.scale }
     }
 
-    /// How many times as long as the distance of a point from a plane the way to it along the optical axis is. The plane is given by the
-    /// image-space point at which it is met, and by how its nearness grows with x and y there.
+    /// Ratio between the distance of a point from a plane along the optical axis and its perpendicular
+    /// distance.
+    ///
+    /// The plane is given by an image-space point on it and by the change of its nearness with x and y there.
     #[inline]
     #[must_use]
     pub fn steepness(&self, p: DVec3, slope: DVec2) -> f64 {
@@ -177,22 +179,22 @@ impl Frame {
         (across + centre * centre).sqrt() / p.z
     }
 
-    /// The length in the world of the longer side of the frame, at some depth.
+    /// World length of the longer side of the frame, at a depth.
     #[inline]
     #[must_use]
     pub fn side_at(&self, depth: f64) -> f64 {
         1000.0 * self.px_at(depth)
     }
 
-    /// The depths of what counts as near and as far in the picture: as deep as the frame's longer side is long,
-    /// around the target.
+    /// Depths that count as near and far in the picture: a range around the target as long as the frame's
+    /// longer side.
     #[must_use]
     pub fn depths(&self) -> [f64; 2] {
         let half = self.side_at(self.focus) / 2.0;
         [self.focus - half, self.focus + half]
     }
 
-    /// The point that the camera looks at, local space.
+    /// Point that the camera looks at, local space.
     #[must_use]
     pub fn target(&self) -> DVec3 {
         self.eye + self.forward * self.focus

@@ -27,19 +27,20 @@ use crate::mesh::Mesh;
 use crate::parallel::task_size::GRAIN;
 use crate::scene::Camera;
 
-/// A mesh seen by a camera.
+/// Mesh seen by a camera.
 #[derive(Debug, Clone)]
 pub struct View {
-    /// The camera, relative to the mesh's origin.
+    /// Camera frame, relative to the mesh's origin.
     pub frame: Frame,
-    /// Image-space point (x, y, q) of each vertex; q is NaN where the vertex is nearer than the
-    /// near plane or behind the eye.
+    /// Image-space point (x, y, q) of each vertex; q is NaN where the vertex is nearer than the near plane or
+    /// behind the eye.
     pub points: Vec<DVec3>,
-    /// Whether each face turns its outside to the eye; faces seen edge-on do not.
+    /// Whether each face turns its outside to the eye; false for faces seen edge-on.
     pub facing: Vec<bool>,
-    /// Faces, ascending, that turn to the eye as other faces of their plane do: their own angle to the line of sight is unknown.
+    /// Faces, ascending, that follow other faces of their plane, because their own angle to the line of sight
+    /// is unknown.
     pub unsure: Vec<u32>,
-    /// What is left of faces that the near plane cuts.
+    /// Remaining parts of the faces that the near plane cuts.
     pub clipped: Vec<ClippedFace>,
 }
 

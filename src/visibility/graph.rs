@@ -1,4 +1,4 @@
-//! The nodes and pieces of the view map.
+//! Vertices and edges of the view map.
 
 use glam::DVec2;
 use kurbo::Point;
@@ -7,7 +7,7 @@ use crate::lines::LineKind;
 use crate::mesh::{MaterialId, PartId};
 use crate::surface::Origin;
 
-/// A node of the view map.
+/// Id of a vertex of the view map.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ViewVertexId(pub u32);
 
@@ -19,106 +19,107 @@ impl ViewVertexId {
     }
 }
 
-/// Why a view edge ends where it does.
+/// Reason why a view edge ends at a vertex.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum ViewVertexKind {
-    /// The image of a vertex of the mesh (or of a wire, or of an intersection curve).
+    /// Image of a vertex of the mesh, of a wire or of an intersection curve.
     Vertex,
-    /// The line passes under (or out from under) a nearer surface here: a T-junction.
+    /// T-junction: the line passes behind a nearer surface, or out from behind it.
     TJunction,
     /// The line pierces a surface, or two lines on the surface cross.
     Piercing,
-    /// The contour of a rounded surface turns back in the image, and goes on behind the surface.
+    /// Cusp: the contour of a rounded surface turns back in the image and continues behind the surface.
     Cusp,
-    /// Something behind the line begins or ends here; visibility does not change.
+    /// A surface behind the line begins or ends; the visibility of the line does not change.
     Backdrop,
     /// The frame or the near plane cuts the line.
     Frame,
 }
 
-/// A node: a point of the image, in user units (px or mm), x right, y down.
+/// Vertex of the view map: a point of the image, in user units (px or mm), x right, y down.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViewVertex {
-    /// Where it is in the image.
+    /// Position in the image.
     pub position: Point,
     /// Distance from the eye along the optical axis, world units.
     pub depth: f64,
-    /// How strong the lines are here, 0 to 1: only lines inside are ever weaker than 1.
+    /// Strength of the lines here, 0 to 1. Only interior lines are ever weaker than 1.
     pub strength: f32,
-    /// Why there is a node here.
+    /// Reason for the vertex.
     pub kind: ViewVertexKind,
 }
 
-/// A straight piece of a feature line between two nodes, of one invisibility throughout.
+/// Straight piece of a feature line between two vertices, with constant invisibility.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ViewEdge {
-    /// Where it starts.
+    /// Start vertex.
     pub start: ViewVertexId,
-    /// Where it ends.
+    /// End vertex.
     pub end: ViewVertexId,
-    /// What line it is.
+    /// Kind of line.
     pub kind: LineKind,
-    /// Number of surface layers between it and the eye; 0 = visible.
+    /// Number of surface layers between the edge and the eye; 0 = visible.
     pub invisibility: u16,
-    /// Visible, with background on one side.
+    /// Whether it is visible with background on one side.
     pub silhouette: bool,
-    /// Whether both surfaces that meet in the line face the eye (thin by the thick-and-thin rule).
+    /// Whether both surfaces that meet in the line face the eye. The thick-and-thin rule draws such lines
+    /// thin.
     pub both_seen: bool,
-    /// Whether the line lies on a smooth surface, so that the corners of the mesh along it are
-    /// artefacts of tessellation: contours of rounded surfaces.
+    /// Whether the line lies on a smooth surface, as contours of rounded surfaces do. The corners of the mesh
+    /// along it are then artefacts of tessellation.
     pub smooth: bool,
-    /// How the surface it lies on came about.
+    /// Origin of the surface under the line.
     pub origin: Origin,
-    /// How pronounced the line is: for a crease its dihedral angle in degrees (0 to 180),
-    /// for other kinds 180.
+    /// Strength of the line: for a crease its dihedral angle in degrees (0 to 180), for other kinds 180.
     pub strength: f32,
-    /// The part the line belongs to (of its nearer surface).
+    /// Part of its nearer surface.
     pub part: PartId,
-    /// The material beside it (of its nearer surface).
+    /// Material of its nearer surface.
     pub material: MaterialId,
-    /// Feature line segment it was cut from: pieces of one segment share it.
+    /// Feature segment it was cut from; pieces of one segment share it.
     pub segment: u32,
 }
 
-/// The planar graph of all feature lines in the image.
+/// Planar graph of all feature lines in the image.
 ///
-/// Edges meet because they share a vertex id, never because two positions are near.
+/// Edges meet because they share a vertex id, never because two positions are close.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct ViewMap {
-    /// Nodes.
+    /// Vertices.
     pub vertices: Vec<ViewVertex>,
-    /// Pieces, in the order of the feature segments they were cut from.
+    /// Edges, in the order of the feature segments they were cut from.
     pub edges: Vec<ViewEdge>,
-    /// How many times a feature segment was compared with a triangle to decide all this.
+    /// Number of comparisons between a feature segment and a triangle.
     pub tests: u64,
-    /// What smooth contours and the polyhedron's have of each other.
+    /// Agreement between smooth contours and mesh contours.
     pub contours: ContourCounts,
-    /// What is seen of the contours that rounded surfaces have as polyhedra, drawn or not.
+    /// Visible parts of the mesh contours of rounded surfaces, drawn or not.
     pub seen_contours: Vec<SeenContour>,
-    /// The feature segments that are sides of folds thinner than a pen, ascending: lines that tell nothing.
+    /// Feature segments that are sides of folds thinner than a pen stroke, ascending. They show nothing
+    /// useful.
     pub needles: Vec<u32>,
-    /// For each part the first part of its body, as in [`Mesh::bodies`](crate::mesh::Mesh::bodies).
+    /// First part of each part's body, as in [`Mesh::bodies`](crate::mesh::Mesh::bodies).
     pub bodies: Vec<PartId>,
 }
 
-/// A piece of a contour of the polyhedron that nothing hides.
+/// Visible piece of the mesh contour of a rounded surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SeenContour {
-    /// Where it begins and ends in the camera's frame, user units.
+    /// Start and end in the camera's frame, user units.
     pub ends: [DVec2; 2],
     /// Its feature segment.
     pub segment: u32,
 }
 
-/// What smooth contours and those of the polyhedron have of each other: places where the two do not
-/// agree are drawn as the polyhedron has them, and counted.
+/// Agreement between smooth contours and mesh contours. Where they disagree, the mesh contour is drawn and
+/// counted.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct ContourCounts {
     /// Smooth contours on the page.
     pub curves: u64,
-    /// Visible edges of the polyhedron's contour, or parts of them, that were drawn themselves since
-    /// no smooth contour is near.
+    /// Visible edges of the mesh contour, or parts of them, that are drawn because no smooth contour is near.
     pub bare: u64,
-    /// Those that were left out as folds of a few faces that the smooth surface does not have.
+    /// Visible parts of the mesh contour left out as folds of a few faces that the smooth surface does not
+    /// have.
     pub folds: u64,
 }

@@ -1,33 +1,33 @@
-//! [`Limits`]: how near is as good as touching, in a view.
+//! [`Limits`]: the tolerances of one view, in its units.
 
 use crate::geometry::numbers::tolerance;
 use crate::mesh::Extent;
 use crate::view::Frame;
 
-/// The tolerances of one view, in its units.
+/// Tolerances of one view, in user units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limits {
-    /// Distance from a triangle's border that counts as inside, user units.
+    /// Distance outside a triangle's border that still counts as inside, user units.
     pub cover: f64,
-    /// Triangles lower than this in the image cover nothing, user units.
+    /// Height in the image below which a triangle covers nothing, user units.
     pub height: f64,
-    /// Depth difference that counts as touching, as it would look across the line of sight, user units.
+    /// Depth difference that counts as touching, given as a length across the line of sight, user units.
     pub contact: f64,
-    /// Depth difference that counts as touching for triangles that share a vertex with the segment, user units.
+    /// Depth difference that counts as touching for triangles that share a vertex with the segment, user
+    /// units.
     pub neighbour: f64,
-    /// Pieces shorter than this are rounding, user units.
+    /// Length below which pieces are rounding, user units.
     pub piece: f64,
-    /// How far beside a contour background is sought, user units.
+    /// Distance from a contour where background is tested, user units.
     pub beside: f64,
-    /// Lines nearer to each other than this are one, user units.
+    /// Distance within which two lines coincide, user units.
     pub double: f64,
-    /// What counts as a px: a thousandth of the longer side of the frame, user units.
+    /// One px: a thousandth of the longer side of the frame, user units.
     pub px: f64,
 }
 
 impl Limits {
-    /// The tolerances in a frame. A px is a thousandth of the longer side of the frame here, whatever the
-    /// user unit.
+    /// Tolerances for a frame. A px here is a thousandth of the frame's longer side, for any user unit.
     #[must_use]
     pub fn new(frame: &Frame) -> Self {
         let px = frame.px();
@@ -43,7 +43,7 @@ impl Limits {
         }
     }
 
-    /// By how much nearer than a line at nearness `q` a triangle must be to hide it.
+    /// Difference in nearness required for a triangle to hide a line at nearness `q`.
     #[inline]
     #[must_use]
     pub fn step(&self, q: f64, own: &Slack, shares_vertex: bool, frame: &Frame) -> f64 {
@@ -53,19 +53,19 @@ impl Limits {
     }
 }
 
-/// Depth differences within the reach of rounding for a triangle, whatever the view, world units.
+/// Tolerances of a triangle that do not depend on the view: depth differences within rounding, world units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Slack {
-    /// What counts as touching.
+    /// Distance that counts as touching.
     pub contact: f64,
-    /// What counts as touching for lines that share a vertex with the triangle.
+    /// Distance that counts as touching for lines that share a vertex with the triangle.
     pub neighbour: f64,
-    /// Distance within which a line lies in the plane of the triangle, within the rounding of both.
+    /// Distance within which a line lies in the plane of the triangle, given the rounding of both.
     pub in_plane: f64,
 }
 
 impl Slack {
-    /// Of the triangles of a part.
+    /// Tolerances for the triangles of a part.
     #[inline]
     #[must_use]
     pub fn of(extent: &Extent) -> Self {

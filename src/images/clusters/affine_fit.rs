@@ -1,54 +1,55 @@
-//! [`Affinity`]: the affine map that brings a picture nearest to where a set of points shows it.
+//! [`Affinity`]: the affine map from the page to a picture that fits a set of points best.
 
 use glam::{DMat2, DVec2};
 
 use crate::images::facets::facet::Corner;
 
-/// An affine map from the page to the plane of a picture's texels, and back.
+/// Affine map from the page to the plane of a picture's texels, and back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Affinity {
-    /// On the page, and the place seen there.
+    /// Centre of the points on the page, and the place in the picture shown there.
     centre: [DVec2; 2],
     place_from_page: DMat2,
     page_from_place: DMat2,
 }
 
 impl Affinity {
-    /// Where a point of the page shows the picture.
+    /// Place in the picture shown at a point of the page.
     pub fn place(&self, page: DVec2) -> DVec2 {
         self.centre[1] + self.place_from_page * (page - self.centre[0])
     }
 
-    /// The matrix from places to the page, and where the origin of the places comes to lie.
+    /// Matrix from places to the page, and the page position of the place at the origin.
     pub fn to_page(self) -> (DMat2, DVec2) {
         (self.page_from_place, self.centre[0] - self.page_from_place * self.centre[1])
     }
 
-    /// How far on the page a corner is from where the map brings its place, and how far off its place is.
+    /// Error of the map at a corner: on the page, and in texels.
     pub fn miss(&self, corner: &Corner) -> (f64, f64) {
         let off = corner.place - self.place(corner.image.truncate());
         ((self.page_from_place * off).length(), off.length())
     }
 }
 
-/// Sums over points, from which the map follows by least squares.
+/// Sums over points, for the least-squares solution of the map.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Sums {
     origin: [DVec2; 2],
     count: f64,
     page: DVec2,
     place: DVec2,
-    /// Of x², xy and y² on the page.
+    /// Sums of x², xy and y² on the page.
     squares: [f64; 3],
-    /// Of x and of y times the place.
+    /// Sums of x and of y times the place.
     products: [DVec2; 2],
 }
 
-/// What is less wide than this many texels over all the points is of one colour along that way.
+/// Smallest extent of the points in the picture, texels. Narrower extents are widened, because they show one
+/// colour in that direction.
 const NARROW_TEXELS: f64 = 0.25;
 
 impl Sums {
-    /// Sums about a point, so that no digits are lost.
+    /// Sums relative to a point, which keeps precision.
     pub fn about(corner: &Corner) -> Self {
         Self { origin: [corner.image.truncate(), corner.place], ..Self::default() }
     }
@@ -85,10 +86,10 @@ impl Sums {
     }
 }
 
-/// A matrix that stretches nothing by less than `least`, in whichever direction.
+/// Matrix with its smaller singular value raised to at least `least`.
 fn widened(matrix: DMat2, least: f64) -> DMat2 {
-    // The sum of a turn with a stretch and of a mirrored one: their sizes are half the sum and half the difference of the two
-    // singular values.
+    // The matrix is the sum of a scaled rotation and a scaled reflection. Their sizes are half the sum and
+    // half the difference of the two singular values.
     let [[a, b], [c, d]] = matrix.transpose().to_cols_array_2d();
     let (e, h, f, g) = ((a + d) / 2.0, (c - b) / 2.0, (a - d) / 2.0, (c + b) / 2.0);
     let (turned, mirrored) = ((e * e + h * h).sqrt(), (f * f + g * g).sqrt());

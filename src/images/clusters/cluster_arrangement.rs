@@ -1,35 +1,36 @@
-//! [`Arranged`]: facets gathered into clusters that can be painted one after the other.
+//! [`Arranged`]: facets gathered into clusters, in the order of painting.
 
 use super::cluster_order::{Order, back_to_front};
 use super::facet_cluster::{Cluster, Company, Fit, Neighbours, clusters};
 use crate::images::facets::facet::Facet;
 use crate::view::raster::Screen;
 
-/// How far beside its place a picture may be seen, px.
+/// Largest displacement of a picture on the page, px.
 pub(crate) const TOLERANCE_PX: f64 = 0.3;
 
-/// A picture is seen in this many pieces at most. Where that is too few its tolerance is doubled, three times at most, and then the
-/// smallest pieces are left out: there its mean colour is seen.
+/// Largest number of pieces of a picture. If there are more, the tolerance is doubled, at most three times.
+/// Then the smallest pieces are left out, and the mean colour shows there.
 pub(crate) const MOST_PIECES: usize = 20_000;
 
-/// The tolerance is doubled so often at most, that there are fewer pieces.
+/// Largest number of times the tolerance is doubled.
 const MOST_DOUBLINGS: u32 = 3;
 
-/// Clusters fall into smaller ones so often at most; what still covers each other in turn is painted from the farthest on.
+/// Largest number of rounds that split clusters. Clusters that still cover each other cyclically are painted
+/// from the farthest on.
 const MOST_ROUNDS: u32 = 6;
 
-/// Pieces smaller than this, px², are left out.
+/// Area below which pieces are left out, px².
 const LEAST_PIECE_PX2: f64 = 0.02;
 
-/// Clusters in the order in which they are painted.
+/// Clusters in the order of painting.
 pub(crate) struct Arranged {
     pub clusters: Vec<Cluster>,
-    /// How far beside its place the picture may be seen in them, px.
+    /// Largest displacement of the picture in them, px.
     pub tolerance: f64,
 }
 
-/// The clusters, where `fit` has a px as its tolerance. Those that cover each other in turn
-/// fall into smaller ones, down to facets.
+/// Gathers facets into clusters in the order of painting; `fit` has one px as its tolerance. Clusters that
+/// cover each other cyclically are split, down to single facets.
 pub(crate) fn arranged(screen: &Screen, facets: &[Facet], neighbours: &Neighbours, fit: Fit) -> Arranged {
     let px = fit.tolerance;
     let mut doublings = 0;

@@ -1,19 +1,19 @@
-//! The order in which clusters are painted, so that each covers those behind it.
+//! [`Order`]: the order of painting clusters, so that each covers those behind it.
 
 use super::facet_cluster::Cluster;
 use crate::images::facets::facet::Facet;
 use crate::images::facets::visible_faces::{SAME_NEARNESS, inside, pixel_of};
 use crate::view::raster::{Screen, painter_order};
 
-/// The order in which clusters are painted.
+/// Order of painting clusters.
 pub(crate) struct Order {
-    /// The numbers of all clusters, the farthest first where it makes no difference.
+    /// Indices of all clusters, the farthest first where the order is free.
     pub numbers: Vec<u32>,
-    /// The clusters that cover others and are covered by them in turn, by their numbers, so that no order is right for them.
+    /// Indices of the clusters that cover each other cyclically, so that no order is correct for them.
     pub in_turn: Vec<u32>,
 }
 
-/// The order that paints what is in front.
+/// Sorts clusters from back to front.
 pub(crate) fn back_to_front(screen: &Screen, facets: &[Facet], clusters: &[Cluster]) -> Order {
     const NOTHING: (f32, u32) = (f32::NEG_INFINITY, u32::MAX);
     let mut front: Vec<(f32, u32)> = vec![NOTHING; screen.columns * screen.rows];
@@ -38,7 +38,7 @@ pub(crate) fn back_to_front(screen: &Screen, facets: &[Facet], clusters: &[Clust
         }
     });
     for (number, cluster) in clusters.iter().enumerate() {
-        // Pieces of cut faces may lie between the middles of pixels.
+        // Pieces of cut faces may fall between pixel centres.
         let cut = cluster.facets.iter().filter(|facet| facets[**facet as usize].is_cut());
         for point in cut.flat_map(|facet| inside(corners(*facet))) {
             let (nearest, other) = pixel_of(screen, point).map_or(NOTHING, |pixel| front[pixel]);

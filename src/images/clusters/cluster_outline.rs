@@ -1,4 +1,4 @@
-//! The outlines of clusters, a little wider than these, so that nothing shines through between neighbours.
+//! Outlines of clusters, widened slightly so that nothing shows through between neighbours.
 
 use kurbo::{BezPath, Point, Vec2};
 use rustc_hash::FxHashMap;
@@ -7,16 +7,17 @@ use super::facet_cluster::{Cluster, Neighbours};
 use crate::geometry::numbers::portable_math::atan2;
 use crate::images::facets::facet::Facet;
 
-/// A loop of points loses those that lie no farther than this beside the way past them, px.
+/// Distance from the straight line past a point within which the point is removed from a loop, px.
 const STRAIGHT_PX: f64 = 0.02;
 
-/// Corners reach no farther out than this many times as far as sides.
+/// Largest offset of a corner, as a multiple of the offset of the sides (mitre limit).
 const MOST_MITRE: f64 = 2.0;
 
-/// A loop of points, and of the side after each whether another face passes through there.
+/// Loop of points, each with a flag: whether another face passes through at the side after it.
 type Ring = Vec<(Point, bool)>;
 
-/// The outline of a cluster, wider by `reach` on all sides at which no other face passes through, moved by `offset`; none if there is nothing of it.
+/// Outline of a cluster, moved by `offset`; `None` if it is empty. It is widened by `reach`, except at sides
+/// where another face passes through.
 pub(crate) fn outline(
     cluster: &Cluster,
     facets: &[Facet],
@@ -38,11 +39,11 @@ pub(crate) fn outline(
     (!path.elements().is_empty()).then_some(path)
 }
 
-/// The loops around a cluster and around its holes, with the inside on the side to which x turns towards y.
+/// Loops around a cluster and around its holes, with the inside on the side of a turn from x to y.
 fn rings(cluster: &Cluster, facets: &[Facet], neighbours: &Neighbours) -> Vec<Ring> {
     let mut own = cluster.facets.clone();
     own.sort_unstable();
-    // Sides that lie between the cluster and others, by where they begin.
+    // Sides between the cluster and others, by their start.
     let mut sides: Vec<([u32; 2], [Point; 2], bool)> = Vec::new();
     for facet in &own {
         let there = &facets[*facet as usize];
@@ -74,7 +75,7 @@ fn rings(cluster: &Cluster, facets: &[Facet], neighbours: &Neighbours) -> Vec<Ri
             done[k] = true;
             ring.push((sides[k].1[0], sides[k].2));
             let back = sides[k].1[0] - sides[k].1[1];
-            // Where several begin, that one between which and the last the cluster lies.
+            // Where several sides begin, the one is taken that has the cluster between it and the last side.
             let starts = begin.get(&sides[k].0[1]).into_iter().flatten().copied();
             next = starts.filter(|k| !done[*k]).min_by(|a, b| {
                 let turn = |k: &usize| turned(back, sides[*k].1[1] - sides[*k].1[0]);
@@ -88,13 +89,13 @@ fn rings(cluster: &Cluster, facets: &[Facet], neighbours: &Neighbours) -> Vec<Ri
     rings
 }
 
-/// The angle by which a way is turned from y towards x to be another one, from 0 to a whole turn.
+/// Angle from one direction to another, turning from y towards x, above 0 and up to a full turn.
 fn turned(from: Vec2, to: Vec2) -> f64 {
     let angle = atan2(to.cross(from), to.dot(from));
     if angle <= 0.0 { angle + std::f64::consts::TAU } else { angle }
 }
 
-/// A ring without points that lie on the way past them.
+/// Loop without the points that lie on the straight line past them.
 fn straightened(ring: &[(Point, bool)], tolerance: f64) -> Ring {
     let mut kept: Ring = Vec::with_capacity(ring.len());
     for k in 0..ring.len() {
@@ -111,14 +112,14 @@ fn straightened(ring: &[(Point, bool)], tolerance: f64) -> Ring {
     kept
 }
 
-/// A ring whose sides lie farther out by `reach`, but for those through which another face passes.
+/// Loop with its sides moved outward by `reach`, except those where another face passes through.
 fn widened(ring: &[(Point, bool)], reach: f64) -> Vec<Point> {
     let count = ring.len();
     let unit = |way: Vec2| {
         let length = way.hypot2().sqrt();
         if length > 0.0 { way / length } else { Vec2::ZERO }
     };
-    // The inside lies to the left of the numbers, so that out is to the right.
+    // The inside is to the left in coordinates with y up, so outward is to the right.
     let out = |k: usize| {
         let way = unit(ring[(k + 1) % count].0 - ring[k].0);
         Vec2::new(way.y, -way.x)
@@ -134,7 +135,7 @@ fn widened(ring: &[(Point, bool)], reach: f64) -> Vec<Point> {
                 let far = if cosine > 1.0 / MOST_MITRE { 1.0 / cosine } else { MOST_MITRE };
                 wide.push(at + if middle == Vec2::ZERO { second } else { middle * far } * reach);
             }
-            // Out from the wall's end, not along it, so that nothing of it lies beyond the wall.
+            // Outward from the end of the wall and not along it, so nothing crosses the wall.
             [true, false] => wide.extend([at, at + second * reach]),
             [false, true] => wide.extend([at + first * reach, at]),
             [true, true] => wide.push(at),

@@ -1,4 +1,4 @@
-//! [`Cluster`]: facets side by side that one affine map, or one colour, is right for.
+//! [`Cluster`]: adjacent facets that share one affine map or one colour.
 
 use glam::{DVec2, DVec3};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -8,23 +8,23 @@ use crate::colour::srgb::Colour;
 use crate::images::facets::facet::{Corner, Facet};
 use crate::mesh::PartId;
 
-/// Facets side by side that one affine map, or one colour, is right for.
+/// Adjacent facets that share one affine map or one colour.
 #[derive(Debug, Clone)]
 pub(crate) struct Cluster {
-    /// By their numbers.
+    /// Indices of its facets.
     pub facets: Vec<u32>,
     pub shows: Painted,
     pub part: PartId,
 }
 
 impl Cluster {
-    /// Its area on the page.
+    /// Area on the page.
     pub fn area(&self, facets: &[Facet]) -> f64 {
         self.facets.iter().map(|facet| facets[*facet as usize].area2().abs() / 2.0).sum()
     }
 }
 
-/// What a cluster shows.
+/// Contents of a cluster.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Painted {
     /// The picture.
@@ -33,36 +33,36 @@ pub(crate) enum Painted {
     Colour(Colour),
 }
 
-/// A place that is off by no more than this many texels is right, however large these are seen.
+/// Error in texels that always counts as correct, however large the texels appear.
 const RIGHT_TEXELS: f64 = 0.02;
 
-/// A cluster has no more corners than this, so that checking them all again takes no time.
+/// Largest number of corners of a cluster, which bounds the cost of checking all of them again.
 const MOST_CORNERS: usize = 160;
 
-/// What of the facets beside it a facet may be gathered with.
+/// Which of its neighbours a facet may be gathered with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Company {
-    /// All between which no other face passes.
+    /// All, unless another face passes between them.
     All,
-    /// Those that the line of another face does not part from it, too.
+    /// Only those that the line of another face does not separate from it.
     Unparted,
     /// None.
     Alone,
 }
 
-/// Which facets share a side.
+/// Facets that share a side.
 pub(crate) struct Neighbours {
-    /// The facets beyond the three sides of each; [`NONE`] where there are none.
+    /// Facets across the three sides of each facet; [`NONE`] where there are none.
     across: Vec<[u32; 3]>,
-    /// The number of each corner: equal where the same point is seen in the same place.
+    /// Number of each corner; equal for corners at the same image-space point.
     pub corners: Vec<[u32; 3]>,
 }
 
-/// No facet.
+/// Stands for the absence of a facet.
 const NONE: u32 = u32::MAX;
 
 impl Neighbours {
-    /// Two facets of one part are neighbours if they have two corners in common, and no other face passes between them.
+    /// Two facets of one part are neighbours if they share two corners and no other face passes between them.
     pub fn of(facets: &[Facet]) -> Self {
         let mut points: FxHashMap<[u64; 3], u32> = FxHashMap::default();
         let mut point = |p: DVec3| {
@@ -92,12 +92,12 @@ impl Neighbours {
         Self { across, corners }
     }
 
-    /// The facet beyond a side.
+    /// The facet across a side.
     pub fn beyond(&self, facet: u32, side: usize) -> Option<u32> {
         Some(self.across[facet as usize][side]).filter(|other| *other != NONE)
     }
 
-    /// The facets beside one that it may be gathered with.
+    /// Neighbours that a facet may be gathered with.
     fn company<'a>(
         &'a self,
         facet: u32,
@@ -116,20 +116,21 @@ impl Neighbours {
     }
 }
 
-/// What a cluster must be.
+/// Requirements on a cluster.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fit {
-    /// How far beside its place, on the page, it may show the picture.
+    /// Largest displacement of the picture on the page, user units.
     pub tolerance: f64,
-    /// How far its places may reach.
+    /// Largest extent of its places in x and y, texels.
     pub spans: [Option<f64>; 2],
-    /// How far beside its facets the map is to be right, too.
+    /// Distance outside its facets where the map must still be correct, user units.
     pub reach: f64,
     /// Whether the view is in perspective.
     pub perspective: bool,
 }
 
-/// Gathers facets into clusters, from the largest ones on, each with what it may be with.
+/// Gathers facets into clusters, starting from the largest facets, with the neighbours that each of them may
+/// have.
 pub(crate) fn clusters(
     facets: &[Facet],
     neighbours: &Neighbours,
@@ -158,7 +159,7 @@ pub(crate) fn clusters(
     found
 }
 
-/// The cluster of one colour around a facet.
+/// Cluster of one colour around a facet.
 fn of_colour<I: Iterator<Item = u32>>(
     facets: &[Facet],
     beside: impl Fn(u32) -> I,
@@ -184,10 +185,10 @@ fn of_colour<I: Iterator<Item = u32>>(
     Some(Cluster { facets: own, shows: Painted::Colour(colour), part })
 }
 
-/// A cluster of one colour has no more facets than this, so that what is in front of what can be told.
+/// Largest number of facets in a cluster of one colour, so that clusters can be sorted by depth.
 const MOST_OF_COLOUR: usize = 2000;
 
-/// The cluster of one map around a facet; none if that cannot be seen.
+/// Cluster of one affine map around a facet; `None` if it cannot be seen.
 fn of_picture<I: Iterator<Item = u32>>(
     facets: &[Facet],
     (neighbours, beside): (&Neighbours, &impl Fn(u32) -> I),
@@ -222,7 +223,7 @@ fn of_picture<I: Iterator<Item = u32>>(
     Some(Cluster { facets: own, shows: Painted::Picture(map), part: first.part })
 }
 
-/// The corners of a cluster that grows.
+/// Corners of a growing cluster.
 #[derive(Clone)]
 struct Grown {
     sums: Sums,
@@ -240,7 +241,8 @@ impl Grown {
         Self { sums, corners: numbers.into_iter().zip(facet.corners).collect(), low, high }
     }
 
-    /// With one more facet, if it shows the same point in the same place where they touch, and a map is right for all.
+    /// Cluster with one more facet. `None` if common corners show different places, or if no map is correct
+    /// for all corners.
     fn with(&self, facet: &Facet, numbers: [u32; 3], fit: &Fit) -> Option<(Self, Affinity)> {
         let mut wider = self.clone();
         for (number, corner) in numbers.into_iter().zip(facet.corners) {

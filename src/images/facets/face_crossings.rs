@@ -1,7 +1,7 @@
-//! [`Crossings`]: where faces pass through others, and facets cut there.
+//! [`Crossings`]: lines where faces pass through others, and facets cut along them.
 //!
-//! Of two facets that pass through each other neither covers the other. Cut where they meet, each half lies wholly before
-//! or wholly behind, and there is an order to paint them in.
+//! Of two facets that pass through each other, neither covers the other. Cut where they meet, each half is
+//! entirely in front or behind, and a painting order exists.
 
 use glam::DVec2;
 use rustc_hash::FxHashMap;
@@ -11,23 +11,23 @@ use crate::lines::{FeatureLines, LineKind};
 use crate::mesh::Mesh;
 use crate::view::{Frame, View};
 
-/// Nearer than this, px, a corner lies on a line.
+/// Distance within which a corner lies on a line, px.
 const ON_LINE_PX: f64 = 1e-4;
 
-/// Nothing is cut along a way through it shorter than this, px.
+/// Shortest cut through a facet, px.
 const LEAST_CUT_PX: f64 = 0.05;
 
-/// No face is cut more often than this: what passes through so many others is beyond painting in an order.
+/// Largest number of cuts of a face. A face with more crossings has no useful painting order.
 const MOST_CUTS: usize = 256;
 
-/// Where faces pass through others, on the page.
+/// Lines on the page where faces pass through others.
 #[derive(Debug, Default)]
 pub(crate) struct Crossings {
     of_face: FxHashMap<u32, Vec<[DVec2; 2]>>,
 }
 
 impl Crossings {
-    /// The crossings among the lines of a view.
+    /// Collects the crossings among the lines of a view.
     pub fn of(mesh: &Mesh, view: &View, lines: &FeatureLines) -> Self {
         let mut of_face: FxHashMap<u32, Vec<[DVec2; 2]>> = FxHashMap::default();
         for segment in lines.segments.iter().filter(|segment| segment.kind == LineKind::Intersection) {
@@ -41,7 +41,7 @@ impl Crossings {
         Self { of_face }
     }
 
-    /// A facet of a face, cut at the crossings of that.
+    /// Cuts a facet of a face at the crossings of the face.
     pub(crate) fn cut(&self, face: u32, facet: Facet, frame: &Frame, px: f64) -> Vec<Facet> {
         let mut pieces = vec![facet];
         for ends in self.of_face.get(&face).into_iter().flatten().take(MOST_CUTS) {
@@ -51,11 +51,11 @@ impl Crossings {
     }
 }
 
-/// A facet cut along the line through a way, if that passes through it.
+/// Cuts a facet along the line through a segment, if the segment passes through it.
 fn cut_along(facet: Facet, [from, to]: [DVec2; 2], frame: &Frame, px: f64) -> Vec<Facet> {
     let length = (to - from).length();
     let way = (to - from) / length;
-    // How far the corners lie along the line and beside it.
+    // Position of the corners along the line (x) and across it (y).
     let line = Line { from, way, length, px };
     let at = facet.corners.map(|corner| line.at(corner.image.truncate()));
     if length.is_nan() || length <= 0.0 || !line.passes(at) {
@@ -68,10 +68,10 @@ fn cut_along(facet: Facet, [from, to]: [DVec2; 2], frame: &Frame, px: f64) -> Ve
         let along = (0..3).find(|k| at[*k].y == 0.0 && at[(k + 1) % 3].y == 0.0);
         return along.map_or_else(|| vec![facet], |side| line.walled(&facet, side, frame));
     };
-    // Turned so that the corner that is alone on its side is the first.
+    // Rotated so that the corner alone on its side comes first.
     let (turned, at) = (facet.turned(alone), [0, 1, 2].map(|k| at[(alone + k) % 3].y));
     let share = |to: usize| at[0] / (at[0] - at[to]);
-    // The facets that have the new side, and which of their sides that is.
+    // Facets that have the new side, with the index of that side.
     let (mut pieces, sided) = if at[1] == 0.0 {
         let [rest, tip] = turned.cut_on_page(2, 1.0 - share(2), frame);
         (Vec::new(), [(rest, 1), (tip, 2)])
@@ -79,7 +79,7 @@ fn cut_along(facet: Facet, [from, to]: [DVec2; 2], frame: &Frame, px: f64) -> Ve
         let [tip, rest] = turned.cut_on_page(0, share(1), frame);
         (Vec::new(), [(tip, 1), (rest, 2)])
     } else {
-        // From a, b, c: first a, m, c and m, b, c; then the former on its side from c to a.
+        // From (a, b, c): first (a, m, c) and (m, b, c), then the former is cut on its side from c to a.
         let [near, far] = turned.cut_on_page(0, share(1), frame);
         let [rest, tip] = near.cut_on_page(2, 1.0 - share(2), frame);
         (vec![far], [(rest, 1), (tip, 2)])
@@ -88,28 +88,28 @@ fn cut_along(facet: Facet, [from, to]: [DVec2; 2], frame: &Frame, px: f64) -> Ve
     pieces
 }
 
-/// A line with a way on it.
+/// Line with a segment on it.
 #[derive(Debug, Clone, Copy)]
 struct Line {
     from: DVec2,
-    /// Of length 1.
+    /// Unit vector along the line.
     way: DVec2,
-    /// How far the way leads.
+    /// Length of the segment.
     length: f64,
     px: f64,
 }
 
 impl Line {
-    /// How far a point lies along the line and beside it.
+    /// Position of a point along the line (x) and across it (y).
     fn at(&self, p: DVec2) -> DVec2 {
         let beside = self.way.perp_dot(p - self.from);
         let beside = if beside.abs() <= ON_LINE_PX * self.px { 0.0 } else { beside };
         DVec2::new(self.way.dot(p - self.from), beside)
     }
 
-    /// Whether the way leads through a facet with corners there, or along a side of it.
+    /// Whether the segment passes through a facet with these corners, or along one of its sides.
     fn passes(&self, corners: [DVec2; 3]) -> bool {
-        // Where along the line the facet begins and ends.
+        // Start and end of the facet along the line.
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for k in 0..3 {
             let (a, b) = (corners[k], corners[(k + 1) % 3]);
@@ -124,7 +124,8 @@ impl Line {
         high.min(self.length) - low.max(0.0) > LEAST_CUT_PX * self.px
     }
 
-    /// A facet parted at a side on the line, in as many pieces as tell which of it lies on the way.
+    /// Marks a side of a facet that lies on the line as cut. The facet is divided so that each piece lies on
+    /// the segment or off it.
     fn walled(&self, facet: &Facet, side: usize, frame: &Frame) -> Vec<Facet> {
         let [a, b] =
             [side, (side + 1) % 3].map(|k| self.way.dot(facet.corners[k].image.truncate() - self.from));

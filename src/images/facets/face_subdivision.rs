@@ -1,4 +1,4 @@
-//! The facets of the faces of a view that show a picture.
+//! Facets of the faces that show a picture in a view.
 
 use glam::{DVec2, DVec3};
 
@@ -8,13 +8,13 @@ use crate::mesh::FaceId;
 use crate::scene::textures::Imaged;
 use crate::view::Frame;
 
-/// How far one affine map may miss the true one in a facet, px; facets are put together again where that allows it.
+/// Largest error of an affine map in a facet, px. Facets are joined again where the tolerance allows it.
 const FLAT_PX: f64 = 0.1;
 
-/// No facet is halved more often than this.
+/// Largest number of times a facet is halved.
 const MOST_HALVINGS: u32 = 20;
 
-/// The facets of faces that show a picture and may be seen.
+/// Facets of the faces that show a picture and may be visible.
 pub(crate) fn facets(stage: &Stage, imaged: &Imaged) -> Vec<Facet> {
     let Stage { mesh, view, screen, in_front, crossings, px, .. } = *stage;
     let frame = &view.frame;
@@ -60,7 +60,7 @@ pub(crate) fn facets(stage: &Stage, imaged: &Imaged) -> Vec<Facet> {
     facets
 }
 
-/// Halves a facet until one affine map is right in all of it, and leaves out what is not on the page.
+/// Halves a facet until one affine map is correct in all of it, and drops facets off the page.
 fn halve(facet: Facet, frame: &Frame, px: f64, depth: u32, facets: &mut Vec<Facet>) {
     if !facet.is_on(frame) {
         return;

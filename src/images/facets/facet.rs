@@ -1,35 +1,36 @@
-//! [`Facet`]: a triangle that shows a picture, so small or so square on that one affine map brings the picture to the page.
+//! [`Facet`]: a triangle that shows a part of a picture, small or flat enough that one affine map brings the
+//! picture to the page.
 
 use glam::{DVec2, DVec3};
 
 use crate::mesh::PartId;
 use crate::view::Frame;
 
-/// A corner of a facet.
+/// Corner of a facet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Corner {
-    /// Where it is seen, image space.
+    /// Position in image space.
     pub image: DVec3,
-    /// What it shows, in the plane of the texels.
+    /// Place that it shows, in the plane of the texels.
     pub place: DVec2,
 }
 
-/// A triangle that shows a picture.
+/// Triangle that shows a part of a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Facet {
     pub corners: [Corner; 3],
-    /// The part of the model it belongs to.
+    /// Part of the model it belongs to.
     pub part: PartId,
-    /// The one colour that it shows, if it is one.
+    /// Its colour, if it shows a single one.
     pub colour: Option<crate::colour::srgb::Colour>,
-    /// A bit for each side, from each corner to the next: whether it is parted there from what lies beyond.
+    /// One bit per side, from each corner to the next: whether it is separated there from the next facet.
     parted: u8,
-    /// The same: whether another face passes through there.
+    /// One bit per side: whether another face passes through there.
     walls: u8,
 }
 
 impl Facet {
-    /// Parted from nothing.
+    /// Facet that is separated from nothing.
     pub const fn new(corners: [Corner; 3], part: PartId) -> Self {
         Self { corners, part, colour: None, parted: 0, walls: 0 }
     }
@@ -42,13 +43,14 @@ impl Facet {
         (b - a).perp_dot(c - a)
     }
 
-    /// Four points `reach` beside its middle, and what would be seen there if it went on so: a narrow facet tells with its
-    /// corners alone little of what is seen beside it.
+    /// Four points at distance `reach` around its centre, with the places they would show.
+    ///
+    /// The corners of a narrow facet alone determine the map poorly across the facet.
     pub fn around(&self, reach: f64, perspective: bool) -> Option<[Corner; 4]> {
         let [a, b, c] = self.corners;
         let weight = |corner: &Corner| if perspective { corner.image.z } else { 1.0 };
         let (qa, qb, qc) = (weight(&a), weight(&b), weight(&c));
-        // What is seen is a quotient of two numbers that are linear on the page.
+        // The place is a quotient of two functions that are linear on the page.
         let (nb, nc) = ((b.place - a.place) * qb, (c.place - a.place) * qc);
         let [u, v] = [b, c].map(|corner| (corner.image - a.image).truncate());
         let whole = u.perp_dot(v);
@@ -65,48 +67,49 @@ impl Facet {
         beside.iter().all(|corner| corner.place.is_finite()).then_some(beside)
     }
 
-    /// The least and the greatest place that it shows.
+    /// Smallest and largest place that it shows.
     pub fn places(&self) -> [DVec2; 2] {
         let [a, b, c] = self.corners.map(|corner| corner.place);
         [a.min(b).min(c), a.max(b).max(c)]
     }
 
-    /// The edges of the page that it lies beyond are none.
+    /// Whether its bounding box meets the page.
     pub fn is_on(&self, frame: &Frame) -> bool {
         let [a, b, c] = self.corners.map(|corner| corner.image.truncate());
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         high.x >= 0.0 && high.y >= 0.0 && low.x <= frame.width && low.y <= frame.height
     }
 
-    /// Whether it passes through another face at a side.
+    /// Whether another face passes through at a side.
     pub fn is_wall(&self, side: usize) -> bool {
         self.walls >> side & 1 == 1
     }
 
-    /// Whether it is parted at any side.
+    /// Whether any side is separated.
     pub fn is_cut(&self) -> bool {
         self.parted != 0
     }
 
-    /// Whether it is parted at a side from what lies beyond: by another face there or farther on along the line of that side.
+    /// Whether a side is separated from the next facet: by another face there, or farther along the line of
+    /// the side.
     pub fn is_parted(&self, side: usize) -> bool {
         self.parted >> side & 1 == 1
     }
 
-    /// Parted at a side, at which another face may pass through.
+    /// Marks a side as separated; another face may pass through there.
     pub fn with_parted(self, side: usize, wall: bool) -> Self {
         Self { parted: self.parted | 1 << side, walls: self.walls | u8::from(wall) << side, ..self }
     }
 
-    /// The same, beginning with another corner.
+    /// The same facet, starting with another corner.
     pub fn turned(&self, first: usize) -> Self {
         let turned = |bits: u8| (0..3).fold(0, |all, k| all | (bits >> ((first + k) % 3) & 1) << k);
         let corners = [0, 1, 2].map(|k| self.corners[(first + k) % 3]);
         Self { corners, parted: turned(self.parted), walls: turned(self.walls), ..*self }
     }
 
-    /// What is left of it where a side is cut, on both sides of that: with the first corner of that side first, and its
-    /// second one second.
+    /// Both parts of the facet after a cut at a point of a side. The first keeps the first corner of the
+    /// side, the second its second corner.
     pub fn cut(&self, side: usize, share: f64, frame: &Frame) -> [Self; 2] {
         let whole = self.turned(side);
         let [a, b, c] = whole.corners;
@@ -118,7 +121,7 @@ impl Facet {
         [of([a, middle, c], 0b101), of([middle, b, c], 0b011)]
     }
 
-    /// The same, with the share of the way along the side as it is seen on the page.
+    /// Like [`Self::cut`], with the share of the side measured on the page.
     pub fn cut_on_page(&self, side: usize, share: f64, frame: &Frame) -> [Self; 2] {
         if !frame.perspective {
             return self.cut(side, share, frame);
@@ -127,8 +130,10 @@ impl Facet {
         self.cut(side, share * b / ((1.0 - share) * a + share * b), frame)
     }
 
-    /// Its longest side, and how far one affine map may miss the true one: as far as the page's midpoint of that side would be
-    /// from where the side's own midpoint is seen, if all of the facet's depth lay between its ends.
+    /// Longest side, and a bound for the error of one affine map.
+    ///
+    /// The bound is the distance on the page between the midpoint of the side and the image of its midpoint
+    /// in space. The facet's whole depth range is taken to lie along the side.
     pub fn miss(&self) -> (usize, f64) {
         let length = |side: usize| (self.corners[side].image - self.corners[(side + 1) % 3].image).truncate();
         let (side, longest) = [0, 1, 2]
@@ -141,9 +146,9 @@ impl Facet {
     }
 }
 
-/// A point of a side in space, as seen.
+/// Image of a point of a side in space.
 fn between(a: Corner, b: Corner, share: f64, frame: &Frame) -> Corner {
-    // From the same end in both facets that have the side.
+    // Measured from the same end in both facets that have the side.
     let order =
         |p: DVec3, q: DVec3| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)).then(p.z.total_cmp(&q.z)).is_gt();
     let (a, b, share) = if order(a.image, b.image) { (b, a, 1.0 - share) } else { (a, b, share) };
@@ -156,8 +161,10 @@ fn between(a: Corner, b: Corner, share: f64, frame: &Frame) -> Corner {
     Corner { image: at.extend(1.0 / (wa + wb)), place }
 }
 
-/// Cuts facets where the picture is repeated after `spans` texels along x and along y, so that none is longer than that.
-/// What shows a repetition less than `least` user units wide is left out: there all of the picture is seen at once.
+/// Cuts facets so that none shows more than `spans` texels along x or y.
+///
+/// Facets that show a repetition narrower than `least` user units are left out, because the whole picture is
+/// visible there at once.
 pub(crate) fn cut_to_spans(
     facets: Vec<Facet>,
     spans: [Option<f64>; 2],
@@ -182,7 +189,7 @@ pub(crate) fn cut_to_spans(
             continue;
         }
         let at = (f64::midpoint(low[axis], high[axis]) / span).round() * span;
-        // Where a multiple of the span lies within, it is cut there, elsewhere in the middle.
+        // The cut is at a multiple of the span if one lies within, otherwise in the middle.
         let at = if at > low[axis] && at < high[axis] { at } else { f64::midpoint(low[axis], high[axis]) };
         let crosses = |side: &usize| {
             let (a, b) = (facet.corners[*side].place[axis], facet.corners[(side + 1) % 3].place[axis]);
@@ -205,10 +212,10 @@ pub(crate) fn cut_to_spans(
     done
 }
 
-/// No picture is cut into more.
+/// Largest number of facets of a picture.
 const MOST_FACETS: usize = 1 << 19;
 
-/// Whether a repetition of the picture is less than so wide on a facet.
+/// Whether a repetition of the picture is narrower than `least` on a facet.
 fn shrinks(facet: &Facet, periods: [Option<f64>; 2], least: f64) -> bool {
     let [a, b, c] = facet.corners;
     let (p, q) = (b.place - a.place, c.place - a.place);
@@ -216,7 +223,7 @@ fn shrinks(facet: &Facet, periods: [Option<f64>; 2], least: f64) -> bool {
     let [on_page, along] = [b, c].map(|corner| (corner.image - a.image).truncate());
     (0..2).any(|axis| {
         let Some(period) = periods[axis] else { return false };
-        // How far on the page a step of a texel leads.
+        // Length on the page of a step of one texel.
         let step = if axis == 0 { (q.y, -p.y) } else { (-q.x, p.x) };
         let way = (on_page * step.0 + along * step.1) / whole;
         way.length() * period < least

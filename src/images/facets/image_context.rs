@@ -1,4 +1,4 @@
-//! [`Stage`]: what a view shows pictures on.
+//! [`Stage`]: the input shared by all pictures of a view.
 
 use kurbo::Vec2;
 
@@ -8,7 +8,7 @@ use crate::mesh::Mesh;
 use crate::view::View;
 use crate::view::raster::Screen;
 
-/// What a view shows pictures on.
+/// Input shared by all pictures of a view.
 #[derive(Clone, Copy)]
 pub(crate) struct Stage<'a> {
     pub mesh: &'a Mesh,
@@ -16,10 +16,10 @@ pub(crate) struct Stage<'a> {
     pub screen: &'a Screen<'a>,
     pub in_front: &'a InFront,
     pub crossings: &'a Crossings,
-    /// Where the frame lies on the page.
+    /// Offset of the frame on the page.
     pub offset: Vec2,
     /// A px in user units.
     pub px: f64,
-    /// Texels that are kept along a px, at most.
+    /// Largest number of texels kept along a px.
     pub samples: f64,
 }

@@ -1,17 +1,18 @@
-//! Which faces may be seen: what all of a picture is painted on, and no more.
+//! [`InFront`]: the faces that may be visible, on which a picture must be painted.
 
 use glam::DVec3;
 
 use crate::mesh::{FaceId, Mesh};
 use crate::view::raster::{FaceBuffer, Screen, ScreenPoint};
 
-/// Faces smaller than this, pixels of the buffer squared, may fall between the middles of its pixels.
+/// Twice the area of a face below which it may fall between pixel centres, square pixels of the buffer.
 const SMALL: f32 = 6.0;
 
-/// Nearness, 0 to 1 over the whole depth of the view, that differs by less is equal: neighbours share the pixels along their sides.
+/// Smallest difference in nearness that counts, on a scale of 0 to 1 over the depth of the view. Neighbours
+/// share the pixels along their sides.
 pub(crate) const SAME_NEARNESS: f32 = 1e-5;
 
-/// What of a view is in front.
+/// Faces of a view that are in front.
 #[derive(Debug)]
 pub(crate) struct InFront {
     buffer: FaceBuffer,
@@ -19,7 +20,8 @@ pub(crate) struct InFront {
 }
 
 impl InFront {
-    /// What is in front on a screen, whose mesh is `mesh`, but that faces that hide nothing are degenerate there.
+    /// Finds the faces in front on a screen. `mesh` is the mesh of the screen, with the faces that hide
+    /// nothing made degenerate.
     pub fn new(mesh: &Mesh, screen: &Screen) -> Self {
         let buffer = FaceBuffer::of(screen, |face| !mesh.is_degenerate(FaceId(face)));
         let mut faces = vec![false; mesh.triangles.len()];
@@ -37,12 +39,12 @@ impl InFront {
         Self { buffer, faces }
     }
 
-    /// Whether some of a face may be.
+    /// Whether some of a face may be visible.
     pub fn face(&self, face: u32) -> bool {
         self.faces[face as usize]
     }
 
-    /// Whether some of a piece of a face may be.
+    /// Whether some of a piece of a face may be visible.
     pub(crate) fn piece(&self, screen: &Screen, face: u32, corners: [DVec3; 3]) -> bool {
         let corners = corners.map(|corner| screen.point(corner));
         if !is_small(&corners) {
@@ -59,26 +61,26 @@ fn mean(points: &[ScreenPoint]) -> ScreenPoint {
     [0, 1, 2].map(|k| points.iter().map(|p| p[k]).sum::<f32>() / points.len() as f32)
 }
 
-/// The middle of a triangle, and the points halfway from there to its corners.
+/// Centre of a triangle, and the points halfway from there to its corners.
 pub(crate) fn inside(corners: [ScreenPoint; 3]) -> [ScreenPoint; 4] {
     let middle = mean(&corners);
     let [a, b, c] = corners.map(|corner| mean(&[corner, middle]));
     [middle, a, b, c]
 }
 
-/// The pixel that a point lies in.
+/// Pixel that contains a point.
 pub(crate) fn pixel_of(screen: &Screen, [x, y, _]: ScreenPoint) -> Option<usize> {
     let is_in = x >= 0.0 && y >= 0.0 && (x as usize) < screen.columns && (y as usize) < screen.rows;
     is_in.then(|| y as usize * screen.columns + x as usize)
 }
 
-/// Whether a triangle is so small that it may fall between the middles of pixels.
+/// Whether a triangle is small enough to fall between pixel centres.
 fn is_small([a, b, c]: &[ScreenPoint; 3]) -> bool {
     let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
     area.abs() < SMALL
 }
 
-/// Whether none of the faces in front around a point is in front of it.
+/// Whether none of the nearest faces around a point is in front of it.
 fn is_open(buffer: &FaceBuffer, screen: &Screen, point: ScreenPoint) -> bool {
     let Some(pixel) = pixel_of(screen, point) else { return false };
     let (column, row) = (pixel % screen.columns, pixel / screen.columns);

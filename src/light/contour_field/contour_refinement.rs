@@ -1,7 +1,7 @@
-//! Coarse rounded surfaces get finer triangles where the contour may pass, so that it is round on
-//! the page; the rest of the model stays as it is.
+//! Refinement of coarse rounded surfaces where the contour may pass, so that it is round on the page. The
+//! rest of the model stays unchanged.
 //!
-//! The idea of refining near the contour alone is that of Hertzmann and Zorin 2000, section 4.3.
+//! Source: Hertzmann and Zorin 2000, section 4.3, for refinement near the contour alone.
 
 use glam::DVec3;
 
@@ -14,13 +14,15 @@ use crate::surface::refine::subdivision;
 use crate::surface::{EdgeArc, SmoothNormals};
 use crate::view::Frame;
 
-/// To vanish in between two values of one sign, the field has to fall from both: half of what the
-/// ends turn is the most, and a little for arcs that are longer than their chords.
+/// Largest fall of the field between two ends of one sign, as a share of their turn. To vanish in between,
+/// the field must fall from both ends, so each end accounts for half the turn. Arcs longer than their chords
+/// add a little.
 const REACH: f64 = 0.55;
 const REACH_AND_ROUNDING: f64 = REACH * (1.0 + 1e-9);
 
-/// What is cut of a mesh near the contour of a view until no edge is farther from its arc than
-/// [`tolerance::ARC_PX`]; `None` where edges are short enough already. With [`Cones`] it is the same and told sooner.
+/// Cuts of a mesh near the contour of a view, made until no edge is farther from its arc than
+/// [`tolerance::ARC_PX`]. `None` where edges are short enough. [`Cones`] save time and do not change the
+/// result.
 #[must_use]
 pub fn cuts_near_contours(
     mesh: &Mesh,
@@ -29,12 +31,12 @@ pub fn cuts_near_contours(
     frame: &Frame,
 ) -> Option<Cuts> {
     let px = frame.width.max(frame.height) / 1000.0;
-    // How long a world length is on the page where it is nearest to the eye, seen square on.
+    // Length on the page of a unit length at the end nearer to the eye, seen square on.
     let page = |[a, b]: [DVec3; 2]| {
         let depth = if frame.perspective { frame.depth(a).min(frame.depth(b)) } else { 1.0 };
         if depth > 0.0 { frame.scale / (px * depth) } else { 0.0 }
     };
-    // Squares and no quotient: this is asked of every edge of the model.
+    // Squares instead of quotients, because this runs for every edge of the model.
     let short = (tolerance::SHORT_EDGE_PX * px / frame.scale).powi(2);
     let is_long = |a: DVec3, b: DVec3| {
         let depth = if frame.perspective { frame.depth(a).min(frame.depth(b)) } else { 1.0 };
@@ -46,7 +48,7 @@ pub fn cuts_near_contours(
         }
         let to_eye = ends.map(|p| frame.to_eye(p));
         let facing = [0, 1].map(|k| normals[k].dot(to_eye[k]));
-        // Between the ends the field varies by no more than normal and line of sight turn.
+        // Between the ends, the field varies by at most the turn of normal and line of sight.
         let turn = normals[0].distance(normals[1]) + to_eye[0].distance(to_eye[1]);
         let nearest = facing[0].abs().min(facing[1].abs());
         if (facing[0] > 0.0) == (facing[1] > 0.0) && nearest > REACH * turn {
@@ -55,23 +57,24 @@ pub fn cuts_near_contours(
         EdgeArc::new(ends, normals).height().length() * page(ends) / tolerance::ARC_PX
     };
     let is_asked = |run: usize| cones.is_none_or(|cones| !cones.is_passed(run, frame, REACH, short));
-    // The cones tell as much of almost all runs, and are there from the second view on.
+    // Cones settle almost all runs as well, and exist from the second view on.
     let turned = cones.is_none().then(|| Turned::of(mesh, smooth, frame, REACH_AND_ROUNDING));
     let may =
         |ends: [u32; 2], squared: f64| turned.as_ref().is_none_or(|turned| !turned.all_along(ends, squared));
     subdivision::cuts(mesh, smooth, is_asked, is_long, may, want)
 }
 
-/// Whether the field is surely too far from zero at both ends of an edge to vanish in between: told without a root or a
-/// quotient, of almost all edges.
+/// Whether the field is certainly too far from zero at both ends of an edge to vanish in between. It runs for
+/// almost all edges, so it uses no root and no quotient.
 #[inline]
 fn surely_turned(eye: DVec3, [a, b]: [DVec3; 2], [normal_a, normal_b]: [DVec3; 2]) -> bool {
     let (to_eye_a, to_eye_b) = (eye - a, eye - b);
     let (facing_a, facing_b) = (normal_a.dot(to_eye_a), normal_b.dot(to_eye_b));
     let (far_a, far_b) = (to_eye_a.length_squared(), to_eye_b.length_squared());
     let nearer = far_a.min(far_b);
-    // Unit vectors from two points to the eye differ by no more than the way between them, seen from the nearer one; and the square
-    // of a sum is no more than 5/4 of that of the one and five times that of the other. All squared, and times the nearer way.
+    // Unit vectors from two points to the eye differ by at most the distance between the points, divided by
+    // that to the nearer one. The square of a sum is at most 5/4 of one square plus five times the other.
+    // Everything is squared and multiplied by the square of the nearer distance.
     let most = 1.25 * normal_a.distance_squared(normal_b) * nearer + 5.0 * a.distance_squared(b);
     let most = REACH_AND_ROUNDING * REACH_AND_ROUNDING * most;
     (facing_a > 0.0) == (facing_b > 0.0)
@@ -90,7 +93,8 @@ mod tests {
         let (mut told, mut turned) = (0, 0);
         for k in 0..20_000 {
             let mut point = || dice.point(1.0);
-            // From edges as long as their distance to short ones, from normals that turn much to alike ones.
+            // From edges as long as their distance to short ones, and from very different normals to similar
+            // ones.
             let (near, alike) = (0.1f64.powi(k % 4), 0.1f64.powi(k / 4 % 4));
             let (a, eye) = (point(), point() * 3.0);
             let ends = [a, a + point() * near];

@@ -1,7 +1,7 @@
-//! n·v: how much a rounded surface turns to the eye. Its zero set is the contour.
+//! n·v: the cosine between the normal of a rounded surface and the direction to the eye. Its zero set is the
+//! contour.
 //!
-//! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000,
-//! section 4.1.
+//! Source: Aaron Hertzmann and Denis Zorin, "Illustrating smooth surfaces", SIGGRAPH 2000, section 4.1.
 
 use crate::parallel::prelude::*;
 
@@ -10,8 +10,8 @@ use crate::parallel::task_size::GRAIN;
 use crate::surface::SmoothNormals;
 use crate::view::Frame;
 
-/// The cosine between the normal and the direction to the eye, −1 to 1, positive where the surface
-/// turns its outside to the eye. One per smooth vertex.
+/// Cosine between the normal and the direction to the eye, −1 to 1, one per smooth vertex. Positive where the
+/// surface turns its outside to the eye.
 #[must_use]
 pub fn facing(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<f64> {
     let at =

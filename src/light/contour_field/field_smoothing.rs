@@ -1,8 +1,8 @@
-//! Smoothing of a field where it is near zero, by as much as the page can show.
+//! Smoothing of a field near its zero set, limited to details that the page cannot show.
 //!
-//! Scans are rough at the size of their triangles, and so are their contours. What is smaller than
-//! a few px cannot be drawn, so the field is averaged over as much. To average n·v is to average
-//! the normals: the one is linear in the other.
+//! Scans are rough at the size of their triangles, and so are their contours. Details smaller than a few px
+//! cannot be drawn, so the field is averaged over that radius. Averaging n·v equals averaging the normals,
+//! because it is linear in them.
 
 use crate::parallel::prelude::*;
 
@@ -11,16 +11,16 @@ use crate::parallel::task_size::GRAIN;
 use crate::surface::SmoothNormals;
 use crate::view::Frame;
 
-/// Radius (standard deviation) over which a field is averaged, px.
+/// Radius of the averaging (standard deviation), px.
 const RADIUS_PX: f64 = 2.5;
-/// The square of the radius of one round of averaging over neighbours, in lengths of an edge.
+/// Square of the radius of one round of averaging over neighbours, in squared edge lengths.
 const ROUND: f64 = 0.8;
-/// No more rounds than this, however fine the mesh.
+/// Largest number of rounds, however fine the mesh.
 const MOST_ROUNDS: u32 = 12;
-/// Only where a corner of a face has less than this is the field averaged: about 20 degrees of turn.
+/// Faces are averaged only if a corner has a value below this: about 20 degrees of turn.
 const NEAR_ZERO: f64 = 0.35;
 
-/// Averages `values`, one a smooth vertex, around where they vanish.
+/// Averages `values`, one per smooth vertex, near their zero set.
 pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, values: &mut [f64]) {
     let rounds_of = rounds(mesh, smooth, frame);
     let most = rounds_of.iter().copied().max().unwrap_or(0);
@@ -35,7 +35,7 @@ pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, valu
         .filter_map(|face| Some((rounds(face), smooth.corners_of(face).filter(near)?)))
         .filter(|(rounds, _)| *rounds > 0)
         .collect();
-    // Parts that need few rounds drop out early; the order within a part stays.
+    // Parts that need few rounds drop out early. The order within a part is kept.
     let order = |(rounds, _): &(u32, _)| std::cmp::Reverse(*rounds);
     if !faces.is_sorted_by_key(order) {
         faces.sort_by_key(order);
@@ -56,7 +56,7 @@ pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, valu
         corners.iter().for_each(|v| rounds_at[*v as usize] = rounds_at[*v as usize].max(*rounds));
     }
     let mut now: Vec<f64> = ids.iter().map(|id| values[*id as usize]).collect();
-    // Each vertex counts as much as one of its neighbours, who are met once from each side.
+    // A vertex has the weight of one of its neighbours, which are each visited from two faces.
     let mut weights = vec![2.0; ids.len()];
     for v in faces.iter().flat_map(|(_, corners)| corners) {
         weights[*v as usize] += 2.0;
@@ -88,8 +88,8 @@ pub fn smooth_near_zero(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, valu
     }
 }
 
-/// How often to average the values of each body, by its first part: as many rounds as make up the radius, by the usual length of
-/// an edge of the part, at its middle.
+/// Number of averaging rounds for each body, by its first part: as required for the radius, given the median
+/// edge length of the part and the depth of its centre.
 fn rounds(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<u32> {
     let mut count_of: Vec<usize> = Vec::new();
     let faces = 0..mesh.triangles.len() as u32;
@@ -99,7 +99,7 @@ fn rounds(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame) -> Vec<u32> {
         }
         count_of[part.index()] += 1;
     }
-    // Some thousand faces of each part tell how long its edges are.
+    // Some thousand faces of each part are enough to measure its edge length.
     let mut faces_of: Vec<Vec<u32>> = vec![Vec::new(); count_of.len()];
     let mut passed = vec![0usize; count_of.len()];
     for face in faces {

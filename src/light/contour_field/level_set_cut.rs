@@ -1,15 +1,16 @@
-//! [`SurfaceCut`]: rounded faces cut along the level sets of a field, into pieces that share their
-//! borders.
+//! [`SurfaceCut`]: rounded faces cut along the level sets of a field, into pieces that share their borders.
 //!
-//! Every face falls into bands between one level and the next. Where a level crosses an edge lies one
-//! point, on the arc over that edge, and the pieces on all sides of it have it as a corner: between
-//! neighbours there is neither gap nor overlap. (Across a hard edge each side has its own normals, and
-//! so its own points.) Cut at zero alone, n·v gives the facing and the
-//! averted side of the surface, and the border between them is the contour as it is traced.
+//! 1. Every face is divided into bands between one level and the next.
+//! 2. Where a level crosses an edge there is one point, on the arc over that edge. The pieces on all sides
+//!    have it as a corner, so neighbours have neither gap nor overlap.
+//! 3. Across a hard edge each side has its own normals, and so its own points.
 //!
-//! Source: Johan Claes and others, "Fast 3D cartoon rendering with improved quality by exploiting
-//! graphics hardware", 2001, sections 3.5 and 3.6: triangles subdivided at tone borders, one, two or
-//! three tones a triangle; here any number, and the borders lie on the rounded surface.
+//! Cut at zero alone, n·v separates the facing from the averted side of the surface. The border is the traced
+//! contour.
+//!
+//! Source: Johan Claes and others, "Fast 3D cartoon rendering with improved quality by exploiting graphics
+//! hardware", 2001, sections 3.5 and 3.6: triangles are subdivided at tone borders, with up to three tones
+//! each. Here any number is allowed, and the borders lie on the rounded surface.
 
 use std::ops::Range;
 
@@ -20,48 +21,49 @@ use crate::geometry::numbers::tolerance;
 use crate::mesh::Mesh;
 use crate::surface::{EdgeArc, SmoothNormals};
 
-/// Faces that one task cuts. Fixed, so that nothing depends on the number of threads.
+/// Faces per task. Fixed, so the result does not depend on the number of threads.
 const CHUNK: usize = 1 << 13;
 
-/// A piece of a face, all of it between two neighbouring levels.
+/// Piece of a face between two neighbouring levels.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FacePiece {
-    /// The face it is cut from.
+    /// Face it is cut from.
     pub face: u32,
-    /// How many levels lie below it.
+    /// Number of levels below it.
     pub band: u16,
     corners: Range<u32>,
 }
 
-/// The rounded faces of a mesh, cut.
+/// Rounded faces of a mesh, cut along levels.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct SurfaceCut {
-    /// Where levels cross edges, local space; ordered by the smooth vertices of the edge, then by level.
+    /// Points where levels cross edges, local space; sorted by the smooth vertices of the edge, then by
+    /// level.
     pub points: Vec<DVec3>,
-    /// The level that crosses there, as an index. One per point.
+    /// Index of the level at each point.
     pub levels: Vec<u16>,
-    /// The pieces: face by face, and those of one face from the lowest band to the highest.
+    /// Pieces face by face; those of one face from the lowest band to the highest.
     pub pieces: Vec<FacePiece>,
-    /// The corners of all pieces, one piece after the other.
+    /// Corners of all pieces, one piece after the other.
     corners: Vec<u32>,
     /// Number of vertices of the mesh.
     vertices: usize,
 }
 
-/// A corner of a piece: a smooth vertex, or where a level crosses the edge between two.
+/// Corner of a piece: a smooth vertex, or the crossing of a level with the edge between two.
 #[derive(Debug, Clone, Copy)]
 enum Corner {
     Vertex(u32),
     Crossing(Crossing),
 }
 
-/// The smooth vertices of an edge, the smaller id first, and the index of a level.
+/// Smooth vertices of an edge, the smaller id first, and the index of a level.
 type Crossing = ([u32; 2], u16);
 
-/// Cuts all rounded faces where `values`, one a smooth vertex, reach one of the `levels`, which ascend.
+/// Cuts all rounded faces where `values`, one per smooth vertex, reach one of the ascending `levels`.
 ///
-/// What lies on a level belongs to the band above it, as zero counts as positive where curves are
-/// traced. Every rounded face is covered by its pieces; flat faces have none.
+/// A value on a level belongs to the band above it, as zero counts as positive where curves are traced. Every
+/// rounded face is covered by its pieces; flat faces have none.
 #[must_use]
 pub fn cut(mesh: &Mesh, smooth: &SmoothNormals, values: &[f64], levels: &[f64]) -> SurfaceCut {
     let faces = smooth.corners.len();
@@ -104,12 +106,12 @@ pub fn cut(mesh: &Mesh, smooth: &SmoothNormals, values: &[f64], levels: &[f64]) 
     cut
 }
 
-/// How many levels a value has reached.
+/// Number of levels that a value has reached.
 fn band(value: f64, levels: &[f64]) -> u16 {
     levels.partition_point(|level| *level <= value) as u16
 }
 
-/// The corners of a face's piece in one band, in the sense of the face.
+/// Corners of a face's piece in one band, in the winding of the face.
 fn piece(corners: [u32; 3], bands: [u16; 3], band: u16) -> Vec<Corner> {
     let mut out = Vec::with_capacity(5);
     for k in 0..3 {
@@ -118,7 +120,8 @@ fn piece(corners: [u32; 3], bands: [u16; 3], band: u16) -> Vec<Corner> {
             out.push(Corner::Vertex(corners[k]));
         }
         let between = [corners[k].min(corners[next]), corners[k].max(corners[next])];
-        // Level j parts band j from the next; of those crossed on the way, the piece has its own two.
+        // Level j separates band j from the next. Of the levels crossed along the edge, the piece uses the
+        // two at its borders.
         let borders = [band.checked_sub(1), Some(band)].map(|level| {
             let low = bands[k].min(bands[next])..bands[k].max(bands[next]);
             level.filter(|level| low.contains(level)).map(|level| Corner::Crossing((between, level)))
@@ -130,7 +133,7 @@ fn piece(corners: [u32; 3], bands: [u16; 3], band: u16) -> Vec<Corner> {
     out
 }
 
-/// Every crossing once, in order.
+/// All crossings, sorted, each once.
 fn crossings<'a>(corners: impl Iterator<Item = &'a Corner>) -> Vec<Crossing> {
     let of = |corner: &Corner| match corner {
         Corner::Vertex(_) => None,
@@ -143,14 +146,14 @@ fn crossings<'a>(corners: impl Iterator<Item = &'a Corner>) -> Vec<Crossing> {
 }
 
 impl SurfaceCut {
-    /// The corners of a piece, in the sense of its face: vertices of the mesh, or beyond those,
+    /// Corners of a piece, in the winding of its face: vertices of the mesh, followed by
     /// [`SurfaceCut::points`].
     #[must_use]
     pub fn corners(&self, piece: &FacePiece) -> &[u32] {
         &self.corners[piece.corners.start as usize..piece.corners.end as usize]
     }
 
-    /// The local position of a corner.
+    /// Local position of a corner.
     #[inline]
     #[must_use]
     pub fn position(&self, mesh: &Mesh, corner: u32) -> DVec3 {
@@ -158,7 +161,7 @@ impl SurfaceCut {
         if corner < self.vertices { mesh.positions[corner] } else { self.points[corner - self.vertices] }
     }
 
-    /// The pieces of a face.
+    /// Pieces of a face.
     #[must_use]
     pub fn of_face(&self, face: u32) -> &[FacePiece] {
         let first = self.pieces.partition_point(|piece| piece.face < face);
@@ -166,8 +169,8 @@ impl SurfaceCut {
         &rest[..rest.partition_point(|piece| piece.face == face)]
     }
 
-    /// The border between the band of a level and the one below it: for each face that the level
-    /// crosses, that face and the two corners, with the upper band on the left.
+    /// Border between the band of a level and the one below it. Each face that the level crosses gives the
+    /// face and two corners, with the upper band on the left.
     pub fn border(&self, level: u16) -> impl Iterator<Item = (u32, [u32; 2])> + '_ {
         let on = move |corner: u32| {
             let point = (corner as usize).checked_sub(self.vertices);
@@ -190,7 +193,7 @@ mod tests {
     use crate::geometry::numbers::portable_math::{cos, sin};
     use crate::mesh::Soup;
 
-    /// A ball of radius 1 with rings from pole to pole.
+    /// Ball of radius 1 with rings from pole to pole.
     fn ball(rings: u32) -> (Mesh, SmoothNormals) {
         let mut positions = Vec::new();
         let mut triangles = Vec::new();
@@ -211,7 +214,7 @@ mod tests {
         (mesh, smooth)
     }
 
-    /// The area of a piece, by its corners.
+    /// Area vector of a piece.
     fn area(cut: &SurfaceCut, mesh: &Mesh, piece: &FacePiece) -> DVec3 {
         let corners: Vec<DVec3> = cut.corners(piece).iter().map(|c| cut.position(mesh, *c)).collect();
         let fan = corners.windows(2).skip(1).map(|pair| (pair[0] - corners[0]).cross(pair[1] - corners[0]));
@@ -236,7 +239,7 @@ mod tests {
                 *sides.entry([a.min(b), a.max(b)]).or_default() += if a < b { 1 } else { -1 };
             }
         }
-        // A closed surface stays closed: every side is run through both ways.
+        // A closed surface stays closed: every side is traversed in both directions.
         assert!(sides.values().all(|sum| *sum == 0));
         assert!(cut.pieces.len() > mesh.triangles.len() + 100);
     }
@@ -262,7 +265,7 @@ mod tests {
                 .border(level as u16)
                 .map(|(_, side)| side.map(|c| cut.position(&mesh, c) + mesh.origin))
                 .collect();
-            // The upper band lies on the left: the border runs down.
+            // The upper band is on the left, so the border runs down.
             assert!(border.iter().all(|[a, b]| (a.x - at).abs().max((b.x - at).abs()) < 1e-12 && a.y > b.y));
             assert!((border.iter().map(|[a, b]| a.y - b.y).sum::<f64>() - 1.0).abs() < 1e-12);
         }

@@ -1,7 +1,7 @@
 //! The field n·v, whose zero set is the contour, and level sets of fields on rounded surfaces.
 //!
 //! 1. n·v is evaluated at every smooth vertex (Hertzmann and Zorin 2000, §4.1).
-//! 2. Near its zero set it is smoothed by as much as the page can show.
+//! 2. Near its zero set it is smoothed, by a radius of a few px.
 //! 3. Coarse surfaces are refined where the contour may pass (Hertzmann and Zorin 2000, §4.3).
 //! 4. Rounded faces are cut along level sets into pieces that share their borders (Claes et al. 2001).
 //!

@@ -1,4 +1,4 @@
-//! [`Lamp`]: one light in local space, with its fall-off and its cone.
+//! [`Lamp`]: one light in local space, with fall-off and spot cone.
 
 use glam::DVec3;
 
@@ -11,42 +11,42 @@ use crate::view::Frame;
 /// One light in local space.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Lamp {
-    /// From where it shines.
+    /// Direction or position of the light.
     pub reach: Reach,
-    /// Factor of its light.
+    /// Brightness factor.
     pub brightness: f64,
-    /// Light at the middle of the model, for weighing lights against each other.
+    /// Light at the centre of the model, for weighting lights against each other.
     pub weight: f64,
-    /// Tint, channels as written.
+    /// Tint, channels as written (sRGB).
     pub colour: [f64; 3],
-    /// The number of its tint among those of all lights.
+    /// Index of its tint among those of all lights.
     pub hue: usize,
     /// Whether it may cast shadows.
     pub shadows: bool,
-    /// Its bit among those that cast shadows.
+    /// Its bit in a shadow mask, if it casts shadows.
     pub caster: Option<u32>,
 }
 
-/// Light near a point.
+/// Light near a point, with bounds for the surroundings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Near {
     /// Unit vector to the light.
     pub towards: DVec3,
-    /// How much of it gets to the point.
+    /// Amount that reaches the point.
     pub amount: f64,
-    /// By how much its direction may differ nearby, radians.
+    /// Largest difference of its direction nearby, radians.
     pub turn: f64,
-    /// By what factor its amount may differ nearby.
+    /// Largest factor between amounts nearby.
     pub factor: f64,
 }
 
-/// Bounds are known for no more than this part of the distance.
+/// Largest extent, as a share of the distance, for a bound.
 pub(crate) const LARGEST_EXTENT: f64 = 0.4;
 
-/// The turn of a direction, as a factor of that part, up to [`LARGEST_EXTENT`].
+/// Turn of the direction per unit of that share, radians, up to [`LARGEST_EXTENT`].
 pub(crate) const EXTENT_TO_TURN: f64 = 1.1;
 
-/// From where a lamp shines.
+/// Direction or position of a lamp.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Reach {
     /// Parallel light.
@@ -55,25 +55,25 @@ pub(crate) enum Reach {
     Point { position: DVec3, falloff: FallOff, cone: Option<Cone> },
 }
 
-/// How light grows weaker with the distance d.
+/// Fall-off of light with the distance d.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum FallOff {
-    /// It does not.
+    /// No fall-off.
     None,
-    /// 1/(1 + (d/D)²): half is left at D, and nothing is ever infinite.
+    /// 1/(1 + (d/D)²): half is left at D, and the value is finite everywhere.
     Half(f64),
-    /// 1/d², at most 1/nearest², and gone at the range if there is one (KHR_lights_punctual).
+    /// 1/d², at most 1/nearest², and zero from the range on if there is one (KHR_lights_punctual).
     Square { nearest: f64, range: Option<f64> },
 }
 
-/// The cone of a spot light.
+/// Cone of a spot light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Cone {
     /// Axis, away from the light.
     axis: DVec3,
     /// Cosine of the angle outside which there is no light.
     outer: f64,
-    /// 1/(cosine of the angle inside which it is full − `outer`).
+    /// 1/(cosine of the angle inside of full light − `outer`).
     slope: f64,
 }
 
@@ -91,12 +91,11 @@ impl Lamp {
         Self { reach, brightness, weight: brightness, colour, hue: 0, shadows: true, caster: None }
     }
 
-    /// The lights of a model, scaled together such that the brightest gives 1 where the
-    /// camera looks.
+    /// Lights of a model, scaled together so that the brightest gives 1 at the camera's target.
     ///
-    /// A file's lux and candela suit its renderer's exposure, not drawings. Those without light are
-    /// left out. A lamp near the target counts as a quarter of the frame's longer side away, and one that
-    /// shines elsewhere as if it were aimed at the target: the scale must not hang on a hair.
+    /// A file's lux and candela suit the exposure of its renderer, not drawings. Lights without intensity are
+    /// left out. A lamp near the target counts as a quarter of the frame's longer side away, and a lamp aimed
+    /// elsewhere as if aimed at the target. Otherwise small changes would alter the scale of all lights.
     pub fn of_model(lights: &[Light], origin: DVec3, frame: &Frame) -> Vec<Self> {
         let shines = |light: &&Light| light.intensity.is_finite() && light.intensity > 0.0;
         let mut lamps: Vec<Self> =
@@ -112,13 +111,13 @@ impl Lamp {
         lamps
     }
 
-    /// Whether its bit is set.
+    /// Whether its bit is set in a shadow mask.
     pub fn is_shadowed(&self, shadowed: u32) -> bool {
         self.caster.is_some_and(|bit| shadowed >> bit & 1 == 1)
     }
 
-    /// Its light at a point and how that may vary within `extent` of it; none where the light is too
-    /// near to tell, has a cone, or ends at a range.
+    /// Light at a point, with bounds within `extent` of it. `None` where the light is too near, has a cone,
+    /// or ends at a range.
     pub fn near(&self, point: DVec3, extent: f64) -> Option<Near> {
         let (towards, amount) = self.at(point);
         match &self.reach {
@@ -138,7 +137,7 @@ impl Lamp {
         }
     }
 
-    /// Unit vector from a point to the light, and how much of it gets there.
+    /// Unit vector from a point to the light, and the amount that reaches the point.
     pub fn at(&self, point: DVec3) -> (DVec3, f64) {
         match &self.reach {
             Reach::Parallel { towards } => (*towards, self.brightness),
@@ -170,14 +169,14 @@ impl FallOff {
 }
 
 impl Cone {
-    /// Share of the light in a direction away from it.
+    /// Share of the light in a direction away from the lamp.
     fn at(&self, away: DVec3) -> f64 {
         let share = ((away.dot(self.axis) - self.outer) * self.slope).clamp(0.0, 1.0);
         share * share
     }
 }
 
-/// A light of the model in local space, not yet scaled; none if it has no sound direction.
+/// Light of the model in local space, not yet scaled; `None` if its direction is invalid.
 fn of_light(light: &Light, origin: DVec3, frame: &Frame) -> Option<Lamp> {
     let size = frame.side_at(frame.focus);
     let size = if size > 0.0 && size.is_finite() { size } else { 1.0 };

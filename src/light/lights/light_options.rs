@@ -1,4 +1,4 @@
-//! Which lights shine, and from where: the `[light]` table of a style sheet.
+//! [`LightOptions`]: the lights of a drawing, from the `[light]` table of a style sheet.
 
 use glam::DVec3;
 use serde::de::Error;
@@ -7,10 +7,10 @@ use serde::{Deserialize, Deserializer};
 use crate::colour::colour_factor::Factor;
 use crate::colour::srgb::Colour;
 
-/// Which lights shine on the model.
+/// Lights of a drawing.
 ///
-/// Lights of the model and of the sheet shine together; where there is neither, a light fixed to
-/// the camera does, from the left above the viewer.
+/// Lights of the model and of the style sheet shine together. Without any, a light fixed to the camera shines
+/// from the upper left.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct LightOptions {
@@ -18,13 +18,13 @@ pub struct LightOptions {
     pub from_model: bool,
     /// Further lights. Default: none.
     pub sources: Vec<LightSource>,
-    /// Light that comes from everywhere, a_g of Lake et al. 2000, eq. 1. Default: 0.
+    /// Light from all directions, a_g of Lake et al. 2000, eq. 1. Default: 0.
     pub ambient: Factor,
-    /// How far light wraps round a surface, 0 to 1: the diffuse light is (L·n + wrap)/(1 + wrap),
-    /// at least 0. Default: 0.
+    /// Wrap of light round a surface, 0 to 1: the diffuse light is (L·n + wrap)/(1 + wrap), at least 0.
+    /// Default: 0.
     #[serde(deserialize_with = "fraction")]
     pub wrap: f64,
-    /// How much darker a point is that sees nothing of the sky, 0 to 1. Default: 0.
+    /// Darkening of a point that sees none of the sky, 0 to 1. Default: 0.
     #[serde(deserialize_with = "fraction")]
     pub occlusion: f64,
 }
@@ -39,19 +39,19 @@ impl Default for LightOptions {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(try_from = "SourceTable")]
 pub struct LightSource {
-    /// Directional or point, with its place.
+    /// Directional or point, with direction or position.
     pub kind: SourceKind,
-    /// What its directions and positions are relative to.
+    /// Space of its direction or position.
     pub space: Space,
-    /// Tint of what it lights; does not change where tones end.
+    /// Tint of lit surfaces; does not change where tones end.
     pub colour: Colour,
-    /// Factor of the light it gives, at least 0. Default: 1.
+    /// Brightness factor, at least 0. Default: 1.
     pub brightness: f64,
     /// Whether it casts shadows where shadows are drawn. Default: true.
     pub shadows: bool,
 }
 
-/// Where light comes from.
+/// Direction or position of a light.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum SourceKind {
     /// Parallel light.
@@ -61,27 +61,26 @@ pub enum SourceKind {
     },
     /// Light from a point.
     Point {
-        /// Where it is.
+        /// Its position.
         position: DVec3,
-        /// The distance D at which half its light is left: 1/(1 + (d/D)²). `None`: it reaches
-        /// everywhere alike.
+        /// Distance D where half its light is left: 1/(1 + (d/D)²). `None`: no fall-off.
         falloff: Option<f64>,
     },
 }
 
-/// What directions and positions of lights are relative to.
+/// Space of directions and positions of lights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Space {
-    /// The model's own axes and zero.
+    /// The model's own axes and origin.
     #[default]
     World,
-    /// The eye, in world units: x right, y up, z to the viewer.
+    /// The eye's axes, in world units: x right, y up, z to the viewer.
     Camera,
 }
 
 impl Default for LightSource {
-    /// The key light: from the left above the viewer.
+    /// The key light, from the upper left of the viewer.
     fn default() -> Self {
         Self {
             kind: SourceKind::Directional { direction: DVec3::new(-0.4, 0.6, 0.7) },
@@ -93,7 +92,7 @@ impl Default for LightSource {
     }
 }
 
-/// A light as it is written.
+/// Light as written in a style sheet.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct SourceTable {
@@ -165,7 +164,7 @@ impl TryFrom<SourceTable> for LightSource {
     }
 }
 
-/// A number from 0 to 1.
+/// Reads a number from 0 to 1.
 pub(crate) fn fraction<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let value = f64::deserialize(deserializer)?;
     if (0.0..=1.0).contains(&value) {

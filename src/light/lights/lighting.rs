@@ -1,4 +1,4 @@
-//! [`Lighting`]: the lights of a drawing in local space, and how much of each reaches a point.
+//! [`Lighting`]: the lights of a drawing in local space, and the light that reaches a point.
 
 use std::f64::consts::PI;
 
@@ -14,7 +14,7 @@ use crate::mesh::Mesh;
 use crate::scene::Scene;
 use crate::view::Frame;
 
-/// No more lights than this cast shadows.
+/// Largest number of lights that cast shadows.
 pub const GREATEST_CASTERS: usize = 8;
 
 /// A light that casts shadows, in local space.
@@ -27,37 +27,36 @@ pub enum Caster {
     },
     /// Light from a point.
     Point {
-        /// Where it is.
+        /// Position.
         position: DVec3,
     },
 }
 
-/// A point of the surface, as light falls on it.
+/// Point of the surface where light is evaluated.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePoint {
-    /// Where it is, local space.
+    /// Position, local space.
     pub position: DVec3,
-    /// Unit normal of the side that the eye sees, local space; a surface without one counts as
-    /// turned to the eye.
+    /// Unit normal of the visible side, local space. A surface without normal counts as turned to the eye.
     pub normal: DVec3,
-    /// How much of the sky it sees, 0 (none) to 1 (all).
+    /// Share of the sky it sees, 0 (none) to 1 (all).
     pub openness: f64,
 }
 
-/// Which lights count.
+/// Selection of lights.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Of {
     All,
-    /// The one of this number.
+    /// The light with this index.
     Lamp(usize),
-    /// Those of this tint, by its number.
+    /// The lights with this tint, by index.
     Hue(usize),
 }
 
-/// Tints that differ by less than this in every channel look alike.
+/// Largest difference per channel between tints that count as one.
 const ONE_HUE: f64 = 0.125;
 
-/// Gives each light the number of its tint, and says what these are: of lights that look alike the mean by their weights.
+/// Assigns each light the index of its tint, and returns the tints. Similar tints give their mean by weight.
 fn part_by_hue(lamps: &mut [Lamp]) -> Vec<[f64; 3]> {
     let mut firsts: Vec<[f64; 3]> = Vec::new();
     let mut sums: Vec<([f64; 3], f64)> = Vec::new();
@@ -78,23 +77,24 @@ fn part_by_hue(lamps: &mut [Lamp]) -> Vec<[f64; 3]> {
     firsts.into_iter().zip(sums).map(mean).collect()
 }
 
-/// The lights of a drawing in local space, and how much of each reaches a point.
+/// Lights of a drawing in local space.
 #[derive(Debug, Clone)]
 pub struct Lighting {
     lamps: Vec<Lamp>,
-    /// The tints of the lights, those that look alike as one.
+    /// Tints of the lights; similar ones are merged.
     hues: Vec<[f64; 3]>,
     casters: Vec<Caster>,
     frame: Option<Frame>,
     wrap: f64,
     occlusion: f64,
-    /// How far from what the camera looks at the eye and parallel lights stand for highlights, if not where they are.
+    /// Distance of the eye and of parallel lights from the camera's target for highlights, world units, if it
+    /// is changed.
     near: Option<f64>,
 }
 
 impl Lighting {
-    /// The lights of a model and a style sheet, for a mesh seen by a camera; the first eight that
-    /// may do so cast shadows if `cast_shadows` is set.
+    /// Lights of a model and a style sheet, for a mesh seen by a camera. With `cast_shadows`, the first eight
+    /// lights that may do so cast shadows.
     #[must_use]
     pub fn new(
         scene: &Scene,
@@ -138,8 +138,8 @@ impl Lighting {
         Self { lamps, hues, casters, frame: Some(*frame), wrap, occlusion, near: None }
     }
 
-    /// The same with the eye and parallel lights so many sides of the frame from what the camera looks at, where highlights are
-    /// asked; 0 leaves them where they are.
+    /// Moves the eye and parallel lights to `sides` frame sides from the camera's target, for highlights
+    /// only; 0 leaves them in place.
     #[must_use]
     pub fn near_for_highlights(self, sides: f64) -> Self {
         let far = self.frame.map(|frame| sides * frame.side_at(frame.focus)).filter(|far| *far > 0.0);
@@ -163,7 +163,7 @@ impl Lighting {
         }
     }
 
-    /// The lights that cast shadows; the index of each is its bit in `shadowed`.
+    /// Lights that cast shadows; the index of each is its bit in `shadowed`.
     #[must_use]
     pub fn casters(&self) -> &[Caster] {
         &self.casters
@@ -175,21 +175,22 @@ impl Lighting {
         self.lamps.len()
     }
 
-    /// Whether light varies from place to place on a flat surface.
+    /// Whether light varies over a flat surface.
     #[must_use]
     pub fn is_local(&self) -> bool {
         self.occlusion > 0.0 || self.lamps.iter().any(|lamp| !matches!(lamp.reach, Reach::Parallel { .. }))
     }
 
-    /// By how much parallel light changes with the normal.
+    /// Bounds for the change of parallel light with the normal.
     #[must_use]
     pub fn slope(&self) -> Slope {
         let most = self.lamps.iter().map(|lamp| lamp.weight / (1.0 + self.wrap)).sum();
         Slope { most, dips: self.lamps.len() > 1 }
     }
 
-    /// The tint that all lights give together: their colours, weighed by brightness (Ishaya 2003:
-    /// tinting each point by the light that reaches it would spoil the steps). White without light.
+    /// Tint of all lights together: their colours weighted by brightness; white without light.
+    ///
+    /// Tinting each point by the light that reaches it would spoil the steps (Ishaya 2003).
     #[must_use]
     pub fn tint(&self) -> [f64; 3] {
         let total: f64 = self.lamps.iter().map(|lamp| lamp.weight).sum();
@@ -200,13 +201,13 @@ impl Lighting {
         [0, 1, 2].map(|c| channel(c) / total)
     }
 
-    /// The tints of the lights, those that look alike as one.
+    /// Tints of the lights; similar ones are merged.
     #[must_use]
     pub fn hues(&self) -> &[[f64; 3]] {
         &self.hues
     }
 
-    /// Diffuse light of some of the lights that are not `shadowed`: the sum of brightness, fall-off and
+    /// Diffuse light of the selected lights that are not `shadowed`: the sum of brightness · fall-off ·
     /// max(L·n, 0).
     #[must_use]
     pub(crate) fn diffuse(&self, of: Of, point: &SurfacePoint, shadowed: u32) -> f64 {
@@ -216,7 +217,7 @@ impl Lighting {
         light * self.open(point)
     }
 
-    /// Some of the lights that are not `shadowed`.
+    /// Selected lights that are not `shadowed`.
     fn chosen(&self, of: Of, shadowed: u32) -> impl Iterator<Item = &Lamp> {
         let is_chosen = move |(k, lamp): &(usize, &Lamp)| match of {
             Of::All => true,
@@ -227,8 +228,8 @@ impl Lighting {
         chosen.filter(move |lamp| !lamp.is_shadowed(shadowed))
     }
 
-    /// Strength of the highlight: the sum of brightness, fall-off and (n·h)^exponent over the
-    /// lights that are not `shadowed`; see [`specular::blinn_phong`].
+    /// Strength of the highlight: the sum of brightness · fall-off · (n·h)^exponent over the lights that are
+    /// not `shadowed`; see [`specular::blinn_phong`].
     #[must_use]
     pub fn specular(&self, point: &SurfacePoint, exponent: f64, shadowed: u32) -> f64 {
         let Some(frame) = &self.frame else { return 0.0 };
@@ -244,7 +245,7 @@ impl Lighting {
         self.lit(shadowed).map(of).sum()
     }
 
-    /// Bounds of the diffuse light of some of the lights; see [`crate::light::Shading::range`].
+    /// Bounds of the diffuse light of the selected lights; see [`crate::light::Shading::range`].
     pub(crate) fn diffuse_range(
         &self,
         of: Of,
@@ -292,8 +293,8 @@ impl Lighting {
                 (near.towards, near.turn) = (towards, EXTENT_TO_TURN * extent / way);
             }
             let half = (near.towards + to_eye).normalize_or_zero();
-            // Half-way between two directions turns as far as both together, at most, while these lie
-            // within a right angle; beyond it there is no telling.
+            // The half vector turns by at most the sum of both turns, while the two directions are within a
+            // right angle. Otherwise there is no bound.
             if near.towards.dot(to_eye) < 0.0 {
                 return ANYTHING;
             }
@@ -303,7 +304,7 @@ impl Lighting {
         (0.0, high)
     }
 
-    /// The direction to the eye and how far away it is, as highlights have it; infinitely far in parallel views.
+    /// Direction and distance to the eye for highlights; the distance is infinite in parallel views.
     fn eye_of_highlights(&self, frame: &Frame, position: DVec3) -> (DVec3, f64) {
         match self.near {
             Some(near) => {
@@ -315,7 +316,7 @@ impl Lighting {
         }
     }
 
-    /// The direction to a parallel light that stands near where highlights are asked, and how far away it is.
+    /// Direction and distance to a parallel light moved near for highlights; `None` for other lights.
     fn towards_for_highlights(&self, frame: &Frame, lamp: &Lamp, position: DVec3) -> Option<(DVec3, f64)> {
         let Reach::Parallel { towards } = lamp.reach else { return None };
         let way = frame.target() + towards * self.near? - position;
@@ -331,7 +332,7 @@ impl Lighting {
         amount * ((towards.dot(normal) + self.wrap) / (1.0 + self.wrap)).max(0.0)
     }
 
-    /// The normal; where there is none, the direction to the eye.
+    /// The normal or, without one, the direction to the eye.
     fn normal(&self, point: &SurfacePoint) -> DVec3 {
         match &self.frame {
             Some(frame) if point.normal == DVec3::ZERO || !point.normal.is_finite() => {
@@ -341,18 +342,18 @@ impl Lighting {
         }
     }
 
-    /// What is left of light where nooks are darker.
+    /// Share of the light left after ambient occlusion.
     fn open(&self, point: &SurfacePoint) -> f64 {
         1.0 - self.occlusion * (1.0 - point.openness.clamp(0.0, 1.0))
     }
 }
 
-/// Bounds where nothing is known.
+/// Bounds that exclude nothing.
 const ANYTHING: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
 
-/// A light of the style sheet in local space.
+/// Light of the style sheet in local space.
 fn of_source(source: &LightSource, origin: DVec3, frame: &Frame) -> Lamp {
-    // Camera space has z to the viewer, the frame's third axis goes away from the eye.
+    // Camera space has z towards the viewer; the frame's third axis points away from the eye.
     let turned = |v: DVec3| frame.right * v.x + frame.up * v.y - frame.forward * v.z;
     let colour = source.colour.channels();
     let lamp = match (source.kind, source.space) {

@@ -1,10 +1,10 @@
-//! Highlights: how strongly a surface mirrors a light into the eye.
+//! Highlights: specular reflection of a light towards the eye.
 
 use glam::DVec3;
 
 use crate::geometry::numbers::portable_math::pow;
 
-/// (n·h)^exponent, with h half-way between the light and the eye; 0 to 1.
+/// (n·h)^exponent, with h halfway between the light and the eye; 0 to 1.
 ///
 /// Source: Blinn, Models of light reflection for computer synthesized pictures, 1977; for cartoons
 /// as in Lake et al. 2000, section 3.2.

@@ -75,14 +75,15 @@ fn n_tones_go_in_even_steps() {
     assert_eq!(steps.levels(FIRST, 0)[63], 0.5);
     assert_eq!((steps.colour(FIRST, 0), steps.colour(FIRST, 127)), (Colour::BLACK, ORANGE));
 
-    // Of all materials that without a name has most shades, 103 from 102 to 204; the others have as many steps.
+    // The default material, which has no name, has the most shades: 103, from 102 to 204. The others get the
+    // same number of steps.
     let shades = toned(&grey(0.5, Scale::Steps(256)));
     assert_eq!(shades.levels(FIRST, 0).len(), 102);
     let reds = colours(&shades, FIRST, 103).iter().map(|c| c.r).collect::<Vec<_>>();
     assert_eq!((reds[0], reds[102]), (100, 200));
     assert!(reds.windows(2).all(|pair| pair[1] - pair[0] <= 1), "{reds:?}");
 
-    // One tone alone is the material itself.
+    // A single tone is the material itself.
     let flat = toned(&grey(0.5, Scale::Thresholds(Vec::new())));
     assert_eq!((flat.colour(FIRST, 0), flat.tone(FIRST, &[0])), (ORANGE, 0));
 }
@@ -120,7 +121,7 @@ fn coloured_light_tints_what_is_lit() {
     assert_eq!(colours(&tinted, FIRST, 2), [Colour::rgb(100, 100, 100), Colour::rgb(200, 100, 100)]);
 }
 
-/// Lights from two sides, in these colours.
+/// Lights from two sides in these colours.
 fn from_both_sides(colours: [Colour; 2]) -> LightOptions {
     let source = |x: f64, colour: Colour| LightSource {
         kind: SourceKind::Directional { direction: DVec3::new(x, -1.0, 0.0) },
@@ -169,7 +170,7 @@ fn lights_that_look_alike_are_one_light() {
     assert_eq!(channels(&from_both_sides([Colour::WHITE, cream]), &options), 1);
     let red = from_both_sides([Colour::WHITE, Colour::rgb(255, 0, 0)]);
     assert_eq!(channels(&red, &options), 3);
-    // A gradient has the mean of their tints.
+    // A gradient uses the mean of their tints.
     let (gradient, _) = shading(&scene, &red, &grey(0.5, Scale::Steps(128)));
     assert!(gradient.levels(FIRST, 1).is_empty() && gradient.levels(FIRST, 0).len() > 64);
 }
@@ -186,7 +187,8 @@ fn highlights_are_tones_above_the_others() {
     let (gloss, _) = shading(&scene(&[("body", ORANGE)]), &light, &options);
     assert_eq!((gloss.channels(), gloss.levels(FIRST, 1)), (2, &[0.4, 0.8][..]));
 
-    // Seen from −y and lit from 45 degrees above, a surface mirrors the light half-way between.
+    // Seen from −y and lit from 45 degrees above, a surface mirrors the light if its normal is halfway
+    // between.
     let half = (direction.normalize() + DVec3::NEG_Y).normalize();
     let value = |normal: DVec3, shadowed| gloss.value(1, FIRST, &point(DVec3::ZERO, normal), shadowed);
     near(value(half, 0), 1.0);
@@ -201,7 +203,7 @@ fn highlights_are_tones_above_the_others() {
     assert_eq!(gloss.colour(FIRST, 3), Colour::WHITE);
 }
 
-/// A material that shines so.
+/// Material with this gloss.
 fn glossy(name: &str, exponent: f32, strength: f32) -> Material {
     let gloss = Some(Gloss { exponent, strength });
     Material { name: name.to_owned(), colour: ORANGE, gloss, ..Material::default() }
@@ -231,7 +233,7 @@ fn materials_shine_as_their_file_says_or_a_rule() {
     near(value(&by_file, 0), crate::geometry::numbers::portable_math::pow(cosine, 100.0));
     near(value(&by_file, 1), crate::geometry::numbers::portable_math::pow(cosine, 10.0));
     near(value(&by_rule, 0), crate::geometry::numbers::portable_math::pow(cosine, 7.0));
-    // What does not shine has no highlight, what shines less a weaker one.
+    // Without gloss there is no highlight; weaker gloss gives a weaker one.
     assert!(by_file.levels(PaintId(2), 1).is_empty() && !by_file.levels(PaintId(1), 1).is_empty());
     assert_eq!(by_file.colour(PaintId(1), 2), by_file.colour(PaintId(1), 1).mix(Colour::WHITE, 0.5));
 }
@@ -297,7 +299,7 @@ fn a_table_is_looked_up_by_two_lights() {
     near(shading_.value(2, FIRST, &at, 0), 0.4);
     let tones = [[0, 0, 0], [0, 1, 0], [0, 0, 1], [0, 1, 1]].map(|bands| shading_.tone(FIRST, &bands));
     assert_eq!(tones, [0, 1, 1, 2]);
-    // 1.5 times shade and material, cut off at 1.
+    // 1.5 times shade times material, cut off at 1.
     let wanted = [Colour::rgb(60, 36, 12), Colour::rgb(120, 72, 24), Colour::rgb(255, 180, 60)];
     assert_eq!(colours(&shading_, FIRST, 3), wanted);
 
@@ -331,7 +333,7 @@ fn materials_are_changed_by_name() {
     assert_eq!(shading_.levels(PaintId(1), 0), [0.25, 0.5, 0.75]);
     assert_eq!((shading_.levels(FIRST, 1).len(), shading_.levels(PaintId(1), 1).len()), (0, 1));
     assert_eq!((shading_.colour(FIRST, 1), shading_.colour(PaintId(1), 3)), (ORANGE, Colour::WHITE));
-    // What has no material is light grey, whatever its number.
+    // Surfaces without material are light grey, for any index.
     for without in [2, 77].map(PaintId) {
         assert_eq!(shading_.colour(without, 1), Colour::rgb(204, 204, 204));
     }

@@ -1,4 +1,4 @@
-//! Light that falls on points.
+//! Light at points.
 
 use glam::DVec3;
 
@@ -59,7 +59,8 @@ fn light_between_normals_lies_within_its_slope() {
         let (shading, _) = shading(&Scene::default(), &light, &ToneOptions::default());
         let at = |normal: DVec3| shading.value(0, ANY, &point(DVec3::ZERO, normal), 0);
         for k in 0..400 {
-            // Triangles of unit vectors, most of them small, on the terminators of the first two lights every other one.
+            // Triangles of unit vectors, mostly small. Every other one is on the terminators of the first two
+            // lights.
             let unit =
                 |axis: u64| crate::geometry::numbers::noise::hash(k, &[axis]) as f64 / u64::MAX as f64 - 0.5;
             let middle = DVec3::new(if k % 2 == 0 { 0.0 } else { unit(0) }, unit(1), unit(2)).normalize();
@@ -123,7 +124,7 @@ fn lights_of_the_camera_turn_with_it() {
             let frame = frame(eye);
             let shading =
                 Shading::new(&Scene::default(), &[], &mesh(), &frame, &light, &tones, &mut Vec::new());
-            // A point that stands the same to either camera.
+            // Point with the same position relative to either camera.
             let normal = frame.right * 0.36 + frame.up * 0.48 - frame.forward * 0.8;
             let position = frame.eye + frame.forward * 5.0 - frame.right;
             shading.value(0, ANY, &point(position, normal), 0)
@@ -131,7 +132,7 @@ fn lights_of_the_camera_turn_with_it() {
         near(first, second);
         assert!(first > 0.1);
     }
-    // Without any light there is one to the left above the viewer.
+    // Without lights, there is one to the upper left of the viewer.
     let key = DVec3::new(-0.4, 0.6, 0.7).normalize();
     let world = DVec3::new(key.x, -key.z, key.y);
     near(value(&LightOptions::default(), DVec3::ZERO, world), 1.0);

@@ -10,7 +10,7 @@ use crate::mesh::Mesh;
 use crate::scene::{Camera, Projection, Scene};
 use crate::view::Frame;
 
-/// A camera at `eye` that looks at the zero of the world, z up.
+/// Camera at `eye` that looks at the world origin, z up.
 fn frame(eye: DVec3) -> Frame {
     let projection = Projection::Orthographic { height: 2.0 };
     let camera = Camera {
@@ -29,7 +29,7 @@ fn mesh() -> Mesh {
     Mesh::default()
 }
 
-/// The shading of a scene seen from in front, and its warnings.
+/// Shading of a scene seen from the front, and its warnings.
 fn shading(scene: &Scene, light: &LightOptions, tones: &ToneOptions) -> (Shading, Vec<String>) {
     let mut warnings = Vec::new();
     let frame = frame(DVec3::new(0.0, -9.0, 0.0));

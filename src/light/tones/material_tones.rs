@@ -1,9 +1,11 @@
 //! [`Tones`]: the levels and colours of one material.
 //!
-//! Source: Lake, Marshall, Harris, Blackstein, Stylized rendering techniques for scalable real-time
-//! 3D animation, 2000, eq. 1 and section 3. Colours are reckoned in channels as written (sRGB), as
-//! the hardware of the paper did. The ambient coefficient of the light is a colour here, somewhat
-//! cooler than white by default, so that shadows are cooler than lit surfaces.
+//! Source: Lake, Marshall, Harris, Blackstein, Stylized rendering techniques for scalable real-time 3D
+//! animation, 2000, eq. 1 and section 3.
+//!
+//! Colours are computed in channels as written (sRGB), as on the hardware of the paper. Deviation: the
+//! ambient coefficient of the light is a colour, slightly cooler than white by default, so that shadows are
+//! cooler than lit surfaces.
 
 use super::tone_options::{Colours, Gooch, Highlight, Scale, ToneOptions};
 use super::tone_ramps::Table;
@@ -11,61 +13,61 @@ use crate::colour::colour_factor::Factor;
 use crate::colour::srgb::Colour;
 use crate::scene::material::Gloss;
 
-/// The greatest channel of a material in toned colours is at least this: on blacker ones neither
-/// tones nor lines could be told apart.
+/// Smallest value of the largest channel of a material in toned colours. On darker ones, neither tones nor
+/// lines could be distinguished.
 const LEAST_LIT: f64 = 0.19;
 
-/// What a channel of a drawing is about.
+/// Quantity in a channel of a drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Channel {
-    /// The diffuse light of all lights.
+    /// Diffuse light of all lights.
     Diffuse,
-    /// The diffuse light of one light alone, by its number.
+    /// Diffuse light of one light, by its index.
     Light(usize),
-    /// The diffuse light of the lights of one tint, by its number.
+    /// Diffuse light of the lights of one tint, by its index.
     Hue(usize),
-    /// The strength of the highlight.
+    /// Strength of the highlight.
     Highlight,
-    /// The diffuse light of all lights again, for hatching: its bins are not those of the tones.
+    /// Diffuse light of all lights again, with the bins of hatching as levels.
     Shade,
 }
 
-/// How a surface looks and is lit, as far as it gives tones their colours.
+/// Properties of a surface and its light that determine the colours of tones.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Look<'a> {
     /// Base colour.
     pub colour: Colour,
-    /// Light of its own: no tone is darker.
+    /// Emitted light; no tone is darker.
     pub emissive: Colour,
-    /// Light from everywhere.
+    /// Light from all directions.
     pub ambient: Factor,
-    /// Tint of the lights together.
+    /// Tint of all lights together.
     pub tint: [f64; 3],
-    /// How it shines, if its file says so.
+    /// Gloss of the material, if the file has one.
     pub gloss: Option<Gloss>,
-    /// Tints of the lights one by one, if tones are to be cut for each.
+    /// Tint of each light, if tones are computed separately.
     pub hues: &'a [[f64; 3]],
 }
 
-/// The levels and colours of one material.
+/// Levels and colours of one material.
 #[derive(Debug, Clone)]
 pub(crate) struct Tones {
-    /// Rising levels of each channel; none where the material does not ask for it.
+    /// Rising levels of each channel; none where the material does not use it.
     levels: Vec<Vec<f64>>,
-    /// Colours of the tones; those of highlights after the others.
+    /// Colours of the tones, those of highlights last.
     colours: Vec<Colour>,
-    /// How many of them are no highlights, at least 1.
+    /// Number of colours that are not highlights, at least 1.
     plain: usize,
-    /// The exponent of its highlights.
+    /// Exponent of the highlights.
     pub exponent: f64,
-    /// The table that two channels look tones up in.
+    /// Table of tones, indexed by two channels.
     table: Option<Table>,
-    /// Where lights have several tints: how they mix.
+    /// Mixture of lights, where they have several tints.
     mixture: Option<Mixture>,
 }
 
 impl Tones {
-    /// The tones of a material, with levels for these channels.
+    /// Tones of a material, with levels for these channels.
     pub fn new(options: &ToneOptions, look: &Look, channels: &[Channel]) -> Self {
         let mixture = Mixture::of(options, look.hues);
         let mut colours = match &mixture {
@@ -94,7 +96,7 @@ impl Tones {
         Self { levels, colours, plain, exponent, table, mixture }
     }
 
-    /// Adds levels for one more channel to the tones.
+    /// Adds the levels of one more channel.
     pub fn add_levels(&mut self, levels: Vec<f64>) {
         self.levels.push(levels);
     }
@@ -104,7 +106,7 @@ impl Tones {
         self.levels.get(channel).map_or(&[], Vec::as_slice)
     }
 
-    /// The tone of a point, from how many levels of each channel its values reach.
+    /// Tone of a point, from the number of levels that it reaches in each channel.
     pub fn tone(&self, channels: &[Channel], bands: &[u16]) -> u16 {
         let band = |wanted: Channel| {
             let index = channels.iter().position(|channel| *channel == wanted);
@@ -121,12 +123,13 @@ impl Tones {
         }
     }
 
-    /// How many tones there are, highlights counted.
+    /// Number of tones, including highlights.
     pub fn count(&self) -> u16 {
         self.colours.len() as u16
     }
 
-    /// How many shades its tones without highlights run through: steps of 1 in 255 that the channel takes which changes the most.
+    /// Number of shades that the tones without highlights run through: steps of 1/255 in the channel that
+    /// changes most.
     pub fn shades(&self) -> usize {
         let plain = &self.colours[..self.plain.min(self.colours.len())];
         let way = |channel: fn(&Colour) -> u8| -> usize {
@@ -135,7 +138,7 @@ impl Tones {
         way(|c| c.r).max(way(|c| c.g)).max(way(|c| c.b))
     }
 
-    /// The colour of a tone; the brightest where there is no such tone.
+    /// Colour of a tone; the last one for an index out of range.
     pub fn colour(&self, tone: u16) -> Colour {
         let colour = self.colours.get(usize::from(tone)).or(self.colours.last());
         colour.copied().unwrap_or(Colour::WHITE)
@@ -151,7 +154,7 @@ fn diffuse_levels(scale: &Scale) -> Vec<f64> {
     }
 }
 
-/// Colours of the tones that are no highlights, darkest first.
+/// Colours of the tones that are not highlights, darkest first.
 fn plain_colours(options: &ToneOptions, look: &Look) -> Vec<Colour> {
     let standing = |colours: &[Colour], modulate: f64| -> Vec<Colour> {
         colours
@@ -181,8 +184,8 @@ fn plain_colours(options: &ToneOptions, look: &Look) -> Vec<Colour> {
     }
 }
 
-/// Lake's eq. 1 with tinted shares in place of max(L·n, 0): ambient light of the scene and of the
-/// light, and the light's diffuse share, all times the material.
+/// Lake's eq. 1 with tinted shares in place of max(L·n, 0). It adds the ambient light of the scene and of the
+/// light to the diffuse share of the light, all times the material.
 fn lake(options: &ToneOptions, look: &Look, shares: [f64; 3], toned: bool) -> Colour {
     let mut material = look.colour.channels();
     let greatest = material.into_iter().fold(0.0, f64::max);
@@ -195,24 +198,25 @@ fn lake(options: &ToneOptions, look: &Look, shares: [f64; 3], toned: bool) -> Co
     Colour { a: look.colour.a, ..Colour::from_channels([0, 1, 2].map(channel)) }
 }
 
-/// How lights of several tints mix: each falls into tones of its own, and each set of these is a tone.
+/// Mixture of lights of several tints. Each light falls into its own tones, and each combination of these is
+/// a tone.
 ///
-/// Source: Ishaya, the table of two lights, with as many as there are tints.
+/// Source: Ishaya 2003, the table of two lights, here for any number of tints.
 #[derive(Debug, Clone)]
 struct Mixture {
-    /// Tones of each tint.
+    /// Number of tones of each tint.
     count: usize,
-    /// The tinted light of each tone, the darkest first.
+    /// Tinted light of each tone, the darkest first.
     shares: Vec<[f64; 3]>,
-    /// The tone of each set; the first tint counts in ones, the next in tones of the first, and so on.
+    /// Tone of each combination; the first tint is the lowest digit of its index, in base `count`.
     order: Vec<u16>,
 }
 
-/// More tones than this do not come of mixing lights: a gradient has the mean tint.
+/// Largest number of tones from mixed lights. A gradient uses the mean tint instead.
 const MOST_MIXED: usize = 64;
 
 impl Mixture {
-    /// How lights of these tints mix; none where their mean counts.
+    /// Mixture of lights of these tints; `None` where their mean is used.
     fn of(options: &ToneOptions, hues: &[[f64; 3]]) -> Option<Self> {
         if hues.len() < 2 || !matches!(options.colours, Colours::Material) {
             return None;
@@ -244,7 +248,7 @@ impl Mixture {
         Some(Self { count, shares: ranked.iter().map(|set| lights[*set]).collect(), order })
     }
 
-    /// The tone where each light reaches so many of its levels.
+    /// Tone for the number of levels that each light reaches.
     fn tone(&self, band: impl Fn(usize) -> u16) -> u16 {
         let (mut set, mut worth, mut hue) = (0, 1, 0);
         while worth < self.order.len() {
@@ -267,14 +271,14 @@ fn cool_to_warm(gooch: &Gooch, look: &Look, share: f64) -> Colour {
     Colour { a: look.colour.a, ..Colour::from_channels([0, 1, 2].map(channel)) }
 }
 
-/// A colour of a ramp times the material and the lights' tint, brighter by a factor and cut off at 1.
+/// Colour of a ramp times the material and the lights' tint, multiplied by a factor and cut off at 1.
 fn modulated(colour: Colour, factor: f64, look: &Look) -> Colour {
     let (shade, material) = (colour.channels(), look.colour.channels());
     let channels = [0, 1, 2].map(|c| factor * shade[c] * material[c] * look.tint[c]);
     Colour { a: look.colour.a.min(colour.a), ..Colour::from_channels(channels) }
 }
 
-/// Rising strengths at which highlights begin or change.
+/// Rising strengths where highlights begin or change.
 fn highlight_levels(highlight: &Highlight) -> Vec<f64> {
     highlight.ramp.as_ref().map_or_else(|| highlight.thresholds.clone(), |strip| strip.levels.clone())
 }
@@ -294,7 +298,8 @@ fn highlight_colours(highlight: &Highlight, brightest: Colour) -> Vec<Colour> {
     (1..=count).map(of).collect()
 }
 
-/// The k-th of `count` values spread evenly over a list, its ends included; of one alone the last.
+/// The k-th of `count` values spread evenly over a list, ends included; a single value is the last of the
+/// list.
 fn spread<T: Copy>(list: &[T], k: usize, count: usize, mix: impl Fn(T, T, f64) -> T) -> Option<T> {
     let last = list.len().checked_sub(1)?;
     if count <= 1 {

@@ -1,6 +1,6 @@
 //! Tones: steps of light on a surface, and their colours.
 //!
-//! 1. A scale gives the levels at which the tone changes: thresholds, even steps, a ramp or a table.
+//! 1. A scale gives the levels where the tone changes: thresholds, even steps, a ramp or a table.
 //! 2. Each material gets one colour per tone (Lake et al. 2000, eq. 1; Gooch et al. 1998; or a palette).
 //! 3. A view has channels, such as diffuse light and highlights. The levels that the channels reach at a
 //!    point give its tone.

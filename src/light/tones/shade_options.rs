@@ -1,22 +1,22 @@
-//! Into how many bins of light a hatched surface falls: part of the `[hatching]` table.
+//! [`ShadeOptions`]: bins of light for a hatched surface, part of the `[hatching]` table.
 
 use crate::colour::srgb::Colour;
 use crate::geometry::names::glob::Glob;
 
-/// Into which bins of light a hatched surface falls.
+/// Bins of light for a hatched surface.
 ///
 /// Source: Lake, Marshall, Harris, Blackstein, Stylized rendering techniques for scalable real-time 3D
-/// animation, 2000, section 3.3: edges of the bins are free, so that light and dark can be weighed
-/// against each other.
+/// animation, 2000, section 3.3: the edges of the bins are free, so light and dark can be weighted against
+/// each other.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShadeOptions {
-    /// Rising edges of the bins on the diffuse light, which is 0 in the shadow and 1 where one light falls
-    /// straight on; n edges part n + 1 bins. Default: 0.25, 0.5, 0.75.
+    /// Rising edges of the bins on the diffuse light, which is 0 in shadow and 1 where one light falls
+    /// straight on. n edges give n + 1 bins. Default: 0.25, 0.5, 0.75.
     pub thresholds: Vec<f64>,
-    /// How much a dark material is hatched more than a light one: 0 = alike, 1 = the light counts times
-    /// the material's lightness. Default: 0.
+    /// Influence of a material's lightness on hatching: 0 = none, 1 = the light is multiplied by the
+    /// lightness. Default: 0.
     pub materials_count: f64,
-    /// Edges of their own for some materials, in order.
+    /// Edges for some materials, in order.
     pub materials: Vec<(Glob, Vec<f64>)>,
 }
 
@@ -27,7 +27,7 @@ impl Default for ShadeOptions {
 }
 
 impl ShadeOptions {
-    /// The edges of the bins for a material of this name, painted in a colour.
+    /// Edges of the bins for a material with this name and colour.
     #[must_use]
     pub fn levels(&self, material: &str, colour: Colour) -> Vec<f64> {
         let own = self.materials.iter().rev().find(|(name, _)| name.matches(material));
@@ -39,5 +39,5 @@ impl ShadeOptions {
     }
 }
 
-/// The blackest material still takes this part of the light, so that its shape is seen.
+/// Smallest share of the light on the blackest material, so that its shape is visible.
 const LEAST_LIGHT: f64 = 0.05;

@@ -1,4 +1,4 @@
-//! [`Shading`]: how a view is lit, and into which tones its surface falls.
+//! [`Shading`]: the lighting of a view, and the tones of its surface.
 
 use glam::DVec3;
 
@@ -12,29 +12,29 @@ use crate::mesh::{Mesh, PaintId};
 use crate::scene::{Material, Paint, Scene};
 use crate::view::Frame;
 
-/// How a view is lit, and into which tones its surface falls.
+/// Lighting of a view, and the tones of its surface.
 ///
-/// What a point looks like follows from one or more *channels*: numbers that vary over the surface,
-/// such as the light that falls on it or the strength of its highlight. Each channel has rising
-/// levels, and where one of them is crossed the tone may change.
+/// The appearance of a point follows from *channels*: numbers that vary over the surface, such as diffuse
+/// light or the strength of a highlight. Each channel has rising levels, where the tone may change.
 ///
-/// Channel 0 is the diffuse light of all lights. Where a material asks for a table of two lights,
-/// the next two channels are the light of the first and of the second one alone; where lights have several tints, the next are
-/// the light of each tint; where one asks for
-/// highlights, the next is their strength; where surfaces are hatched, the last is the diffuse light with
-/// the bins of hatching as its levels.
+/// The channels are, in this order:
+/// - the diffuse light of all lights (channel 0);
+/// - if a material uses a table of two lights: the light of the first and of the second light alone;
+/// - if lights have several tints: the light of each tint;
+/// - if a material has highlights: their strength;
+/// - if surfaces are hatched: the diffuse light again, with the bins of hatching as its levels.
 #[derive(Debug, Clone)]
 pub struct Shading {
     lighting: Lighting,
     channels: Vec<Channel>,
     /// Tones of each paint.
-    // The last stand in for paints that are unknown.
+    // The last entry stands for unknown paints.
     tones: Vec<Tones>,
 }
 
 impl Shading {
-    /// The shading of a scene, whose mesh is seen by a camera; without paints, each material is one.
-    /// What had to be mended is added to the warnings.
+    /// Shading of a scene whose mesh is seen by a camera. Without paints, each material is one. Repairs are
+    /// added to the warnings.
     #[must_use]
     pub fn new(
         scene: &Scene,
@@ -85,7 +85,7 @@ impl Shading {
             }
         };
         let mut tones_of_paints = tones_of(&materials);
-        // All paints of a gradient keep the same steps: their tones end in the same places.
+        // All paints of a gradient get the same steps, so their tones end in the same places.
         let shades = tones_of_paints.iter().map(Tones::shades).max().unwrap_or_default();
         let fewer =
             |(own, ..): &(ToneOptions, &Material, Option<Colour>)| own.scale.clone().for_shades(shades);
@@ -100,7 +100,7 @@ impl Shading {
         }
     }
 
-    /// This shading with bins for hatching; `paints` as they were given before.
+    /// Adds the bins of hatching. `paints` are the same as in [`Shading::new`].
     #[must_use]
     pub fn with_bins(mut self, scene: &Scene, paints: &[Paint], options: &ShadeOptions) -> Self {
         self.channels.push(Channel::Shade);
@@ -115,13 +115,14 @@ impl Shading {
         self
     }
 
-    /// The channel whose levels are the bins of hatching, if there is one.
+    /// Channel whose levels are the bins of hatching, if there is one.
     #[must_use]
     pub fn bins(&self) -> Option<usize> {
         self.channels.iter().position(|channel| *channel == Channel::Shade)
     }
 
-    /// The most levels that any surface has in a channel, beside the bins of its hatching; 0 where none falls into several tones.
+    /// Largest number of levels of a surface in any channel except the bins of hatching; 0 where no surface
+    /// has several tones.
     #[must_use]
     pub fn most_levels(&self) -> usize {
         let others = || (0..self.channels.len()).filter(|channel| self.bins() != Some(*channel));
@@ -142,8 +143,8 @@ impl Shading {
         Self { lighting, channels, tones }
     }
 
-    /// The lights that cast shadows, at most 8, local space; the index of each is its bit in
-    /// `shadowed` of [`Shading::value`].
+    /// Lights that cast shadows, at most 8, local space. The index of each is its bit in `shadowed` of
+    /// [`Shading::value`].
     #[must_use]
     pub fn casters(&self) -> &[Caster] {
         self.lighting.casters()
@@ -155,15 +156,15 @@ impl Shading {
         self.channels.len()
     }
 
-    /// Whether a channel varies over a flat face: with the distance from a light, with the direction
-    /// to the eye, or with how much of the sky is seen. The others follow from the normal alone.
+    /// Whether a channel varies over a flat face: with the distance from a light, the direction to the eye,
+    /// or the visible share of the sky. Other channels depend on the normal alone.
     #[must_use]
     pub fn is_local(&self, channel: usize) -> bool {
         matches!(self.channels.get(channel), Some(Channel::Highlight)) || self.lighting.is_local()
     }
 
-    /// The least and the greatest value that a channel may have within `extent` of a point, where
-    /// the normal turns by no more than `turn` radians.
+    /// Smallest and largest value that a channel may have within `extent` of a point, where the normal turns
+    /// by at most `turn` radians.
     #[must_use]
     pub fn range(
         &self,
@@ -188,20 +189,19 @@ impl Shading {
         }
     }
 
-    /// By how much the value of a channel that is not local changes with the normal.
+    /// Bounds for the change with the normal of a channel that is not local.
     #[must_use]
     pub fn slope(&self) -> Slope {
         self.lighting.slope()
     }
 
-    /// The rising levels of a channel on a paint.
+    /// Rising levels of a channel on a paint.
     #[must_use]
     pub fn levels(&self, paint: PaintId, channel: usize) -> &[f64] {
         self.tones_of(paint).map_or(&[], |tones| tones.levels(channel))
     }
 
-    /// The value of a channel at a point that those lights do not reach whose bits are set in
-    /// `shadowed`.
+    /// Value of a channel at a point. Lights whose bits are set in `shadowed` do not reach it.
     #[must_use]
     pub fn value(&self, channel: usize, paint: PaintId, point: &SurfacePoint, shadowed: u32) -> f64 {
         match self.channels.get(channel) {
@@ -213,25 +213,25 @@ impl Shading {
         }
     }
 
-    /// The tone of a point, 0 the darkest, from how many levels of each channel its values reach.
+    /// Tone of a point, 0 the darkest, from the number of levels that it reaches in each channel.
     #[must_use]
     pub fn tone(&self, paint: PaintId, bands: &[u16]) -> u16 {
         self.tones_of(paint).map_or(0, |tones| tones.tone(&self.channels, bands))
     }
 
-    /// How many tones a paint has, highlights counted.
+    /// Number of tones of a paint, including highlights.
     #[must_use]
     pub fn tone_count(&self, paint: PaintId) -> u16 {
         self.tones_of(paint).map_or(1, Tones::count)
     }
 
-    /// The colour of a tone on a paint.
+    /// Colour of a tone on a paint.
     #[must_use]
     pub fn colour(&self, paint: PaintId, tone: u16) -> Colour {
         self.tones_of(paint).map_or(Colour::WHITE, |tones| tones.colour(tone))
     }
 
-    /// The exponent of the highlights of a paint.
+    /// Exponent of the highlights of a paint.
     fn exponent(&self, paint: PaintId) -> f64 {
         self.tones_of(paint).map_or(1.0, |tones| tones.exponent)
     }
@@ -241,5 +241,5 @@ impl Shading {
     }
 }
 
-/// Tones are cut for the lights of each tint where there are no more tints than this.
+/// Largest number of tints for which tones are computed separately.
 const MOST_HUES: usize = 3;

@@ -1,4 +1,4 @@
-//! Into which tones a surface falls and what colours they have: part of the `[fills]` table.
+//! [`ToneOptions`]: tones of a surface and their colours, part of the `[fills]` table.
 
 use serde::{Deserialize, Deserializer};
 
@@ -10,30 +10,29 @@ use crate::geometry::numbers::tolerance;
 use crate::light::lights::light_options::fraction;
 use crate::scene::material::Gloss;
 
-/// Into which tones the surface of a material falls, and what colours they have.
+/// Tones of the surface of a material, and their colours.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToneOptions {
     /// Where tones change. Default: one threshold at 0.5.
     pub scale: Scale,
-    /// Where the colours of tones come from. Default: the material.
+    /// Source of the colours of tones. Default: the material.
     pub colours: Colours,
-    /// How much light each tone shows, darkest first: 0 = as in the shadow, 1 = lit. Spread over
-    /// the tones; empty = even steps. Default: empty.
+    /// Share of light in each tone, darkest first: 0 = as in shadow, 1 = lit. Spread over the tones; empty =
+    /// even steps. Default: empty.
     pub tones: Vec<f64>,
-    /// What is left of the material's colour in the shadow, a_l of Lake et al. 2000, eq. 1.
-    /// Default: (0.7, 0.66, 0.78), somewhat cooler than the material.
+    /// Factor on the material's colour in shadow, a_l of Lake et al. 2000, eq. 1. Default: (0.7, 0.66, 0.78),
+    /// slightly cooler than the material.
     pub shadow: Factor,
-    /// What is left of the material's colour where it is lit; eq. 1's d_l is this less `shadow`.
-    /// Default: 1.
+    /// Factor on the material's colour where it is lit; d_l of eq. 1 is this minus `shadow`. Default: 1.
     pub lit: Factor,
-    /// Whether the colours of a palette, ramp or table multiply the material's, and how much
-    /// brighter: 0 = they stand as they are. Default: 0, and 1.5 for a table (Ishaya 2003).
+    /// Brightness factor of the colours of a palette, ramp or table, which then multiply the material's; 0 =
+    /// used unchanged. Default: 0, and 1.5 for a table (Ishaya 2003).
     pub modulate: Option<f64>,
     /// Highlights.
     pub highlight: Highlight,
     /// Whether surfaces cast shadows on each other. Default: false.
     pub cast_shadows: bool,
-    /// What is different for some materials, in order.
+    /// Changes for some materials, in order.
     pub materials: Vec<MaterialChange>,
 }
 
@@ -42,18 +41,19 @@ pub struct ToneOptions {
 pub enum Scale {
     /// At rising thresholds of the diffuse light.
     Thresholds(Vec<f64>),
-    /// At this many even steps of the diffuse light from 0 to 1; of a gradient at fewer, if its colours have no more shades.
+    /// At this many even steps of the diffuse light from 0 to 1. A gradient gets fewer if its colours have
+    /// fewer shades.
     Steps(usize),
     /// At the borders between the columns of a strip of colours.
     Ramp(Strip),
-    /// At the borders between the columns and rows of a table of colours, of the light of the
-    /// first and of the second light.
+    /// At the borders between the columns and rows of a table of colours, indexed by the first and the second
+    /// light.
     Table(Table),
 }
 
 impl Scale {
-    /// The scale for colours that run through so many shades: what is more than a few steps needs no more of them than
-    /// colours of 8 bits can tell apart.
+    /// Scale for colours that run through this many shades. A scale of more than a few steps needs no more of
+    /// them than there are distinct 8-bit colours.
     #[must_use]
     pub fn for_shades(self, shades: usize) -> Self {
         match self {
@@ -65,7 +65,7 @@ impl Scale {
     }
 }
 
-/// Where the colours of tones come from; a ramp and a table bring their own.
+/// Source of the colours of tones; a ramp and a table have their own.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Colours {
     /// The material, by eq. 1 of Lake et al. 2000.
@@ -76,9 +76,10 @@ pub enum Colours {
     Gooch(Gooch),
 }
 
-/// Colours from cool to warm (Gooch et al., A non-photorealistic lighting model for automatic
-/// technical illustration, 1998): cool + `cool_share` of the material in the shadow, warm +
-/// `warm_share` of the material where it is lit.
+/// Colours from cool to warm: cool + `cool_share` of the material in shadow, warm + `warm_share` of the
+/// material where it is lit.
+///
+/// Source: Gooch et al., A non-photorealistic lighting model for automatic technical illustration, 1998.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Gooch {
@@ -96,50 +97,50 @@ pub struct Gooch {
     pub warm_share: f64,
 }
 
-/// Highlights: where a surface mirrors a light into the eye.
+/// Highlights, where a surface mirrors a light towards the eye.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Highlight {
-    /// Whether there are any. Default: false.
+    /// Whether highlights are drawn. Default: false.
     pub enabled: bool,
     /// Rising thresholds of (n·h)^exponent. Default: 0.5.
     pub thresholds: Vec<f64>,
-    /// The higher, the smaller. Default: 40.
+    /// Exponent; higher values give smaller highlights. Default: 40.
     pub exponent: f64,
-    /// The colour that the brightest tone of the material is mixed with. Default: white.
+    /// Colour that is mixed into the brightest tone of the material. Default: white.
     pub colour: Colour,
-    /// How much of it the brightest highlight has, 0 to 1; weaker ones have less. Default: 0.7.
+    /// Share of that colour in the brightest highlight, 0 to 1; weaker ones have less. Default: 0.7.
     pub strength: f64,
-    /// Light over its strength from 0 to 1, added to the brightest tone of the material, in place of thresholds, colour and strength.
-    /// Default: none.
+    /// Light over the highlight's strength from 0 to 1, added to the brightest tone of the material. It
+    /// replaces thresholds, colour and strength. Default: none.
     pub ramp: Option<Strip>,
-    /// Whether exponent and strength are those of the material where its file has any. Default: false.
+    /// Whether exponent and strength come from the material where its file has them. Default: false.
     pub material: bool,
-    /// Where highlights are asked, the eye and parallel lights stand so many sides of the frame from what the camera looks at, so that
-    /// flat faces have a spot and not all or nothing; 0 = where they are. Default: 0.
+    /// Distance of the eye and of parallel lights from the camera's target for highlights, in sides of the
+    /// frame. Flat faces then show a spot instead of all or nothing. 0 = they stay in place. Default: 0.
     pub near: f64,
 }
 
-/// What is different about highlights for some materials.
+/// Changes of the highlights of some materials.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct HighlightChange {
-    /// Whether there are any.
+    /// Whether highlights are drawn.
     pub enabled: Option<bool>,
     /// Rising thresholds of (n·h)^exponent.
     pub thresholds: Option<Vec<f64>>,
-    /// The higher, the smaller.
+    /// Exponent; higher values give smaller highlights.
     pub exponent: Option<f64>,
-    /// The colour that the brightest tone is mixed with.
+    /// Colour that is mixed into the brightest tone.
     pub colour: Option<Colour>,
-    /// How much of it the brightest highlight has.
+    /// Share of that colour in the brightest highlight.
     pub strength: Option<f64>,
-    /// Light over its strength.
+    /// Light over the highlight's strength.
     pub ramp: Option<Strip>,
-    /// Whether the material says how it shines.
+    /// Whether exponent and strength come from the material.
     pub material: Option<bool>,
 }
 
 impl Highlight {
-    /// Applies a change. Numbers of its own stand in for those of the material.
+    /// Applies a change. Exponent and strength of the change replace those of the material.
     pub fn change(&mut self, change: HighlightChange) {
         let HighlightChange { enabled, thresholds, exponent, colour, strength, ramp, material } = change;
         self.enabled = enabled.unwrap_or(self.enabled);
@@ -154,7 +155,7 @@ impl Highlight {
         self.ramp = ramp.or(self.ramp.take());
     }
 
-    /// The highlights of a material that shines so; none if it has none.
+    /// Highlights of a material with this gloss; `None` if it has none.
     #[must_use]
     pub fn of(&self, gloss: Option<Gloss>) -> Option<Self> {
         let mut own = self.clone();
@@ -169,26 +170,26 @@ impl Highlight {
 const LEAST_EXPONENT: f64 = 1.0;
 const GREATEST_EXPONENT: f64 = 10_000.0;
 
-/// What is different for the materials whose name fits a pattern: `[[fills.material]]`.
+/// Changes for the materials whose name matches a pattern: `[[fills.material]]`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MaterialChange {
     /// The pattern.
     pub name: Glob,
-    /// The colour that stands in for the material's.
+    /// Colour that replaces the material's.
     pub colour: Option<Colour>,
     /// Where tones change.
     pub scale: Option<Scale>,
-    /// Where the colours of tones come from.
+    /// Source of the colours of tones.
     pub colours: Option<Colours>,
-    /// How much light each tone shows.
+    /// Share of light in each tone.
     pub tones: Option<Vec<f64>>,
-    /// What is left of the colour in the shadow.
+    /// Factor on the colour in shadow.
     pub shadow: Option<Factor>,
-    /// What is left of the colour where it is lit.
+    /// Factor on the colour where it is lit.
     pub lit: Option<Factor>,
-    /// How palette, ramp or table multiply the material.
+    /// Brightness factor of a palette, ramp or table on the material.
     pub modulate: Option<f64>,
-    /// What is different about highlights.
+    /// Changes of the highlights.
     pub highlight: HighlightChange,
 }
 
@@ -236,8 +237,7 @@ impl Default for Highlight {
 }
 
 impl ToneOptions {
-    /// The options of a material of this name, changes applied, and the colour that stands in for
-    /// its own.
+    /// Options of a material of this name with its changes applied, and the colour that replaces its own.
     #[must_use]
     pub fn for_material(&self, name: &str) -> (Self, Option<Colour>) {
         let mut own = Self { materials: Vec::new(), ..self.clone() };
@@ -246,7 +246,7 @@ impl ToneOptions {
             let change = change.clone();
             colour = change.colour.or(colour);
             own.scale = change.scale.unwrap_or(own.scale);
-            // Colours of its own stand in for those that a ramp or table would bring.
+            // Explicit colours replace those of a ramp or table.
             if let (Some(_), Scale::Ramp(_) | Scale::Table(_)) = (&change.colours, &own.scale) {
                 own.scale = Self::default().scale;
             }
@@ -261,10 +261,10 @@ impl ToneOptions {
     }
 }
 
-/// Rising numbers above 0.
+/// Reads rising numbers above 0.
 ///
 /// # Errors
-/// Says what a threshold must be.
+/// Describes valid thresholds.
 pub fn thresholds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>, D::Error> {
     let list = Vec::<f64>::deserialize(deserializer)?;
     let rising = list.windows(2).all(|pair| pair[0] < pair[1]);
@@ -274,10 +274,10 @@ pub fn thresholds<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<f64>
     Err(serde::de::Error::custom("thresholds are rising numbers above 0; write such as [0.3, 0.7]"))
 }
 
-/// The exponent of a highlight.
+/// Reads the exponent of a highlight.
 ///
 /// # Errors
-/// Says what it may be.
+/// Describes valid exponents.
 pub fn exponent<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     let value = f64::deserialize(deserializer)?;
     if (LEAST_EXPONENT..=GREATEST_EXPONENT).contains(&value) {

@@ -1,19 +1,19 @@
 //! [`Strip`] and [`Table`]: scales of tones read from pictures or lists of colours.
 //!
-//! Source: Lake et al. 2000, section 3 (the one-dimensional texture); Ishaya, Real-time cartoon
-//! rendering, 2003, "Painting" (the two-dimensional one, indexed by two lights). Where a
-//! graphics card looks a texel up at each pixel, the borders between texels are levels here.
+//! Source: Lake et al. 2000, section 3 (one-dimensional texture); Ishaya, Real-time cartoon rendering, 2003,
+//! "Painting" (two-dimensional texture, indexed by two lights). A graphics card looks up a texel at each
+//! pixel; here the borders between texels are levels.
 
 use crate::colour::pixel_picture::Picture;
 use crate::colour::srgb::Colour;
 
-/// Most tones that a scale has; lists in style sheets are no longer.
+/// Largest number of tones of a scale. Lists in style sheets are no longer either.
 pub const GREATEST_TONES: usize = 1024;
 
 /// Colours over the light from 0 to 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Strip {
-    /// The light at which each colour but the first begins.
+    /// Light level where each colour except the first begins.
     pub levels: Vec<f64>,
     /// The colours, one more than there are levels.
     pub colours: Vec<Colour>,
@@ -22,21 +22,21 @@ pub struct Strip {
 /// Colours over the light of a first and of a second light, each from 0 to 1.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    /// The first light at which each column but the first begins.
+    /// Level of the first light where each column except the first begins.
     pub columns: Vec<f64>,
-    /// The second light at which each row but the first begins.
+    /// Level of the second light where each row except the first begins.
     pub rows: Vec<f64>,
-    /// Which colour each cell has, row by row.
+    /// Index of the colour of each cell, row by row.
     cells: Vec<u16>,
     /// The colours in use, darkest first.
     pub colours: Vec<Colour>,
 }
 
 impl Strip {
-    /// Columns of equal width; equal neighbours become one.
+    /// Strip of columns of equal width; equal neighbours are merged.
     ///
     /// # Errors
-    /// Says so if there is no colour, or more of them than a scale of tones has.
+    /// Returns an error if there is no colour, or more colours than [`GREATEST_TONES`].
     pub fn of_columns(columns: &[Colour]) -> Result<Self, String> {
         let (Some(first), count) = (columns.first(), columns.len()) else {
             return Err("has no colour".to_owned());
@@ -54,7 +54,7 @@ impl Strip {
         Ok(Self { levels, colours })
     }
 
-    /// The columns of a picture, in its middle row.
+    /// Strip of the columns of a picture, in its middle row.
     ///
     /// # Errors
     /// As [`Strip::of_columns`].
@@ -64,11 +64,11 @@ impl Strip {
 }
 
 impl Table {
-    /// Rows and columns of equal size; borders that part nothing are left out, and cells of equal
-    /// colour are one tone.
+    /// Table of rows and columns of equal size. Borders between equal neighbours are dropped, and cells of
+    /// equal colour are one tone.
     ///
     /// # Errors
-    /// Says so if a row is empty or of another length, or if there are too many colours.
+    /// Returns an error if a row is empty or of another length, or if there are too many colours.
     pub fn of_rows(rows: &[Vec<Colour>]) -> Result<Self, String> {
         let width = rows.first().map_or(0, Vec::len);
         if width == 0 || rows.iter().any(|row| row.len() != width) {
@@ -101,7 +101,7 @@ impl Table {
         })
     }
 
-    /// The pixels of a picture: the first light to the right, the second one down.
+    /// Table of the pixels of a picture: the first light to the right, the second one down.
     ///
     /// # Errors
     /// As [`Table::of_rows`].
@@ -110,7 +110,7 @@ impl Table {
         Self::of_rows(&rows)
     }
 
-    /// The tone of a cell: the index of its colour.
+    /// Tone of a cell: the index of its colour.
     #[must_use]
     pub fn tone(&self, column: u16, row: u16) -> u16 {
         let column = usize::from(column).min(self.columns.len());
@@ -129,7 +129,7 @@ mod tests {
 
     #[test]
     fn equal_columns_of_a_strip_are_one_tone() {
-        // Lake's eight texels, seven of them in the shadow.
+        // Lake's eight texels, seven of them in shadow.
         let strip = Strip::of_columns(&[A, A, A, A, A, A, A, C]).unwrap();
         assert_eq!((strip.levels, strip.colours), (vec![0.875], vec![A, C]));
         let strip = Strip::of_columns(&[A, B, B, A]).unwrap();

@@ -1,4 +1,4 @@
-//! [`FaceBuffer`]: which face is in front at each pixel of a view.
+//! [`FaceBuffer`]: the nearest face at each pixel of a view (Z-buffer).
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -7,10 +7,10 @@ use crate::parallel::prelude::*;
 use super::Screen;
 use super::depth_cell::{self, Cell, cell};
 
-/// Triangles handled by one task.
+/// Triangles per task.
 const TASK: usize = 1 << 13;
 
-/// The face nearest to the eye at the centre of each pixel, row after row from the top.
+/// Face nearest to the eye at the centre of each pixel, row after row from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FaceBuffer {
     /// Pixels in a row.
@@ -23,14 +23,14 @@ pub struct FaceBuffer {
 impl FaceBuffer {
     /// Draws all triangles of a screen.
     ///
-    /// The nearer face wins, of equally near ones that of the lesser id, whatever the order and
-    /// the number of threads.
+    /// The nearer face wins; of equally near faces, the one with the smaller id. Order and number of threads
+    /// have no effect.
     #[must_use]
     pub fn new(screen: &Screen) -> Self {
         Self::of(screen, |_| true)
     }
 
-    /// Draws the triangles of some faces of a screen, as [`FaceBuffer::new`] does.
+    /// Draws the triangles of the faces for which `draws` is true, as [`FaceBuffer::new`] does.
     #[must_use]
     pub fn of(screen: &Screen, draws: impl Fn(u32) -> bool + Sync) -> Self {
         let cells: Vec<AtomicU64> = (0..screen.columns * screen.rows).map(|_| AtomicU64::new(0)).collect();
@@ -43,7 +43,7 @@ impl FaceBuffer {
                 }
                 screen.cover(&corners, |pixel, nearness| {
                     let own = cell(face, nearness);
-                    // Most triangles lose, and looking is cheaper than writing.
+                    // Most triangles lose, and a load is cheaper than an atomic write.
                     if own > cells[pixel].load(Ordering::Relaxed) {
                         cells[pixel].fetch_max(own, Ordering::Relaxed);
                     }
@@ -54,14 +54,14 @@ impl FaceBuffer {
         Self { columns: screen.columns, rows: screen.rows, cells }
     }
 
-    /// The face in front at a pixel.
+    /// Nearest face at a pixel.
     #[inline]
     #[must_use]
     pub fn front(&self, pixel: usize) -> Option<u32> {
         depth_cell::front(self.cells[pixel])
     }
 
-    /// How near the face in front is at a pixel, on the screen's scale from 0 to 1.
+    /// Nearness of the nearest face at a pixel, on the screen's scale from 0 to 1.
     #[inline]
     #[must_use]
     pub fn nearness(&self, pixel: usize) -> Option<f32> {
@@ -114,7 +114,8 @@ mod tests {
 
     #[test]
     fn the_nearer_triangle_wins_whatever_the_order() {
-        // Faces go by their corners: one that begins far before the other comes first, though it is nearer.
+        // The mesh sorts its faces by their corners, so either the nearer or the farther triangle comes
+        // first.
         for (low, high, nearer) in [(0., 9., 1), (-3., 16., 0)] {
             let far = [[0., 0., 0.], [9., 0., 0.], [0., 9., 0.]];
             let near = [[low, low, 1.], [high, low, 1.], [low, high, 1.]];

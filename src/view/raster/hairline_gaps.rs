@@ -1,16 +1,16 @@
-//! Hairlines between faces that do not hold together: pixels through which one sees between them.
+//! Closing of hairline gaps: pixels between unconnected faces, through which other surfaces show.
 
 use super::normal_depth_maps::{Maps, NO_FRONT};
 
-/// Gaps of more pixels are seen.
+/// Widest gap that is closed, pixels.
 const WIDEST: usize = 2;
 
-/// Cosine of the normals (40 degrees) of two faces that may be one surface.
+/// Smallest cosine of the angle between the normals (40 degrees) of two faces that may be one surface.
 const SAME_COSINE: f32 = 0.766;
 
 impl Maps {
-    /// Closes gaps of one or two pixels between faces that `may_gap`, where both sides go on as one surface in front of what is seen
-    /// between them.
+    /// Closes gaps of one or two pixels between faces that `may_gap`. Both sides must continue as one surface
+    /// in front of the surface that shows between them.
     pub fn close_hairlines(&mut self, may_gap: impl Fn(u32) -> bool) {
         let (columns, rows) = (self.columns, self.rows);
         let (in_rows, in_columns) = self.lines_with(&may_gap);
@@ -22,8 +22,9 @@ impl Maps {
         }
     }
 
-    /// The rows, and the columns, in which some face of a kind is in front. Closing gaps in rows brings such faces to columns
-    /// next to theirs, so these count too.
+    /// Rows and columns with a pixel whose nearest face satisfies `is_such`.
+    ///
+    /// Closing gaps in rows moves such faces into neighbouring columns, so these count too.
     fn lines_with(&self, is_such: &impl Fn(u32) -> bool) -> (Vec<bool>, Vec<bool>) {
         let (mut in_rows, mut found) = (vec![false; self.rows], vec![false; self.columns]);
         for (row, faces) in self.faces.chunks(self.columns).enumerate() {
@@ -63,7 +64,7 @@ impl Maps {
         }
     }
 
-    /// Whether the `gap` pixels after `a` lie behind what goes on at both of their sides.
+    /// Whether the `gap` pixels after `a` lie behind a surface that continues on both sides of them.
     fn is_gap(&self, a: usize, step: usize, gap: usize, may_gap: &impl Fn(u32) -> bool) -> bool {
         let b = a + (gap + 1) * step;
         let (from, to) = (self.depths[a], self.depths[b]);

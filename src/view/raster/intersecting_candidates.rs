@@ -1,9 +1,9 @@
-//! Which faces may meet others in a visible curve, proposed by the face buffer.
+//! Candidates for visible intersections, proposed by the face buffer.
 //!
-//! Along a visible intersection curve two faces show side by side that have no vertex in common;
-//! where one shows as a strip thinner than a pixel, the face beyond its next edge does. So the
-//! faces of neighbouring pixels that are strangers to each other are taken, and all that share an
-//! edge with one of them.
+//! Along a visible intersection curve, two faces without a common vertex are neighbours in the image. Where
+//! one of them shows as a strip thinner than a pixel, the face across its next edge does. So the candidates
+//! are the faces of neighbouring pixels without a common vertex, and all faces that share an edge with one of
+//! them.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -12,17 +12,17 @@ use crate::parallel::prelude::*;
 use super::FaceBuffer;
 use crate::mesh::{EdgeFaces, FaceId, Mesh};
 
-/// Rows handled by one task.
+/// Rows per task.
 const ROWS: usize = 16;
-/// Up to this many active faces, more faces around them are taken in as well, which costs little
-/// and finds curves beside strips of several faces thinner than a pixel.
+/// Largest number of candidates that is widened by the faces around them. This costs little and finds curves
+/// next to strips of several faces thinner than a pixel.
 const FEW_FACES: usize = 60_000;
-/// How often that is done at most.
+/// Largest number of times the candidates are widened.
 const RINGS: usize = 3;
-/// Edges handled by one task.
+/// Edges per task.
 const EDGES: usize = 1 << 15;
 
-/// Whether each face of the mesh may meet another in a visible curve; faces without area do not.
+/// Whether each face of the mesh may meet another in a visible curve; false for faces without area.
 #[must_use]
 pub fn find(mesh: &Mesh, buffer: &FaceBuffer) -> Vec<bool> {
     let unmarked = || -> Vec<AtomicBool> { mesh.triangles.iter().map(|_| AtomicBool::new(false)).collect() };
@@ -66,7 +66,7 @@ pub fn find(mesh: &Mesh, buffer: &FaceBuffer) -> Vec<bool> {
     active
 }
 
-/// Adds all faces that share a vertex with an active one.
+/// Adds all faces that share a vertex with a candidate.
 fn add_ring(mesh: &Mesh, active: &mut [bool]) {
     let mut reached = vec![false; mesh.positions.len()];
     for (corners, _) in mesh.triangles.iter().zip(&*active).filter(|(_, active)| **active) {
@@ -77,8 +77,8 @@ fn add_ring(mesh: &Mesh, active: &mut [bool]) {
     });
 }
 
-/// Calls `visit` for the faces of neighbouring pixels of a row and with the next row that have no
-/// vertex in common.
+/// Calls `visit` for faces without a common vertex at neighbouring pixels, in a row and between it and the
+/// next row.
 fn for_each_pair(mesh: &Mesh, buffer: &FaceBuffer, row: usize, visit: impl Fn(u32, u32)) {
     for column in 0..buffer.columns {
         let pixel = row * buffer.columns + column;

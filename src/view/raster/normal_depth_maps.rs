@@ -1,7 +1,7 @@
-//! [`Maps`]: the normals and the depth of what is in front at each pixel of a view.
+//! [`Maps`]: the normals and the depth at each pixel of a view.
 //!
-//! Source: Scheelk, Non-Photorealistic Rendering, sections 3.4.1 and 3.4.2: images that are made from the surface beforehand, and in
-//! which edges are sought afterwards.
+//! Source: Scheelk, Non-Photorealistic Rendering, sections 3.4.1 and 3.4.2: images are made from the surface
+//! first, and edges are detected in them afterwards.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -12,25 +12,27 @@ use super::row_bands::Bands;
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
-/// Where no face is in front at a pixel.
+/// Stands for the absence of a face at a pixel.
 pub const NO_FRONT: u32 = u32::MAX;
 
 /// The depth of pixels that show no face.
 pub const FAR: f32 = 1.0;
 
-/// No map has more pixels than this along its longer side.
+/// Largest number of pixels along the longer side of a map.
 pub const LONGEST_SIDE: f64 = 4096.0;
 
-/// The depth map begins a little before the nearest point of the picture and ends a little behind the farthest, so that what is
-/// nearest is not at 0, where a test that scales with depth would not scale, and background is not at the depth of anything. In
-/// parts of the depth between the two.
+/// Margin of the depth map in front of the nearest point, and [`BEHIND`] after the farthest, as shares of the
+/// depth range.
+///
+/// The nearest point is not at depth 0, where a threshold proportional to depth would vanish. Background has
+/// a depth that no surface has.
 const BEFORE: f64 = 0.15;
 const BEHIND: f64 = 0.1;
 
-/// Normals that are reckoned at a time.
+/// Normals computed at a time.
 const LANES: usize = 4;
 
-/// What is in front at the centre of each pixel, row after row from the top.
+/// Nearest surface at the centre of each pixel, row after row from the top.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Maps {
     /// Pixels in a row.
@@ -39,19 +41,22 @@ pub struct Maps {
     pub rows: usize,
     /// Pixels per user unit.
     pub scale: f64,
-    /// The face in front, [`NO_FRONT`] for none.
+    /// Nearest face, [`NO_FRONT`] for none.
     pub faces: Vec<u32>,
-    /// Unit normals on the side that is seen, in camera axes: right, up, towards the eye. Zero where no face is.
+    /// Unit normals on the visible side, in camera axes: right, up, towards the eye. Zero where there is no
+    /// face.
     pub normals: Vec<[f32; 3]>,
-    /// Depth along the optical axis, linear, 0 to 1: what is in the view lies between 0.12 and 0.92, background at 1.
+    /// Depth along the optical axis, linear, 0 to 1. Surfaces lie between 0.12 and 0.92, background at 1.
     pub depths: Vec<f32>,
-    /// Depths of 0 and 1, world units from the eye along the optical axis.
+    /// World depths that correspond to 0 and 1, along the optical axis.
     pub planes: [f64; 2],
 }
 
 impl Maps {
-    /// The maps of a view with so many pixels a user unit, or fewer where they would be more than 4096 along a side.
-    /// `normals` gives those at the corners of a face, on its outer side, in local space.
+    /// Draws the maps of a view with `per_unit` pixels per user unit, or fewer where a side would exceed 4096
+    /// pixels.
+    ///
+    /// `normals` returns the normals at the corners of a face, on its outer side, in local space.
     #[must_use]
     pub fn new(mesh: &Mesh, view: &View, per_unit: f64, normals: impl Fn(u32) -> [DVec3; 3] + Sync) -> Self {
         let side = (view.frame.width.max(view.frame.height) * per_unit).clamp(1.0, LONGEST_SIDE);
@@ -59,7 +64,7 @@ impl Maps {
         let bands = Bands::new(&screen);
         let planes = planes(&screen, view);
         let (columns, rows) = (screen.columns, screen.rows);
-        // Zeros cost nothing before they are written, which each band does for itself.
+        // Zeroed memory costs nothing until it is written, and each band writes its own part.
         let mut maps = Self {
             columns,
             rows,
@@ -116,22 +121,22 @@ impl Maps {
     }
 }
 
-/// The depths of 0 and 1 of the depth map.
+/// World depths that correspond to 0 and 1 in the depth map.
 fn planes(screen: &Screen, view: &View) -> [f64; 2] {
     let Some([near, far]) = screen.depths() else { return [0.0, 1.0] };
-    // A flat thing seen square on has no depth of its own.
+    // A flat object seen square on has no depth range.
     let range = (far - near).max(view.frame.px_at(far)).max(f64::MIN_POSITIVE);
     [near - BEFORE * range, far + BEHIND * range]
 }
 
-/// What was last made of faces, as long as no other face takes its slot: the same faces come again in the next row.
+/// Cache of face normals, one face per slot. The same faces recur in the next row.
 struct LastShown {
     faces: Vec<u32>,
     normals: Vec<FaceNormals>,
 }
 
 impl LastShown {
-    /// A power of two, and few enough for a near cache.
+    /// Number of slots: a power of two, small enough for the CPU cache.
     const SLOTS: usize = 1 << 10;
 
     fn new() -> Self {
@@ -150,12 +155,13 @@ impl LastShown {
     }
 }
 
-/// The normals of a face as the image has them: the weights of its corners, times 1/depth in perspective, are linear there.
+/// Normals of a face in the image. The weights of its corners, times 1/depth in perspective, are linear
+/// there.
 #[derive(Debug, Clone, Copy)]
 struct FaceNormals {
-    /// What a weight is at the origin, and how it changes to the right and down; for each corner.
+    /// For each corner, its weight at the origin and the change to the right and down.
     weights: [[f64; 3]; 3],
-    /// In camera axes, on the side that is seen.
+    /// In camera axes, on the visible side.
     normals: [DVec3; 3],
 }
 
@@ -166,7 +172,7 @@ impl FaceNormals {
         let seen = |n: DVec3| DVec3::new(n.dot(frame.right), n.dot(frame.up), -n.dot(frame.forward)) * side;
         let normals = normals.map(seen);
         let corners = mesh.triangles[FaceId(face).index()].map(|v| view.points[v as usize]);
-        // What the near plane cuts is given the mean of its corners.
+        // A face that the near plane cuts gets the mean of its corners.
         let even = Self { weights: [[1.0, 0.0, 0.0]; 3], normals };
         let [a, b, c] = corners;
         let area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -181,16 +187,16 @@ impl FaceNormals {
         Self { weights: [weight(b, c, a), weight(c, a, b), weight(a, b, c)], normals }
     }
 
-    /// The normals at places of a row.
+    /// Writes the normals at the given positions of a row.
     fn along(&self, across: &[f64], y: f64, to: &mut [[f32; 3]]) {
-        // Several at a time, each in its lane.
+        // Several at a time, one per lane.
         for (across, to) in across.chunks(LANES).zip(to.chunks_mut(LANES)) {
             let mut x = [0.0; LANES];
             x[..across.len()].copy_from_slice(across);
             let mut sums = [[0.0; LANES]; 3];
             for (weight, normal) in self.weights.iter().zip(self.normals) {
                 for lane in 0..LANES {
-                    // Centres of pixels may lie a rounding beside their face.
+                    // Pixel centres may be outside their face by rounding.
                     let weight = (weight[0] + weight[1] * x[lane] + weight[2] * y).max(0.0);
                     sums[0][lane] += normal.x * weight;
                     sums[1][lane] += normal.y * weight;

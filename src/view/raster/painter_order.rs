@@ -1,7 +1,7 @@
-//! The painter's order: the faces in front somewhere, each after those that it covers.
+//! Painter's order: the visible faces, each after the faces it covers.
 //!
-//! Source: Newell, Newell and Sancha, "A solution to the hidden surface problem", 1972; here the
-//! buffer tells at each pixel which face must come last, and depth only breaks ties.
+//! Source: Newell, Newell and Sancha, "A solution to the hidden surface problem", 1972. Here the buffer gives
+//! the last face at each pixel, and depth only breaks ties.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -10,11 +10,10 @@ use crate::parallel::prelude::*;
 
 use super::{FaceBuffer, Screen};
 
-/// Triangles handled by one task.
+/// Triangles per task.
 const TASK: usize = 1 << 13;
 
-/// The faces that are in front at some pixel, in an order that paints what `buffer` shows. Where
-/// faces cover each other in turn, the farthest comes first.
+/// Visible faces, in an order that paints what `buffer` shows. In a cycle, the farthest face comes first.
 #[must_use]
 pub fn back_to_front(screen: &Screen, buffer: &FaceBuffer) -> Vec<u32> {
     let mut shown: Vec<u32> =
@@ -22,7 +21,7 @@ pub fn back_to_front(screen: &Screen, buffer: &FaceBuffer) -> Vec<u32> {
     shown.par_sort_unstable();
     shown.dedup();
     let slot = |face: u32| shown.binary_search(&face).ok();
-    // The nearness of each face, as bits that order positive numbers, and who is painted over whom.
+    // Nearness of each face, as bits that sort positive numbers, and pairs of faces painted over each other.
     let count = screen.triangle_count();
     type Task = (Vec<(usize, u32)>, Vec<[u32; 2]>);
     let tasks: Vec<Task> = (0..count.div_ceil(TASK))
@@ -59,8 +58,8 @@ pub fn back_to_front(screen: &Screen, buffer: &FaceBuffer) -> Vec<u32> {
     sorted(&nearness, &over).into_iter().map(|slot| shown[slot as usize]).collect()
 }
 
-/// Every slot once, the first of each pair before the second, the farthest first where none of a
-/// pair is left to wait for.
+/// Topological sort: every slot once, and the first of each pair before the second. In a cycle, the farthest
+/// slot comes first.
 pub(crate) fn sorted(nearness: &[u32], over: &[[u32; 2]]) -> Vec<u32> {
     let mut awaited = vec![0_u32; nearness.len()];
     for [_, above] in over {

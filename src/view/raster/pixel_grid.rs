@@ -1,7 +1,7 @@
-//! [`Screen`]: a view on a grid of pixels, and which pixels a triangle covers.
+//! [`Screen`]: a view on a grid of pixels, and the pixels that a triangle covers.
 //!
-//! Single precision is enough here, since buffers only propose. Nearness is brought to the range
-//! 0 to 1 first, so that no digits are lost on far-away eyes.
+//! Single precision is enough, because buffers only propose candidates. Nearness is scaled to the range 0 to
+//! 1 first, so that distant eyes lose no digits.
 
 use std::ops::Range;
 
@@ -13,13 +13,13 @@ use crate::view::View;
 
 /// Pixels along the longer side of the frame.
 const LONGER_SIDE: f64 = 1024.0;
-/// How far beside a triangle a pixel's centre still counts as covered, pixels: more than rounding,
-/// so that no pixel falls between two triangles.
+/// Distance outside a triangle where a pixel centre still counts as covered, pixels. It exceeds rounding, so
+/// no pixel falls between two triangles.
 const SLACK: f32 = 1e-4;
-/// Triangles whose box holds at most this many pixels are tested pixel by pixel.
+/// Largest bounding box, in pixels, that is tested pixel by pixel.
 const FEW: i32 = 16;
 
-/// A corner on the screen: x to the right and y down in pixels, and nearness.
+/// Corner on the pixel grid: x to the right and y down in pixels, and nearness.
 pub type ScreenPoint = [f32; 3];
 
 /// A view on a grid of pixels.
@@ -33,14 +33,14 @@ pub struct Screen<'a> {
     pub rows: usize,
     /// Pixels per user unit.
     scale: f64,
-    /// Nearness of the farthest point, and what brings the rest to the range 0 to 1.
+    /// Nearness of the farthest point, and the factor that scales nearness to the range 0 to 1.
     farthest: f64,
     per_nearness: f64,
     /// Each vertex; x is NaN where the near plane cuts it off.
     points: Vec<ScreenPoint>,
 }
 
-/// The plane of a triangle over the screen.
+/// Plane of a triangle over the pixels.
 #[derive(Debug, Clone, Copy)]
 struct ScreenPlane {
     origin: ScreenPoint,
@@ -69,18 +69,18 @@ fn minus(a: ScreenPoint, b: ScreenPoint) -> ScreenPoint {
 }
 
 impl<'a> Screen<'a> {
-    /// The screen of a view, about a thousand pixels along the longer side of the frame.
+    /// Screen of a view, about a thousand pixels along the longer side of the frame.
     #[must_use]
     pub fn new(mesh: &'a Mesh, view: &'a View) -> Self {
         Self::of_side(mesh, view, LONGER_SIDE)
     }
 
-    /// The screen of a view with so many pixels along the longer side of the frame.
+    /// Screen of a view with `longer_side` pixels along the longer side of the frame.
     #[must_use]
     pub fn of_side(mesh: &'a Mesh, view: &'a View, longer_side: f64) -> Self {
         const TASK: usize = 1 << 14;
         let none = || (f64::INFINITY, f64::NEG_INFINITY);
-        // Comparisons with NaN fail, so that points cut off take no part.
+        // Comparisons with NaN are false, so cut-off points are ignored.
         let (farthest, nearest) = view
             .points
             .par_iter()
@@ -105,7 +105,7 @@ impl<'a> Screen<'a> {
         screen
     }
 
-    /// A point of image space; x is NaN where there is none.
+    /// Screen point of a point of image space; x is NaN if the point is cut off.
     #[must_use]
     pub fn point(&self, p: DVec3) -> ScreenPoint {
         let x = if p.z.is_nan() { f64::NAN } else { p.x * self.scale };
@@ -118,7 +118,7 @@ impl<'a> Screen<'a> {
         self.scale
     }
 
-    /// The least and the greatest depth of what is in the view, world units; none if nothing is.
+    /// Smallest and largest depth in the view, world units; `None` if the view is empty.
     #[must_use]
     pub fn depths(&self) -> Option<[f64; 2]> {
         let nearest = self.farthest + 1.0 / self.per_nearness;
@@ -135,13 +135,13 @@ impl<'a> Screen<'a> {
         self.farthest + range
     }
 
-    /// Number of triangles: those of the mesh, then those left of faces that the near plane cuts.
+    /// Number of triangles: those of the mesh, then the clipped parts of faces that the near plane cuts.
     #[must_use]
     pub fn triangle_count(&self) -> usize {
         self.mesh.triangles.len() + self.view.clipped.len()
     }
 
-    /// The corners of a triangle and the face that it is (part) of.
+    /// Corners of a triangle and the face it belongs to.
     #[inline]
     #[must_use]
     pub fn triangle(&self, id: usize) -> ([ScreenPoint; 3], u32) {
@@ -154,8 +154,8 @@ impl<'a> Screen<'a> {
         }
     }
 
-    /// The pixels whose centres lie in the box around a triangle: the first column and the one
-    /// after the last, and so for the rows. None if there are none.
+    /// Pixels whose centres lie in the bounding box of a triangle: first column and one past the last, then
+    /// the rows. `None` if there are none.
     #[inline]
     fn pixel_box(&self, [a, b, c]: &[ScreenPoint; 3]) -> Option<[i32; 4]> {
         let place = |x: f32, count: usize| x.max(0.0).min(count as f32) as i32;
@@ -166,7 +166,7 @@ impl<'a> Screen<'a> {
         ((left < right) & (top < bottom)).then_some([left, right, top, bottom])
     }
 
-    /// The rows that a triangle may cover pixels in; none if it covers no pixel.
+    /// Rows where a triangle may cover pixels; `None` if it covers none.
     #[inline]
     pub(crate) fn rows_of(&self, corners: &[ScreenPoint; 3]) -> Option<Range<usize>> {
         self.pixel_box(corners).map(|[_, _, top, bottom]| top as usize..bottom as usize)
@@ -188,7 +188,7 @@ impl<'a> Screen<'a> {
     ) {
         let Some([left, right, top, bottom]) = self.pixel_box(corners) else { return };
         let within = [left, right, top.max(rows.start as i32), bottom.min(rows.end as i32)];
-        // All rows of a triangle are found one way.
+        // All rows of a triangle use the same method.
         if (right - left) * (bottom - top) <= FEW {
             self.cover_few(corners, within, visit);
         } else {
@@ -196,7 +196,7 @@ impl<'a> Screen<'a> {
         }
     }
 
-    /// Four pixels at a time: nearly all triangles of a scan lie between two rows and columns.
+    /// Tests four pixels at a time. Nearly all triangles of a scan fit between two rows and columns.
     #[inline]
     fn cover_few(
         &self,
@@ -208,7 +208,7 @@ impl<'a> Screen<'a> {
         if area == 0.0 || !area.is_finite() {
             return;
         }
-        // The corners in turn, so that inside is positive.
+        // Corners are reordered so that inside is positive.
         let (b, c) = if area > 0.0 { (b, c) } else { (c, b) };
         for row in (top..bottom).step_by(2) {
             for column in (left..right).step_by(2) {
@@ -235,7 +235,7 @@ impl<'a> Screen<'a> {
         }
     }
 
-    /// Row by row.
+    /// Covers row by row, using the columns inside all sides.
     fn cover_rows(
         &self,
         &[a, b, c]: &[ScreenPoint; 3],
@@ -259,14 +259,14 @@ impl<'a> Screen<'a> {
     }
 }
 
-/// The centres of four pixels.
+/// Centres of four pixels.
 struct Quad {
     x: [f32; 4],
     y: [f32; 4],
 }
 
 impl Quad {
-    /// Twice the areas between a side and the centres, and whether they are on its inner side.
+    /// Twice the signed areas between a side and the centres, and whether the centres are on its inner side.
     #[inline]
     fn side(&self, p: ScreenPoint, q: ScreenPoint) -> ([f32; 4], [bool; 4]) {
         let (dx, dy) = (q[0] - p[0], q[1] - p[1]);
@@ -281,14 +281,14 @@ impl Quad {
     }
 }
 
-/// A nearness no farther than the farthest and no nearer than the nearest corner: the planes of
-/// steep triangles reach beyond them within a pixel.
+/// Clamps a nearness to the range of the three corners, which the planes of steep triangles leave within a
+/// pixel.
 #[inline]
 fn within_corners(q: f32, a: ScreenPoint, b: ScreenPoint, c: ScreenPoint) -> f32 {
     q.min(a[2].max(b[2]).max(c[2])).max(a[2].min(b[2]).min(c[2])).max(0.0)
 }
 
-/// A side of a triangle, from a corner on, so that inside is on one hand of all three.
+/// Side of a triangle, oriented so that inside is the same for all three.
 struct Side {
     x: f64,
     y: f64,
@@ -307,7 +307,7 @@ impl Side {
     }
 }
 
-/// The columns from `left` up to `right` whose centres lie inside all sides, in the row at `y`.
+/// Columns from `left` up to `right` whose centres lie inside all sides, in the row at `y`.
 #[inline]
 fn span(sides: &[Side; 3], y: f64, left: f64, right: f64) -> Range<usize> {
     let (mut from, mut to) = (left, right);
@@ -323,7 +323,7 @@ fn span(sides: &[Side; 3], y: f64, left: f64, right: f64) -> Range<usize> {
             return 0..0;
         }
     }
-    // By way of integers, which is much faster than rounding.
+    // Integer conversions are much faster than rounding functions.
     let from = from.min(right);
     let whole = from as usize;
     whole + usize::from(from > whole as f64)..to.max(0.0) as usize

@@ -1,6 +1,6 @@
-//! [`Bands`]: the triangles of a screen by the rows they lie in, so that rows can be drawn side by side.
+//! [`Bands`]: the triangles of a screen sorted by bands of rows, so that bands can be drawn in parallel.
 //!
-//! Sorting pays where each pixel is asked for more than its face as soon as it is drawn; a [`super::FaceBuffer`] alone is made
+//! Sorting pays where pixels need more than their face right after drawing. A [`super::FaceBuffer`] alone is
 //! faster without.
 
 use std::ops::Range;
@@ -11,16 +11,16 @@ use super::Screen;
 use super::depth_cell::{Cell, cell};
 use crate::geometry::lists::csr_lists::{Grouped, grouped};
 
-/// Rows of a band: few enough for a near cache, many enough that most triangles lie in one band.
+/// Rows per band: few enough for the CPU cache, and enough that most triangles lie in one band.
 const ROWS: usize = 16;
 
-/// Triangles that are sorted by one task.
+/// Triangles per task of the sort.
 const TASK: usize = 1 << 13;
 
-/// The triangles of a screen by the bands of rows they lie in.
+/// Triangles of a screen, by the bands of rows they overlap.
 pub(crate) struct Bands<'a> {
     screen: &'a Screen<'a>,
-    /// Task after task, so that none has to wait for another.
+    /// One list per task, so no task waits for another.
     triangles: Vec<Grouped<u32>>,
 }
 
@@ -28,7 +28,7 @@ impl<'a> Bands<'a> {
     pub fn new(screen: &'a Screen<'a>) -> Self {
         let count = screen.triangle_count();
         let of_task = |task: usize| {
-            // Most triangles of a scan cover no pixel's centre, and are looked at no more.
+            // Most triangles of a scan cover no pixel centre and are dropped here.
             let covering = (task * TASK..((task + 1) * TASK).min(count)).filter_map(|id| {
                 let rows = screen.rows_of(&screen.triangle(id).0)?;
                 Some((id as u32, rows.start / ROWS..rows.end.div_ceil(ROWS)))
@@ -46,19 +46,19 @@ impl<'a> Bands<'a> {
         }
     }
 
-    /// Pixels of a band; the last one may have fewer.
+    /// Number of pixels in a band; the last one may have fewer.
     pub fn pixels(&self) -> usize {
         ROWS * self.screen.columns
     }
 
-    /// The rows of a band.
+    /// Rows of a band.
     pub fn rows(&self, band: usize) -> Range<usize> {
         band * ROWS..((band + 1) * ROWS).min(self.screen.rows)
     }
 
-    /// Draws a band: in `cells`, one a pixel, zero at first, stands what is in front.
+    /// Draws a band into `cells`, one per pixel, which must be zero at first.
     ///
-    /// The nearer face wins, of equally near ones that of the lesser id, whatever the order.
+    /// The nearer face wins; of equally near faces, the one with the smaller id. The order has no effect.
     pub fn draw(&self, band: usize, cells: &mut [Cell]) {
         let first = band * self.pixels();
         for id in self.triangles.iter().flat_map(|of_task| of_task.of(band)) {

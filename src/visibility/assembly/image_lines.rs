@@ -1,4 +1,4 @@
-//! Lines that were found in the image join the view map: as visible lines of their own.
+//! Lines found in the image, added to the view map as visible lines.
 
 use glam::{DVec2, DVec3};
 use kurbo::Point;
@@ -13,17 +13,18 @@ use crate::view::View;
 use crate::visibility::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 use crate::visibility::tiles::tile_grid::Grid;
 
-/// An image line has a line of the surface beside it that is no farther away than this, px of the frame.
+/// Distance within which an image line duplicates a line of the surface, px of the frame.
 const SAME_PX: f64 = 1.5;
 
-/// Image lines are asked for that at places no farther apart, px.
+/// Largest sampling step along image lines, px.
 const STEP_PX: f64 = 1.0;
 
-/// What is left of image lines between lines of the surface is a line itself if it is as long as this, px.
+/// Shortest remainder of an image line between lines of the surface that is kept, px.
 const REST_PX: f64 = 6.0;
 
-/// Adds image lines to a view map, and their segments to its feature lines. Where `beside` says so, only what of them lies
-/// beside no visible line of the map.
+/// Adds image lines to a view map, and their segments to its feature lines.
+///
+/// With `beside`, only those parts are added that have no visible line of the map next to them.
 pub fn join(
     map: &mut ViewMap,
     lines: &mut FeatureLines,
@@ -77,12 +78,12 @@ pub fn join(
     }
 }
 
-/// What of image lines lies beside no visible line of a map.
+/// Parts of image lines without a visible line of the map next to them.
 fn rest(map: &ViewMap, image: &ImageLines, view: &View) -> ImageLines {
     let px = view.frame.px();
     let drawn = Drawn::new(map, view);
     let mut rest = ImageLines { lines: image.lines, ..ImageLines::default() };
-    // Lines as they run, piece after piece, in steps that are beside something or not.
+    // Each continuous line is sampled in steps. Runs of steps without a line next to them are kept.
     for line in image.pieces.chunk_by(|a, b| a.line == b.line && a.ends[1] == b.ends[0]) {
         let mut steps: Vec<(ImagePoint, ImagePoint, ImagePiece)> = Vec::new();
         for piece in line {
@@ -121,10 +122,10 @@ fn rest(map: &ViewMap, image: &ImageLines, view: &View) -> ImageLines {
     rest
 }
 
-/// The visible lines of a map, to be found by place.
+/// Visible lines of a map, in a grid for lookup by position.
 struct Drawn {
     lines: Vec<[Point; 2]>,
-    /// What tiles of a grid they pass through, or near by.
+    /// Lines that pass through or near each tile of the grid.
     near: Option<(Grid, Grouped<u32>)>,
 }
 
@@ -155,7 +156,7 @@ impl Drawn {
         Self { lines, near: Some((grid, near)) }
     }
 
-    /// The square of the distance to the nearest line within reach.
+    /// Squared distance to the nearest line; ∞ if none is within reach.
     fn distance2(&self, p: DVec2) -> f64 {
         let Some((grid, near)) = &self.near else { return f64::INFINITY };
         let at = Point::new(p.x, p.y);

@@ -1,4 +1,5 @@
-//! From decided segments to the [`ViewMap`]: nodes by identity, pieces between them.
+//! [`ViewMap`] built from segments of known visibility: vertices shared by identity, and the pieces between
+//! them.
 
 use crate::parallel::prelude::*;
 use kurbo::Point;
@@ -19,15 +20,15 @@ use crate::visibility::view_tolerances::Limits;
 
 const UNSET: u32 = u32::MAX;
 
-/// Segments that one task cuts.
+/// Segments per task of the cutting step.
 const CHUNK: usize = 1 << 10;
 
-/// Which hidden pieces a view map keeps beside the visible ones.
+/// Hidden pieces that a view map keeps in addition to the visible ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum HiddenPieces {
-    /// All, with their counts.
+    /// All of them, with their layer counts.
     All,
-    /// Those of contours, from which chains tell a line that ducks under a fold from one that
+    /// Those of contours. Chaining needs them to distinguish a line that continues under a fold from one that
     /// ends.
     Contours,
 }
@@ -38,7 +39,7 @@ pub fn build(mesh: &Mesh, view: &View, lines: &FeatureLines, options: &LineOptio
     build_with(mesh, view, lines, options, None)
 }
 
-/// The same with the help of covers that were made of the view before.
+/// Like [`build`], with an occlusion buffer of the view that was made earlier.
 #[must_use]
 pub fn build_with(
     mesh: &Mesh,
@@ -52,8 +53,10 @@ pub fn build_with(
     asked.map(&told, None)
 }
 
-/// Builds the view map of all feature lines in front of a mesh some of whose faces one sees through, and that of what is seen of
-/// them through these faces alone: `clear` is the same mesh, but that those faces hide nothing.
+/// Builds two view maps of a mesh with see-through faces: all visible lines, and the parts visible only
+/// through those faces.
+///
+/// `clear` is the same mesh, but its see-through faces hide nothing.
 #[must_use]
 pub fn build_through(
     mesh: &Mesh,
@@ -68,7 +71,7 @@ pub fn build_through(
     [asked.map(&behind, None), asked.map(&behind, Some(&front))]
 }
 
-/// The view map of what is seen of plain lines, of which is known what is hidden.
+/// Builds the view map of plain lines whose hidden intervals are given.
 pub(crate) fn of_hidden(
     mesh: &Mesh,
     view: &View,
@@ -88,7 +91,7 @@ pub(crate) fn of_hidden(
     map
 }
 
-/// Lines in the image, of which visibility is asked.
+/// Projected lines of a view, whose visibility can be computed.
 struct Asked<'a> {
     mesh: &'a Mesh,
     view: &'a View,
@@ -98,7 +101,7 @@ struct Asked<'a> {
     hidden: HiddenPieces,
 }
 
-/// What is seen of them, with a mesh before them.
+/// Visibility of the lines with a given mesh in front of them.
 struct Told {
     seen: Visibility,
     rounded: Rounded,
@@ -126,7 +129,8 @@ impl<'a> Asked<'a> {
         Told { seen, rounded }
     }
 
-    /// The map of what is seen; or of what is seen so, but not with another mesh before it.
+    /// Builds the map of the visible pieces. With `but`, only of pieces that are not visible with that other
+    /// mesh.
     fn map(&self, told: &Told, but: Option<&Told>) -> ViewMap {
         let Self { mesh, view, lines, limits, .. } = self;
         let (mut map, needles) = crate::parallel::join(
@@ -146,7 +150,7 @@ impl<'a> Asked<'a> {
         let cuts: Vec<Cuts> =
             ids.into_par_iter().with_max_len(1).map(|first| self.cuts(first, told, but)).collect();
         let mut builder = Builder::new(self.mesh, self.view, self.lines);
-        // What grows by doubling is copied again and again; most lines are drawn whole, where anything is.
+        // Reserved up front to avoid repeated copying. Most kept segments have a single piece.
         let drawn = cuts.iter().map(|cuts| cuts.segments.len()).sum::<usize>();
         builder.map.edges.reserve(drawn);
         builder.map.vertices.reserve(drawn + drawn / 8);
@@ -154,7 +158,7 @@ impl<'a> Asked<'a> {
         builder.map
     }
 
-    /// Cuts those of some segments, from the first on, of which anything is kept.
+    /// Cuts one task's share of the segments, from `first` on, and keeps those with anything to draw.
     fn cuts(&self, first: usize, told: &Told, but: Option<&Told>) -> Cuts {
         let mut cuts = Cuts::default();
         let end = (first + CHUNK).min(self.segments.len());
@@ -183,19 +187,19 @@ impl<'a> Asked<'a> {
     }
 }
 
-/// Whether what is hidden of a segment is kept beside what is seen.
+/// Whether the hidden parts of a segment are kept in addition to the visible ones.
 fn keeps_hidden(hidden: HiddenPieces, segment: &ImageSegment, kind: LineKind) -> bool {
     let is_witness = matches!(segment.role, Role::Witness { .. });
     !is_witness && (hidden == HiddenPieces::All || kind == LineKind::Contour)
 }
 
 impl Told {
-    /// Whether anything of a segment may be drawn.
+    /// Whether any part of a segment may be drawn.
     fn draws(&self, segment: usize, role: Role) -> bool {
         role == Role::Line || self.rounded.is_drawn(segment, role)
     }
 
-    /// What is known of a segment.
+    /// Hidden and backed intervals of a segment.
     fn of(&self, segment: usize, role: Role) -> Seen<'_> {
         if role == Role::Line {
             return Seen { hidden: self.seen.hidden(segment), backed: self.seen.backed(segment) };
@@ -219,7 +223,7 @@ impl<'a> Builder<'a> {
         Self { mesh, view, lines, map, vertex_of_end }
     }
 
-    /// Adds the pieces of segments, of which these are all.
+    /// Adds the pieces of all cut segments.
     fn add_all(&mut self, segments: &[ImageSegment], cuts: &Cuts) {
         let mut pieces = cuts.pieces.as_slice();
         for cut in &cuts.segments {
@@ -229,7 +233,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Adds the pieces of a segment that are seen, and with `keeps_hidden` the others.
+    /// Adds the visible pieces of a segment, and with `keeps_hidden` the hidden ones.
     fn add(&mut self, segment: &ImageSegment, pieces: &[SegmentPart], keeps_hidden: bool) {
         let source = &self.lines.segments[segment.source as usize];
         let mut start: Option<ViewVertexId> = None;
@@ -253,7 +257,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// The node at an end of a segment: shared by all segments that end there.
+    /// Vertex at an end of a segment, shared by all segments that end there.
     fn end_vertex(&mut self, segment: &ImageSegment, end: usize) -> ViewVertexId {
         let point = if end == 0 { segment.a } else { segment.b };
         let source = &self.lines.segments[segment.source as usize];
@@ -296,7 +300,7 @@ fn view_edge(
         kind: source.kind,
         invisibility: piece.invisibility,
         silhouette: piece.silhouette,
-        // Where there is background on one side, only one of the two surfaces is seen.
+        // With background on one side, only one of the two surfaces is visible.
         both_seen: source.both_seen && !piece.silhouette,
         smooth: source.smooth,
         origin: source.origin,

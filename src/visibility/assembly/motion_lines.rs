@@ -1,4 +1,4 @@
-//! The view map of motion lines: what is seen of them beside the bodies that leave them.
+//! View map of motion lines: their visible parts outside the bodies that leave them.
 
 use std::ops::Range;
 
@@ -14,16 +14,17 @@ use crate::visibility::projection::image_segments::{ImageSegment, project};
 use crate::visibility::sweep::segment_visibility::decide;
 use crate::visibility::view_tolerances::Limits;
 
-/// A body, and the feature segments that must not lie over it, however near they are.
+/// Body, with the feature segments that must not be drawn over it, however near they are.
 #[derive(Debug)]
 pub struct Beside {
-    /// Feature segments that follow each other.
+    /// Consecutive feature segments.
     pub segments: Range<u32>,
-    /// What they are beside.
+    /// Body that hides them.
     pub body: Mesh,
 }
 
-/// Builds the view map of lines that are drawn where nothing hides them and they do not lie over their own bodies.
+/// Builds the view map of lines that are drawn where nothing hides them and they do not cross their own
+/// bodies.
 #[must_use]
 pub fn build_beside(
     mesh: &Mesh,
@@ -39,7 +40,7 @@ pub fn build_beside(
         (0..segments.len()).map(|i| seen.hidden(i).iter().map(|layer| layer.interval).collect()).collect();
     for Beside { segments: own, body } in bodies {
         let of_body = View::new(body, camera);
-        // What lies behind all of a body is hidden wherever the body covers it in the image.
+        // A line behind all of a body is hidden everywhere the body covers it in the image.
         let nearness = of_body.points.iter().map(|point| point.z).filter(|nearness| !nearness.is_nan());
         let least = nearness.fold(f64::INFINITY, f64::min);
         let frame = &view.frame;
@@ -47,7 +48,7 @@ pub fn build_beside(
         let behind = |segment: &ImageSegment| {
             let [mut a, mut b] = [segment.a, segment.b];
             (a.z, b.z) = (far, far);
-            // Its ends are no vertices of the body.
+            // Its ends are not vertices of the body.
             ImageSegment { a, b, ends: [u32::MAX; 2], ..*segment }
         };
         let numbers: Vec<usize> =

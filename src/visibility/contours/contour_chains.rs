@@ -1,20 +1,20 @@
-//! [`Run`]: what the image shows of a smooth contour from head to tail, measured by length.
+//! [`Run`]: connected image segments of a smooth contour, measured by arc length.
 
 use crate::lines::{ContourCurve, FeatureLines};
 use crate::visibility::projection::image_segments::ImageSegment;
 
 const NONE: u32 = u32::MAX;
 
-/// Image segments of one contour that follow each other.
+/// Consecutive image segments of one contour.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Run {
     /// Image segments in order.
     pub segments: Vec<u32>,
-    /// How far along the run each of them begins, user units, and the whole length.
+    /// Arc length at the start of each segment, user units, and the total length.
     pub starts: Vec<f64>,
-    /// Whether the last meets the first.
+    /// Whether the last segment meets the first.
     pub closed: bool,
-    /// Whether each lies between two cusps, where the averted side of the surface is the nearer one.
+    /// Whether each segment lies between two cusps, where the averted side of the surface is nearer.
     pub backward: Vec<bool>,
 }
 
@@ -23,22 +23,22 @@ impl Run {
         self.starts[self.segments.len()]
     }
 
-    /// Whether the image of the run turns back no farther than `within` from a place.
+    /// Whether the image of the run turns back within `within` of a place.
     pub fn turns_near(&self, place: f64, within: f64) -> bool {
         let first = self.starts.partition_point(|start| *start < place - within).max(1);
         let cusps = (first..self.segments.len()).take_while(|k| self.starts[*k] <= place + within);
         cusps.into_iter().any(|k| self.backward[k - 1] != self.backward[k])
     }
 
-    /// How far apart two places are, the shorter way round a closed run.
+    /// Distance between two places along the run; the shorter way round if it is closed.
     pub fn between(&self, from: f64, to: f64) -> f64 {
         let direct = (to - from).abs();
         if self.closed { direct.min(self.length() - direct) } else { direct }
     }
 }
 
-/// All runs of a view, curve by curve. The image of a curve that turns back for less than `cusp` user
-/// units has no cusp there.
+/// All runs of a view, curve by curve. A curve that turns back for less than `cusp` user units has no cusp
+/// there.
 pub(crate) fn runs(lines: &FeatureLines, segments: &[ImageSegment], cusp: f64) -> Vec<Run> {
     let mut image_of = vec![NONE; lines.segments.len()];
     for (i, segment) in segments.iter().enumerate() {
@@ -48,7 +48,7 @@ pub(crate) fn runs(lines: &FeatureLines, segments: &[ImageSegment], cusp: f64) -
 }
 
 fn of_curve(curve: &ContourCurve, image_of: &[u32], segments: &[ImageSegment], cusp: f64) -> Vec<Run> {
-    // Image segments and what they say of running backward.
+    // Image segments with their advance, which is negative where the curve runs backward.
     let mut found: Vec<Vec<(u32, f32)>> = Vec::new();
     let mut joined = false;
     for (source, advance) in curve.segments.clone().zip(&curve.advance) {
@@ -81,15 +81,17 @@ fn of_curve(curve: &ContourCurve, image_of: &[u32], segments: &[ImageSegment], c
         .collect()
 }
 
-/// Whether each piece lies between cusps. Stretches that turn back for less than `cusp` user units are
-/// ripples of the mesh: the shortest is made even first.
+/// Whether each piece lies between cusps.
+///
+/// Stretches that turn back for less than `cusp` user units are ripples of the mesh. The shortest is removed
+/// first, until none is left.
 fn evened(pieces: &[(u32, f32)], starts: &[f64], closed: bool, cusp: f64) -> Vec<bool> {
     let n = pieces.len();
     let mut backward: Vec<bool> = pieces.iter().map(|(_, advance)| *advance < 0.0).collect();
-    // What a piece says weighs as much as is drawn of it.
+    // Each piece is weighted by its length in the image times its advance.
     let weight = |k: usize| (starts[k + 1] - starts[k]) * f64::from(pieces[k].1.abs());
     loop {
-        // Stretches of one value: first index, number, weight.
+        // Stretches of one value: first index, number of pieces, weight.
         let mut stretches: Vec<(usize, usize, f64)> = Vec::new();
         for k in 0..n {
             match stretches.last_mut() {

@@ -1,10 +1,14 @@
-//! From witnesses to curves: the places of smooth contours at which the polyhedron's contour is seen.
+//! [`Court`]: matching of mesh contours to smooth contours.
 //!
-//! What is seen of an edge of the polyhedron's contour is known exactly. The smooth contour runs near
-//! it, so each seen place of the edge is taken to the nearest place of a curve that may stand for it:
-//! of the same body, no farther than what the faces here leave open, turning the same way, and
-//! running forward where the edge is convex and backward where it is hollow. It is the edge that goes
-//! to the curve and not the other way round, so that ink can stand nowhere but beside what is seen.
+//! The visibility of an edge of the mesh contour is known exactly, and the smooth contour runs near it. Each
+//! visible point of the edge is matched to the nearest place of a curve that
+//! - belongs to the same body,
+//! - is no farther away in depth than the faces there allow,
+//! - has a similar normal, and
+//! - runs forward where the edge is convex and backward where it is concave.
+//!
+//! Matching goes from the edge to the curve and not the other way round. So there is ink only next to visible
+//! parts of the mesh contour.
 
 use crate::parallel::prelude::*;
 use glam::{DVec3, Vec3};
@@ -22,45 +26,46 @@ use crate::visibility::sweep::segment_visibility::Visibility;
 use crate::visibility::tiles::aligned_grid::grid_over;
 use crate::visibility::tiles::tile_grid::Grid;
 
-/// A curve this near (px) may stand for an edge: more than smooth and polyhedral contours lie apart
-/// wherever a drawing is not coarser than its model.
+/// Largest distance of a curve that may stand for an edge, px. Smooth contour and mesh contour are closer
+/// together if the drawing is not coarser than its model.
 pub(crate) const REACH_PX: f64 = 2.5;
-/// Edges are asked every so many px.
+/// Sampling step along edges, px.
 const STEP_PX: f64 = 1.0;
-/// A curve nearer than this (px) is the ink of an edge, whatever it stands for.
+/// Distance below which a curve counts as the ink of an edge, px, even if it is matched to another.
 const INK_PX: f64 = 1.5;
-/// The normals of edge and curve turn from each other by no more than this cosine.
+/// Smallest cosine between the normals of an edge and its curve.
 const SAME_SIDE_COSINE: f32 = 0.2;
-/// Edge and curve are no farther from each other in depth than so many times the longest sides of
-/// the faces that hold them, and this many px: where a surface is seen edge-on, a shift of
-/// half a px is one of many px in depth.
+/// Largest difference in depth between an edge and its curve, in multiples of the longest sides of their
+/// faces, plus [`DEPTH_PX`] px.
+///
+/// Where a surface is seen edge-on, a shift of half a px is one of many px in depth.
 const DEPTH_OF_FACES: f64 = 2.0;
 const DEPTH_PX: f64 = 24.0;
-/// From one asked place to the next a curve runs on for no more than so many times their distance, and as
-/// much as it may be away: at a corner of the edges the nearest place jumps.
+/// Largest ratio between a step along a curve and the step along its edge, apart from the match distance. At
+/// a corner of the edges the nearest place jumps.
 const STRETCH: f64 = 4.0;
-/// Tiles across the page in which curves are sought.
+/// Tiles across the page in the lookup of curves.
 const GRID: u32 = 256;
 
-/// Witnesses that one task hears.
+/// Mesh contour segments per task.
 const CHUNK: usize = 64;
 
-/// A piece of a run that is seen or hidden beside a witness.
+/// Visible or hidden span of a run, next to an edge of the mesh contour.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Told {
     pub run: u32,
-    /// Places along the run.
+    /// Start and end, as places along the run.
     pub from: f64,
     pub to: f64,
-    /// Why it ends where it does, if the witness says.
+    /// Reasons for the ends, where the mesh contour gives them.
     pub kinds: [ViewVertexKind; 2],
-    /// Whether there is background beside it.
+    /// Whether there is background next to it.
     pub silhouette: bool,
     /// Number of surfaces in front.
     pub count: u16,
 }
 
-/// A seen piece of a witness with no curve for it.
+/// Visible part of a mesh contour edge without a matching curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Bare {
     /// Image segment.
@@ -70,18 +75,18 @@ pub(crate) struct Bare {
     pub silhouette: bool,
 }
 
-/// What witnesses say.
+/// Result of the matching.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Testimony {
-    /// Seen (count 0) and hidden pieces of runs.
+    /// Visible (count 0) and hidden spans of runs.
     pub told: Vec<Told>,
-    /// What has no curve, in the order of segments.
+    /// Visible parts without a curve, in the order of segments.
     pub bare: Vec<Bare>,
-    /// What is seen of witnesses, curve or not.
+    /// Visible parts of all mesh contours, with or without a curve.
     pub seen: Vec<SeenContour>,
 }
 
-/// What witnesses are compared with.
+/// Input of the matching.
 pub(crate) struct Court<'a> {
     pub mesh: &'a Mesh,
     pub view: &'a View,
@@ -91,10 +96,10 @@ pub(crate) struct Court<'a> {
     pub px: f64,
 }
 
-/// The pieces of curves, to be found by place.
+/// Pieces of curves in a grid, for lookup by position.
 pub(crate) struct Sought {
     grid: Grid,
-    /// Run and index in it of those in each tile.
+    /// Run, and index within the run, of the pieces in each tile.
     pieces: Grouped<(u32, u32)>,
 }
 
@@ -113,16 +118,16 @@ impl Sought {
     }
 }
 
-/// A place on a run.
+/// Place on a run.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Place {
     pub run: u32,
-    /// How far along it.
+    /// Arc length along the run, user units.
     pub at: f64,
 }
 
 impl Court<'_> {
-    /// Asks all witnesses; hidden pieces are told only if `hidden` has them counted.
+    /// Matches all mesh contours. Hidden spans are included only with `hidden`.
     pub fn hear(&self, seen: &Visibility, hidden: bool) -> Testimony {
         let count = self.segments.len();
         let heard: Vec<Testimony> = (0..count.div_ceil(CHUNK))
@@ -187,7 +192,8 @@ impl Court<'_> {
         }
     }
 
-    /// Takes a piece of a witness to the curves. Its `from` and `to` are parameters of the segment.
+    /// Matches a part of a mesh contour edge to the curves. Its `from` and `to` are parameters of the
+    /// segment.
     fn follow(&self, id: u32, convex: bool, piece: &Told, out: &mut Testimony) {
         let segment = &self.segments[id as usize];
         let steps = ((piece.to - piece.from) * segment.length() / (STEP_PX * self.px)).ceil().max(1.0);
@@ -215,7 +221,7 @@ impl Court<'_> {
         }
     }
 
-    /// What lies between two places of a run, if it is no longer than `most`.
+    /// Adds the span between two places of a run, if it is no longer than `most`.
     fn tell(
         &self,
         p: Place,
@@ -233,7 +239,7 @@ impl Court<'_> {
             if p.at <= q.at { (p.at, q.at, kinds) } else { (q.at, p.at, [kinds[1], kinds[0]]) };
         let told = Told { run: p.run, kinds, ..*piece };
         if run.closed && to - from > run.length() / 2.0 {
-            // Over the seam.
+            // The span crosses the seam of the closed run.
             let inner = ViewVertexKind::Vertex;
             out.told.push(Told { from: to, to: run.length(), kinds: [kinds[1], inner], ..told });
             out.told.push(Told { from: 0.0, to: from, kinds: [inner, kinds[0]], ..told });
@@ -242,7 +248,7 @@ impl Court<'_> {
         }
     }
 
-    /// The nearest place of a curve that may stand for a witness at a point of it.
+    /// Nearest place of a curve that may stand for a mesh contour edge at one of its points.
     pub fn place(&self, witness: &ImageSegment, p: DVec3) -> Option<Place> {
         match witness.role {
             Role::Witness { convex, .. } => self.nearest(witness, convex, p),
@@ -283,16 +289,16 @@ impl Court<'_> {
         best.map(|(_, place)| place)
     }
 
-    /// Whether any seen part of a curve passes by a point of the image as near as ink is. `is_seen`
-    /// tells of a run and a place along it.
+    /// Whether a visible part of a curve passes a point of the image within ink distance. `is_seen` takes a
+    /// run and a place along it.
     pub fn is_inked(&self, p: DVec3, is_seen: impl Fn(u32, f64) -> bool) -> bool {
         let mut inked = false;
         self.each_near(p, INK_PX * self.px, |_, r, _, place| inked = inked || is_seen(r, place));
         inked
     }
 
-    /// Calls `visit(squared distance, run, index in it, place along it)` for the nearest points of
-    /// all pieces of curves within a distance.
+    /// Calls `visit(squared distance, run, index in it, place along it)` for the nearest points of all curve
+    /// pieces within a distance.
     fn each_near(&self, p: DVec3, reach: f64, mut visit: impl FnMut(f64, u32, usize, f64)) {
         let Sought { grid, pieces } = &self.sought;
         for (tile, _) in grid.tiles_of(grid.tile_box(p - reach, p + reach)) {
@@ -312,14 +318,14 @@ impl Court<'_> {
         }
     }
 
-    /// The longest side of a face, world units.
+    /// Longest side of a face, world units.
     fn reach(&self, face: u32) -> f64 {
         let [a, b, c] = self.mesh.corners(FaceId(face));
         a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a)).sqrt()
     }
 }
 
-/// A seen piece, cut where background begins or ends beside it.
+/// Splits a visible part where background begins or ends next to it.
 fn backed_pieces(whole: &Told, backed: &[Interval]) -> Vec<Told> {
     let mut pieces = Vec::with_capacity(1);
     let mut at = whole.from;

@@ -1,8 +1,8 @@
-//! Teeth: places where the contour of the polyhedron leaves the smooth one for a few edges and comes back
-//! to where it left.
+//! [`Teeth`]: contour spurs, where the mesh contour leaves the smooth contour for a few edges and returns to
+//! the same place.
 //!
-//! Thin faces seen edge-on stick out of the contour like teeth of a saw, and often only one side of a
-//! tooth is seen. The smooth contour passes below, and stands for them.
+//! Thin faces seen edge-on stick out of the contour like saw teeth, and often only one side of a tooth is
+//! visible. The smooth contour passes below and replaces them.
 
 use crate::parallel::prelude::*;
 
@@ -10,14 +10,14 @@ use super::contour_matching::{Court, Place};
 use crate::lines::Role;
 use crate::visibility::projection::image_segments::ImageSegment;
 
-/// A detour of more edges than this is no tooth.
+/// Largest number of edges of a spur.
 const MOST_EDGES: usize = 12;
 
-/// The contour of the polyhedron as a graph, seen or hidden.
+/// Graph of the mesh contour, visible and hidden parts alike.
 pub(crate) struct Teeth<'a> {
     court: &'a Court<'a>,
     segments: &'a [ImageSegment],
-    /// Vertices with the witnesses that end there, by vertex.
+    /// Vertices with the mesh contour segments that end there, sorted by vertex.
     ends: Vec<(u32, u32)>,
 }
 
@@ -30,7 +30,8 @@ impl<'a> Teeth<'a> {
         Self { court, segments, ends }
     }
 
-    /// Whether a witness is part of a tooth on a curve that `is_seen` (run, from, to) all along its foot.
+    /// Whether a mesh contour segment is part of a spur. `is_seen(run, from, to)` must hold for the curve
+    /// along its base.
     pub fn holds(&self, id: u32, is_seen: impl Fn(u32, f64, f64) -> bool) -> bool {
         let Some((p, there)) = self.walk(id, 0) else { return false };
         let Some((q, back)) = self.walk(id, 1) else { return false };
@@ -40,7 +41,7 @@ impl<'a> Teeth<'a> {
         }
     }
 
-    /// The first place of a curve on the way from one end of a witness, and how long the way is.
+    /// First place on a curve along the mesh contour from one end of a segment, with the distance to it.
     fn walk(&self, id: u32, end: usize) -> Option<(Place, f64)> {
         let mut way = 0.0;
         let (mut at, mut vertex) = (id, self.segments[id as usize].ends[end]);

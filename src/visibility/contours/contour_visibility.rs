@@ -1,5 +1,7 @@
-//! What is drawn of rounded surfaces: of each smooth contour what its witnesses show, and of the
-//! witnesses what no smooth contour stands for.
+//! [`Rounded`]: the drawn parts of the contours of rounded surfaces.
+//!
+//! A smooth contour is drawn where the mesh contour matched to it is visible. Visible parts of the mesh
+//! contour without a smooth contour are drawn themselves.
 
 use crate::parallel::prelude::*;
 
@@ -18,44 +20,43 @@ use crate::visibility::projection::image_segments::ImageSegment;
 use crate::visibility::sweep::segment_visibility::Visibility;
 use crate::visibility::view_tolerances::Limits;
 
-/// Gaps in what is seen of a curve no longer than this (px) come from the steps in which witnesses
-/// are asked: a contour of the polyhedron is seen without gaps.
+/// Largest gap between visible spans of a curve that is closed, px. Such gaps come from sampling the mesh
+/// contour, which is visible without gaps.
 const GAP_PX: f64 = 1.0;
 
-/// What is seen of witnesses and curves: of each the ranges of its parameter that are drawn, by image
-/// segment.
+/// Drawn parameter ranges of smooth contours and mesh contours, by image segment.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rounded {
-    /// What is not drawn of each image segment of a rounded surface, ascending.
+    /// Undrawn parts of each image segment of a rounded surface, ascending.
     pub hidden: Grouped<Layer>,
-    /// Where a surface lies beside it on the outer side, ascending.
+    /// Where a surface lies next to it on the outer side, ascending.
     pub backed: Grouped<Interval>,
-    /// Whether each is a witness of which something is drawn.
+    /// Whether each segment is a mesh contour with a drawn part.
     bare: Vec<bool>,
     pub counts: ContourCounts,
-    /// What is seen of the contours of the polyhedron.
+    /// Visible parts of the mesh contour.
     pub seen: Vec<SeenContour>,
 }
 
 impl Rounded {
-    /// Whether anything of an image segment of a rounded surface may be drawn.
+    /// Whether any part of an image segment of a rounded surface may be drawn.
     pub fn is_drawn(&self, segment: usize, role: Role) -> bool {
         role == Role::Curve || self.bare[segment]
     }
 }
 
-/// The same as it is found.
+/// Drawn parts of smooth contours and mesh contours, in the order of discovery.
 #[derive(Debug, Default)]
 struct Found {
     hidden: Vec<(u32, Layer)>,
     backed: Vec<(u32, Interval)>,
-    /// Witnesses of which something is drawn.
+    /// Mesh contour segments with a drawn part.
     bare: Vec<u32>,
     counts: ContourCounts,
 }
 
 impl Found {
-    /// Of so many image segments.
+    /// Groups the results by image segment.
     fn sorted(self, segments: usize, seen: Vec<SeenContour>) -> Rounded {
         let mut bare = vec![false; segments];
         self.bare.iter().for_each(|segment| bare[*segment as usize] = true);
@@ -65,7 +66,7 @@ impl Found {
     }
 }
 
-/// What was found of each segment, in the order of where it starts.
+/// Groups values by segment, sorted by their start.
 fn by_segment<T: Copy>(segments: usize, found: &[(u32, T)], start: impl Fn(&T) -> f64) -> Grouped<T> {
     let mut sorted =
         grouped(segments, |put| found.iter().for_each(|(segment, value)| put(*segment as usize, *value)));
@@ -75,7 +76,7 @@ fn by_segment<T: Copy>(segments: usize, found: &[(u32, T)], start: impl Fn(&T) -
     sorted
 }
 
-/// The image of smooth contours, to be asked for.
+/// Smooth contours in the image, indexed for lookup.
 pub(crate) struct Smooth {
     runs: Vec<Run>,
     sought: Sought,
@@ -88,7 +89,7 @@ impl Smooth {
     }
 }
 
-/// What is seen of the witnesses is known.
+/// Computes the drawn parts of smooth contours and mesh contours from the visibility of the mesh contours.
 pub(crate) fn decide(
     mesh: &Mesh,
     view: &View,
@@ -124,7 +125,7 @@ pub(crate) fn decide(
     found.sorted(segments.len(), testimony.seen)
 }
 
-/// Pieces in ascending order of where they begin, those joined that overlap or nearly meet.
+/// Merges spans that overlap or nearly meet; they must be sorted by start.
 fn joined<'a>(pieces: impl Iterator<Item = &'a Told>, gap: f64) -> Vec<Told> {
     let mut joined: Vec<Told> = Vec::new();
     for piece in pieces {
@@ -141,7 +142,7 @@ fn joined<'a>(pieces: impl Iterator<Item = &'a Told>, gap: f64) -> Vec<Told> {
     joined
 }
 
-/// What is seen of the runs: ascending pieces of each.
+/// Visible spans of each run, ascending.
 struct SeenRuns<'a> {
     runs: &'a [Run],
     pieces: &'a [Vec<Told>],
@@ -154,7 +155,7 @@ impl SeenRuns<'_> {
         pieces.get(next).is_some_and(|t| t.from <= place)
     }
 
-    /// Whether all is seen between two places of a run, one way round or the other.
+    /// Whether a run is visible throughout between two places, in one direction round the run or the other.
     fn between(&self, run: u32, from: f64, to: f64) -> bool {
         let holds =
             |from: f64, to: f64| self.pieces[run as usize].iter().any(|t| t.from <= from && t.to >= to);
@@ -164,8 +165,10 @@ impl SeenRuns<'_> {
 }
 
 impl Found {
-    /// Adds what has no curve: all but what has ink near it by chance, and ripples of the mesh that have
-    /// other surface behind them.
+    /// Adds the visible parts of the mesh contour without a smooth contour.
+    ///
+    /// Parts with visible ink near them are left out, and so are ripples of the mesh with other surface
+    /// behind them.
     fn add_bare(&mut self, court: &Court, segments: &[ImageSegment], bare: &[Bare], seen: &[Vec<Told>]) {
         let seen = SeenRuns { runs: court.runs, pieces: seen };
         let teeth = Teeth::new(court, segments);
@@ -205,11 +208,11 @@ impl Found {
         }
     }
 
-    /// Adds what is hidden of a run: all that is not seen.
+    /// Adds the hidden parts of a run: everything outside its visible spans.
     fn add_run(&mut self, run: &Run, [visible, silhouette, told]: [&[Told]; 3], cusp: f64) {
         let mut at = 0.0;
         let mut kind = ViewVertexKind::Vertex;
-        // Where no line covers it, a contour ends because it turns back in the image.
+        // A contour end that no line covers is a cusp if the contour turns back in the image there.
         let ended = |place: f64, kind: ViewVertexKind| match kind {
             ViewVertexKind::Vertex if run.turns_near(place, cusp) => ViewVertexKind::Cusp,
             kind => kind,
@@ -232,7 +235,7 @@ impl Found {
     }
 
     fn hide(&mut self, run: &Run, [from, to]: [f64; 2], kinds: [ViewVertexKind; 2], told: &[Told]) {
-        // What nobody was asked about lies behind one surface at least.
+        // Parts without a match are behind at least one surface.
         let count = |from: f64, to: f64| {
             let hidden = told.iter().filter(|t| t.count > 0 && t.from < to && t.to > from);
             hidden.map(|t| t.count).max().unwrap_or(1)
@@ -245,7 +248,7 @@ impl Found {
         });
     }
 
-    /// Adds what is not drawn of a witness: all that is not bare.
+    /// Adds the undrawn parts of a mesh contour segment: everything outside its unmatched visible spans.
     fn add_witness(&mut self, bare: &[Bare]) {
         let inner = ViewVertexKind::Vertex;
         let mut at = 0.0;
@@ -267,7 +270,7 @@ impl Found {
     }
 }
 
-/// Calls `visit(image segment, from, to)` for the parts of segments between two places of a run.
+/// Calls `visit(image segment, from, to)` for the segment parts between two places of a run.
 fn each_part(run: &Run, from: f64, to: f64, mut visit: impl FnMut(u32, f64, f64)) {
     if to <= from {
         return;

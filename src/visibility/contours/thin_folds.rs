@@ -1,8 +1,8 @@
-//! Needles: contours of folds that are thinner than a pen wherever one looks at them.
+//! Thin folds: contours of folds that are thinner than a pen stroke, in the image and in space.
 //!
-//! A face much longer than wide that turns from the eye makes a contour out to its tip and one back, the surface
-//! going on on both sides. Of the two the nearer one is seen, and looks like a splinter. Where both lie in one stroke of
-//! a pen, in the image and in space, and no line goes on from them, neither tells anything.
+//! A face much longer than wide that turns from the eye gives one contour out to its tip and one back, and
+//! the surface continues on both sides. Only the nearer of the two is visible, and it looks like a splinter.
+//! Where both lie within one pen stroke and no line continues from them, neither shows anything useful.
 
 use glam::{DVec2, DVec3};
 
@@ -12,24 +12,24 @@ use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 use crate::visibility::projection::image_segments::ImageSegment;
 
-/// A needle is at least this many times longer than wide.
+/// Smallest ratio of length to width of a thin fold.
 const SLENDER: f64 = 3.0;
 
-/// Cosine of the largest angle (26 degrees) between a needle and a line that goes the same way.
+/// Smallest cosine (26 degrees) between a fold and a line that continues it.
 const SAME_WAY_COSINE: f64 = 0.9;
 
-/// The two sides of a fold, and where they meet.
+/// Two sides of a fold and the vertex where they meet.
 struct Needle {
-    /// Image segments.
+    /// Image segments of the sides.
     sides: [u32; 2],
     tip: u32,
-    /// The other end of each side.
+    /// Other end of each side.
     feet: [u32; 2],
-    /// From the tip to the feet in the image.
+    /// Vector from the tip to the feet, in the image.
     along: DVec2,
 }
 
-/// The feature segments that are a side of a needle, ascending.
+/// Finds the feature segments that are sides of thin folds, ascending.
 pub(crate) fn find(mesh: &Mesh, view: &View, lines: &FeatureLines, segments: &[ImageSegment]) -> Vec<u32> {
     let shortest = SLENDER * tolerance::NEEDLE_PX * view.frame.px();
     let is_side = |s: &ImageSegment| {
@@ -57,8 +57,10 @@ pub(crate) fn find(mesh: &Mesh, view: &View, lines: &FeatureLines, segments: &[I
     found
 }
 
-/// Of each needle whether another line ends at its tip, or a further contour goes from one of its feet the way of the
-/// tip: then the three of them are one line, to and fro.
+/// Whether a line continues from each fold: another line ends at its tip, or a contour leaves one of its feet
+/// towards the tip.
+///
+/// In the second case the three contours are one line that doubles back.
 fn going_on(needles: &[Needle], lines: &FeatureLines, segments: &[ImageSegment]) -> Vec<bool> {
     let mut goes_on = vec![false; needles.len()];
     let mut places: Vec<(u32, u32)> = Vec::new();
@@ -80,7 +82,7 @@ fn going_on(needles: &[Needle], lines: &FeatureLines, segments: &[ImageSegment])
                 let ends = [segment.a, segment.b].map(DVec3::truncate);
                 let (way, back) = (ends[1 - k] - ends[k], -needle.along);
                 let is_contour = lines.segments[segment.source as usize].kind == LineKind::Contour;
-                // What is shorter is the base of the needle.
+                // A shorter line is the base of the fold.
                 let same_way = SLENDER * way.length() > back.length()
                     && way.dot(back) > SAME_WAY_COSINE * way.length() * back.length();
                 goes_on[*of as usize] |= *end == needle.tip || (is_contour && same_way);
@@ -90,7 +92,7 @@ fn going_on(needles: &[Needle], lines: &FeatureLines, segments: &[ImageSegment])
     goes_on
 }
 
-/// Two contours that end in one vertex, if they are the sides of a fold and lie in one stroke.
+/// Thin fold of two contours that end in one vertex, if they are the sides of a fold within one pen stroke.
 fn needle(
     mesh: &Mesh,
     view: &View,
@@ -115,12 +117,12 @@ fn needle(
     let [p, q] = feet.map(|foot| lines.position(mesh, foot));
     let base = p.distance(q) / frame.px_at(frame.depth(p).min(frame.depth(q))) * px;
     let is_slender = base <= tolerance::NEEDLE_BASE_PX * px && SLENDER * base <= lengths[0].min(lengths[1]);
-    // A spike has two ridges for sides, and no back.
+    // A spike has two ridges as sides, and no back.
     let folds = || is_ridge(mesh, lines, pair[0]) != is_ridge(mesh, lines, pair[1]);
     (is_slender && folds()).then_some(Needle { sides, tip, feet, along: along[0] })
 }
 
-/// Whether the second face beside a line falls away behind the outside of the first.
+/// Whether the second face at an edge falls away behind the outer side of the first.
 fn is_ridge(mesh: &Mesh, lines: &FeatureLines, segment: &ImageSegment) -> bool {
     let [first, second] = segment.hosts;
     let third = mesh.triangles[second as usize].iter().find(|v| !segment.ends.contains(v));

@@ -1,6 +1,9 @@
-//! [`FarSides`]: which parts of a surface are the far sides of bodies.
+//! [`FarSides`]: groups of faces that form the back of a body.
 //!
-//! What the far side of a body hides, its near side hides before it. Nothing but time depends on what is told here.
+//! 1. Where the surface folds in the image, one of the two groups at the fold is behind the other.
+//! 2. A group is a back if the folds where it is behind are longer than those where it is in front.
+//!
+//! The front of a body hides everything that its back hides, so this choice affects time only.
 
 use std::sync::atomic::AtomicI32;
 use std::sync::atomic::Ordering::Relaxed;
@@ -13,18 +16,19 @@ use crate::mesh::{EdgeFaces, Mesh};
 use crate::parallel::task_size::GRAIN;
 use crate::view::View;
 
-/// Lengths are summed in so many parts of a user unit, as whole numbers have the same sum in any order.
+/// Fixed-point steps per user unit. Unlike floating-point sums, integer sums do not depend on their order.
 const PARTS: f64 = 16.0;
-/// Groups of faces between folds of the image of a surface, and which of them are far sides.
+/// Groups of faces between folds of the image, and which of them are backs of bodies.
 pub(crate) struct FarSides {
     groups: Groups,
-    /// By the first face of a group: the length of the folds at which it ends behind others, less that of those at which it
-    /// ends before them.
+    /// By the first face of a group: the length of the folds where it is behind its neighbour, minus that of
+    /// the folds where it is in front.
     behind: Vec<AtomicI32>,
 }
 
 impl FarSides {
-    /// Those of `groups` of faces that hang together over the edges of `inner`, at which the image does not fold.
+    /// Classifies `groups` of faces that are connected across the `inner` edges, where the image does not
+    /// fold.
     pub fn new(mesh: &Mesh, view: &View, inner: &EdgeSet, groups: Groups) -> Self {
         let behind: Vec<AtomicI32> = mesh.triangles.par_iter().map(|_| AtomicI32::new(0)).collect();
         let outer = (0..mesh.edges.len()).into_par_iter().with_min_len(GRAIN);
@@ -43,26 +47,27 @@ impl FarSides {
         Self { groups, behind }
     }
 
-    /// The first face of the group that a face is in.
+    /// First face of the group of a face.
     #[inline]
     pub fn group(&self, face: u32) -> u32 {
         self.groups.of(face)
     }
 
-    /// Whether most of the folds at which the group of a face ends lead to faces that are nearer to the eye than its own.
+    /// Whether a face is part of a back: along most of its folds, the neighbouring group is nearer to the
+    /// eye.
     #[inline]
     pub fn holds(&self, face: u32) -> bool {
         self.behind[self.groups.of(face) as usize].load(Relaxed) > 0
     }
 }
 
-/// Whether the second of two faces at an edge lies before the first, and how long the edge is in the image; none where they do
-/// not lie on the same side of it.
+/// Whether the second of two faces at an edge is in front of the first, and the length of the edge in the
+/// image. There is none if the faces lie on different sides of the edge.
 fn fold(mesh: &Mesh, view: &View, edge: usize, faces: [u32; 2]) -> Option<(bool, f64)> {
     let ends = mesh.edges.vertices[edge];
     let [from, to] = ends.map(|v| view.points[v as usize]);
     let along = (to - from).truncate();
-    // On which side of the edge a face lies, and how steeply it rises to the eye from there.
+    // Side of the edge on which a face lies, and how steeply it rises towards the eye from there.
     let rise = |face: u32| {
         let apex = mesh.triangles[face as usize].into_iter().find(|v| !ends.contains(v))?;
         let way = view.points[apex as usize] - from;
@@ -87,7 +92,7 @@ mod tests {
 
     type Triangle = [DVec3; 3];
 
-    /// Of each face, in any order, its corners in the world and in the image, and whether it is of a far side.
+    /// Corners of each face in the world and in the image, and whether it is part of a back.
     fn far_sides(faces: &[Triangle]) -> Vec<(Triangle, Triangle, bool)> {
         let positions = faces.concat();
         let triangles = (0..faces.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect();
@@ -106,7 +111,7 @@ mod tests {
         (0..mesh.triangles.len() as u32).map(of_face).collect()
     }
 
-    /// The faces of a box, outward.
+    /// Faces of a box, wound outward.
     fn cuboid() -> Vec<Triangle> {
         let corner = |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2));
         let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
@@ -119,7 +124,7 @@ mod tests {
             let wound = |[a, b, c]: Triangle| if is_outward { [a, b, c] } else { [a, c, b] };
             let found = far_sides(&cuboid().into_iter().map(wound).collect::<Vec<_>>());
             assert_eq!(found.iter().filter(|(.., is_far)| *is_far).count(), 6);
-            // All three near sides meet at the nearest corner.
+            // The three front sides meet at the nearest corner.
             let all = || found.iter().flat_map(|(world, image, _)| world.iter().zip(image));
             let nearest =
                 all().max_by(|a, b| a.1.z.total_cmp(&b.1.z)).map_or(DVec3::NAN, |(world, _)| *world);

@@ -1,8 +1,8 @@
-//! [`EdgeFunctions`]: the sides of a triangle as functions of the point, by which most lines near it are told to lie beside it.
+//! [`EdgeFunctions`]: the edge functions of a triangle, which reject most lines next to it.
 //!
-//! Of the lines in a tile that overlap the box of a triangle, half lie beyond one of its sides. Single precision tells that of
-//! most: its values are raised by more than their rounding, so that nothing is beyond a side that is not so exactly
-//! ([`crate::visibility::occlusion::triangle_occlusion::covered`] decides about all others).
+//! Of the lines in a tile that overlap the bounding box of a triangle, half are outside one of its sides.
+//! Single precision settles most of these cases. Its values are raised by more than their rounding error, so
+//! no line is rejected that the exact test ([`crate::visibility::occlusion::triangle_occlusion::covered`]) accepts.
 //!
 //! Source: Juan Pineda, "A parallel algorithm for polygon rasterization", 1988.
 
@@ -10,20 +10,20 @@ use glam::{DVec2, DVec3};
 
 use crate::visibility::view_tolerances::Limits;
 
-/// More than single precision may be off, as a share of the terms of a function.
+/// Bound for the error of single precision, as a share of the terms of a function.
 const ROUNDING: f64 = 1e-6;
 
-/// The area of the image that [`EdgeFunctions`] are asked about.
+/// Area of the image where [`EdgeFunctions`] are evaluated.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Window {
-    /// Its middle, from which points are measured.
+    /// Centre, the origin of its points.
     pub(crate) middle: DVec2,
-    /// No coordinate of its points is farther from the middle.
+    /// Largest distance of a coordinate from the centre, user units.
     pub(crate) reach: f64,
 }
 
 impl Window {
-    /// A point of the image as the functions are asked about it; none off the window.
+    /// Point relative to the centre, in single precision; `None` outside the window.
     #[inline]
     pub(crate) fn point(&self, point: DVec2) -> Option<[f32; 2]> {
         let from_middle = point - self.middle;
@@ -31,15 +31,15 @@ impl Window {
         is_here.then_some([from_middle.x as f32, from_middle.y as f32])
     }
 
-    /// Two points, if both are on the window.
+    /// Two points relative to the centre, if both are in the window.
     #[inline]
     pub(crate) fn both(&self, points: [DVec2; 2]) -> Option<[[f32; 2]; 2]> {
         Some([self.point(points[0])?, self.point(points[1])?])
     }
 }
 
-/// The sides of a triangle as functions that are negative beyond them. A fourth is negative nowhere, so that they fill the lanes
-/// of a register.
+/// Sides of a triangle as linear functions that are negative outside. The fourth function is positive
+/// everywhere and fills the register.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EdgeFunctions {
     x: [f32; 4],
@@ -48,7 +48,7 @@ pub(crate) struct EdgeFunctions {
 }
 
 impl EdgeFunctions {
-    /// Those of a triangle in image space, for the points of a window.
+    /// Edge functions of a triangle in image space, for the points of a window.
     #[inline]
     pub(crate) fn new(corners: &[DVec3; 3], window: &Window, limits: &Limits) -> Self {
         let [a, b, c] = corners.map(DVec3::truncate);
@@ -64,7 +64,7 @@ impl EdgeFunctions {
         made
     }
 
-    /// Whether both of two points lie beyond the same side, and with them all between them.
+    /// Whether two points, and so all points between them, are outside the same side.
     #[inline]
     pub(crate) fn are_beyond_a_side(&self, a: [f32; 2], b: [f32; 2]) -> bool {
         let mut beyond = false;
@@ -97,7 +97,8 @@ mod tests {
         let limits = Limits::new(&view.frame);
         let mut dice = Dice::new(11);
         let [mut told, mut left, mut covering] = [0; 3];
-        // From triangles much smaller than the window to such whose corners are far off it, near the origin and away.
+        // From triangles much smaller than the window to triangles with corners far outside it, near the
+        // origin and away from it.
         for size in [1e-3, 0.1, 3.0, 100.0, 1e5] {
             for far in [0.0, 1e3, 1e7] {
                 let window = Window { middle: DVec2::new(far, -far), reach: 2.0 };
@@ -105,7 +106,7 @@ mod tests {
                 for round in 0..2000 {
                     let near = centre + dice.point(2.0);
                     let corners = [0; 3].map(|_| near + dice.point(size));
-                    // Points anywhere, or along a side, where rounding matters.
+                    // Random points, or points along a side, where rounding matters.
                     let anywhere = [0; 2].map(|_| (centre + dice.point(2.0)).truncate());
                     let along = [0.2, 0.7].map(|t| corners[0].lerp(corners[1], t).truncate());
                     let [p, q] = if round % 2 == 0 { anywhere } else { along };

@@ -1,8 +1,8 @@
-//! [`LongPairs`]: what long triangles hide of long lines, each pair compared once.
+//! [`LongPairs`]: long lines compared with long triangles, once per pair instead of once per tile.
 //!
-//! What a triangle hides of a line is told of the whole of both at once, but where both lie over many tiles they would be compared
-//! in each of these. Fans of needles, into which programs part flat faces with thousands of corners, have thousands of both in the
-//! same tiles.
+//! The interval that a triangle hides is computed for the whole line. Where both cross many tiles, the pair
+//! would be compared in each of them. Fans of needle-shaped triangles have thousands of both in the same
+//! tiles. Programs create such fans from flat faces with thousands of corners.
 
 use crate::parallel::prelude::*;
 
@@ -16,35 +16,35 @@ use crate::visibility::occlusion::tiled_triangles::{Occluder, Reach};
 use crate::visibility::occlusion::triangle_occlusion::{Interval, hidden_interval};
 use crate::visibility::projection::image_segments::ImageSegment;
 
-/// Lines and triangles that lie over so many tiles are long.
+/// Smallest number of tiles over a long line or triangle.
 const TILES: u16 = 16;
-/// Fewer pairs of long ones than this, in all tiles, are compared where they are met.
+/// Lowest number of pairs over all tiles that justifies the separate comparison.
 const MANY: u64 = 1 << 22;
-/// Stands for no number.
+/// Marks the absence of a number.
 const NONE: u32 = u32::MAX;
 
-/// What long triangles hide of long lines.
+/// Intervals that long triangles hide of long lines.
 #[derive(Debug)]
 pub(crate) struct LongPairs {
-    /// The number of each segment among the long ones.
+    /// Number of each segment among the long ones; [`NONE`] for the others.
     numbers: Vec<u32>,
     is_long: Vec<bool>,
     known: Vec<Known>,
-    /// How many times a segment was compared with a triangle.
+    /// Number of comparisons between a segment and a triangle.
     pub tests: u64,
 }
 
-/// What long triangles have of one segment, ascending and without overlap.
+/// Results of one segment, ascending and without overlap.
 #[derive(Debug, Default)]
 struct Known {
     hidden: Vec<Layer>,
-    /// Where one of them lies next to it, on either of its [`OuterSides`].
+    /// Where a long triangle lies next to the segment, for each of its [`OuterSides`].
     backed: [Vec<Layer>; 2],
     tests: u64,
 }
 
 impl LongPairs {
-    /// Compares them; none if they are so few that it does not matter.
+    /// Compares all long pairs; `None` if there are too few of them.
     pub fn find(compared: &Compared, items: &Grouped<Item>, occluders: &Grouped<u32>) -> Option<Self> {
         let tiles = 0..occluders.count();
         let pairs = |tile: usize| items.of(tile).len() as u64 * occluders.of(tile).len() as u64;
@@ -96,12 +96,12 @@ impl LongPairs {
         self.is_long[id as usize]
     }
 
-    /// What of an item they hide.
+    /// Hidden parts of an item.
     pub fn hidden(&self, item: &Item) -> impl Iterator<Item = Layer> {
         self.known(item.segment).into_iter().flat_map(|known| within(&known.hidden, *item))
     }
 
-    /// The parts of an item that one of them lies next to, on one of its outer sides.
+    /// Parts of an item that a long triangle lies next to, on one of its outer sides.
     pub fn backed(&self, item: &Item, side: usize) -> impl Iterator<Item = Interval> {
         let known = self.known(item.segment).into_iter();
         known.flat_map(move |known| within(&known.backed[side], *item)).map(|layer| layer.interval)
@@ -112,7 +112,7 @@ impl LongPairs {
     }
 }
 
-/// What of ascending layers lies in an item.
+/// Ascending layers, clipped to an item.
 fn within(layers: &[Layer], item: Item) -> impl Iterator<Item = Layer> {
     let first = layers.partition_point(|layer| layer.interval.end <= item.start);
     let of_item = layers[first..].iter().take_while(move |layer| layer.interval.start < item.end);
@@ -129,7 +129,7 @@ fn within(layers: &[Layer], item: Item) -> impl Iterator<Item = Layer> {
     })
 }
 
-/// How often each of `count` numbers comes.
+/// Number of occurrences of each of the numbers below `count`.
 fn spans(count: usize, numbers: impl Iterator<Item = u32>) -> Vec<u16> {
     let mut spans = vec![0u16; count];
     for number in numbers {
@@ -139,7 +139,7 @@ fn spans(count: usize, numbers: impl Iterator<Item = u32>) -> Vec<u16> {
     spans
 }
 
-/// Some of many things, and the number of each of all things among them.
+/// Subset of a list, and the number of each list entry in the subset.
 struct Numbered {
     list: Vec<u32>,
     numbers: Vec<u32>,
@@ -155,7 +155,7 @@ fn numbered(chosen: impl Iterator<Item = bool>) -> Numbered {
     Numbered { list, numbers }
 }
 
-/// A part of a segment, and the tile it lies in.
+/// Part of a segment, with the tile that contains it.
 #[derive(Debug, Clone, Copy)]
 struct Stay {
     tile: u32,
@@ -163,15 +163,15 @@ struct Stay {
     end: f64,
 }
 
-/// The long triangles, nearer ones first.
+/// Long triangles, nearest first.
 struct Long<'a> {
     compared: &'a Compared<'a>,
     triangles: Vec<(Reach, Occluder)>,
-    /// Their numbers in each tile, ascending.
+    /// Numbers of the triangles in each tile, ascending.
     of_tile: Vec<Vec<u32>>,
 }
 
-/// Which triangles were compared last with which segment.
+/// For each triangle, the last segment it was compared with.
 struct Seen {
     marks: Vec<u32>,
     last: u32,
@@ -203,7 +203,7 @@ impl<'a> Long<'a> {
         Self { compared, triangles, of_tile }
     }
 
-    /// Compares a segment with the triangles of its tiles.
+    /// Compares a segment with the long triangles of its tiles.
     fn compare(&self, segment: &ImageSegment, stays: &[Stay], seen: &mut Seen) -> Known {
         let mut known = Known::default();
         let mut found = self.hidden(segment, stays, seen, &mut known.tests);
@@ -219,8 +219,8 @@ impl<'a> Long<'a> {
         known
     }
 
-    /// What triangles hide of a segment. Where all of a stay is hidden and counts are not asked for, the rest of its triangles
-    /// is left out.
+    /// Intervals that triangles hide of a segment. Once all of a stay is hidden and counts are not needed,
+    /// the rest of its triangles is skipped.
     fn hidden(
         &self,
         segment: &ImageSegment,
@@ -257,7 +257,7 @@ impl<'a> Long<'a> {
         hidden
     }
 
-    /// Where triangles lie on one side of a segment.
+    /// Ranges where triangles lie next to a segment on one side.
     fn backed(&self, side: &OuterSide, stays: &[Stay], hidden: &[Layer], seen: &mut Seen) -> Vec<Interval> {
         let limits = self.compared.limits;
         let mut backed = Vec::new();
@@ -269,7 +269,7 @@ impl<'a> Long<'a> {
                 continue;
             }
             for number in &self.of_tile[stay.tile as usize] {
-                // No other triangle tells more.
+                // The range is already complete.
                 if has(run.0, run.1) {
                     break;
                 }
@@ -300,10 +300,10 @@ mod tests {
     use crate::visibility::tiles::aligned_grid::grid_over;
     use crate::visibility::view_tolerances::Limits;
 
-    /// Needles of each fan.
+    /// Triangles of each fan.
     const NEEDLES: u32 = 400;
 
-    /// Two fans of needles that cross each other in the image and go through each other.
+    /// Two fans of needle-shaped triangles that intersect and cross in the image.
     fn fans() -> Mesh {
         let mut soup = Soup::default();
         for [from, low, high] in [
@@ -351,12 +351,12 @@ mod tests {
         let all: Vec<Occluder> = (0..triangles.count() as u32).map(|id| triangles.occluder(id)).collect();
         let [plain, counted] =
             [false, true].map(|counting| decide(&mesh, &view, &segments, &limits, counting));
-        // Each pair once, and not in each of some sixty tiles.
+        // Each pair once, and not in each of about sixty tiles.
         for tests in [plain.tests, counted.tests] {
             assert!(tests <= (segments.len() * all.len()) as u64 * 3 / 2, "{tests}");
         }
         let mut counts = [0; 3];
-        // The edges across the wide ends of the needles are themselves hardly longer than what counts as rounding.
+        // The edges across the wide ends of the fans are hardly longer than rounding, so they are skipped.
         for (i, segment) in segments.iter().enumerate().filter(|(_, s)| s.length() > 100.0 * limits.px) {
             let hiders = all.iter().filter(|triangle| !segment.hosts.contains(&triangle.face));
             let intervals: Vec<Interval> = hiders

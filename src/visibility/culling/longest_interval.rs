@@ -1,9 +1,9 @@
-//! The longest range of a segment that ranges found one after the other make up.
+//! Longest range covered by ranges that arrive one after the other.
 
-/// A range of parameters without any.
+/// Empty range of parameters.
 pub(crate) const NO_RUN: (f64, f64) = (f64::INFINITY, f64::NEG_INFINITY);
 
-/// Two ranges as one where they meet, the longer one where they do not.
+/// Union of two ranges if they meet, otherwise the longer one.
 #[inline]
 pub(crate) fn longer(run: (f64, f64), found: (f64, f64)) -> (f64, f64) {
     if found.0 <= run.1 && found.1 >= run.0 {

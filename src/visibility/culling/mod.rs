@@ -1,6 +1,6 @@
 //! Shortcuts of the visibility computation. They change its time, not its result.
 //!
-//! 1. An occlusion buffer stores, for every small square of the image, a nearness behind which everything is
+//! 1. An occlusion buffer stores a nearness limit for every small square of the image: everything farther is
 //!    hidden (compare the hierarchical Z-buffer of Greene, Kass and Miller 1993). Single triangles and fused
 //!    occluders fill it.
 //! 2. Segments and triangles behind the buffer are not compared.

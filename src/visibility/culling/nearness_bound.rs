@@ -1,49 +1,51 @@
-//! [`Slope`]: how near a triangle is at least over the squares of a row of a grid.
+//! [`Slope`]: a lower bound of the nearness of a triangle over the squares of a grid row.
 
 use glam::{DVec2, DVec3};
 
 use crate::view::Frame;
 use crate::visibility::view_tolerances::{Limits, Slack};
 
-/// The cover of a square that nothing fills.
+/// Value of a square that nothing fills.
 pub(crate) const OPEN: f32 = f32::NEG_INFINITY;
 
-/// Has a square covered by the nearer of two covers.
+/// Sets a value to the nearer of two.
 #[inline]
 pub(crate) fn raise(own: &mut f32, other: f32) {
-    // Not `max`, which asks besides whether either is a number.
+    // `f32::max` is slower, because it also checks for NaN.
     *own = if other > *own { other } else { *own };
 }
 
-/// By how much farther than a triangle all is that it hides for sure: twice what counts as touching where it is nearest.
+/// Difference in nearness that certainly hides: twice the touching tolerance at the nearest corner of the
+/// triangle.
 #[inline]
 pub(crate) fn step(points: &[DVec3; 3], limits: &Limits, slack: &Slack, frame: &Frame) -> f64 {
     2.0 * limits.step(points[0].z.max(points[1].z).max(points[2].z), slack, false, frame)
 }
 
-/// The nearness of a triangle over the squares of a row: that of its farthest point over each. It is told in single precision, and is
-/// less than it would be without rounding.
+/// Lower bound of the nearness of a triangle over the squares of a row: that of its farthest point over each.
+///
+/// In single precision, and below the exact value.
 #[derive(Clone, Copy)]
 pub(crate) struct Slope {
-    /// In x and y, user units.
+    /// Change of the nearness with x and y, per user unit.
     slope: DVec2,
-    /// A point of the image, and what it is over a square that has its centre there.
+    /// Point of the image, with the bound for a square centred there.
     base: DVec3,
-    /// It is no less than this.
+    /// Overall lower bound.
     least: f32,
 }
 
-/// Such a sum is off by its rounding, and that of its terms, of a product and of its factor: six times 2⁻²⁴ of what is no larger
-/// than 1, at most.
+/// Bound for the rounding of a sum, its terms, a product and its factor: six times 2⁻²⁴ for values up to 1.
 const ROUNDING: f64 = 5e-7;
-/// What is smaller than this has fewer digits.
+/// Magnitude below which numbers have fewer digits.
 const LEAST: f64 = 1e-37;
-/// What is larger than this has no place.
+/// Magnitude above which numbers overflow.
 const MOST: f64 = 1e37;
 
 impl Slope {
-    /// That of a triangle over squares that meet it, half of whose side is `half`; everything less by `step`. The plane of a thin
-    /// triangle is not known well, and it counts as far as its farthest corner.
+    /// Bound for a triangle over squares that meet it and have the half side `half`, lowered by `step`.
+    ///
+    /// The plane of a thin triangle is unreliable, so its farthest corner counts.
     #[inline]
     pub(crate) fn new(points: &[DVec3; 3], half: f64, step: f64, limits: &Limits) -> Self {
         let (u, v) = (points[1] - points[0], points[2] - points[0]);
@@ -57,13 +59,14 @@ impl Slope {
         }
         let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
         let spread = (slope.x.abs() + slope.y.abs()) * half;
-        // At the centre of a square that meets the triangle.
+        // Largest magnitude at the centre of a square that meets the triangle.
         let most = low.abs().max(high.abs()) + 2.0 * spread + step;
         Self::of_plane(slope, points[0] - DVec3::Z * (spread + step), least, most)
     }
 
-    /// That of the plane through `base`, where it is farther than `least` as far as that. No sum that is asked for, nor a part of one,
-    /// is larger than `most`, whatever its sign.
+    /// Bound for the plane through `base`, at least `least`.
+    ///
+    /// `most` is an upper bound for the magnitude of every sum and partial sum to be evaluated.
     #[inline]
     fn of_plane(slope: DVec2, base: DVec3, least: f64, most: f64) -> Self {
         if most < MOST {
@@ -74,7 +77,7 @@ impl Slope {
         }
     }
 
-    /// Over so many squares that begin at the one with this centre and follow each other in x, each as long as told.
+    /// Bounds of `count` squares with side `side`, from the one with this centre on in x.
     #[inline]
     pub(crate) fn over(&self, centre: DVec2, side: f64, count: usize) -> impl Iterator<Item = f32> {
         let first = (self.base.z + self.slope.dot(centre - self.base.truncate())) as f32;
@@ -109,7 +112,7 @@ mod tests {
                 apart += u32::from(f64::from(found) < exact - 1e-5 * scale);
             }
         }
-        // Where numbers are too small or too large.
+        // The bound is loose only where numbers are too small or too large.
         assert!(apart < 400_000 / 4, "{apart}");
         let far = Slope::of_plane(DVec2::ZERO, DVec3::splat(1e300), 1e300, 1e300);
         assert_eq!(far.over(DVec2::ZERO, 1.0, 3).collect::<Vec<_>>(), [OPEN; 3]);

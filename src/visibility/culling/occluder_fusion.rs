@@ -1,10 +1,11 @@
-//! Expanses: faces joined over edges at which the image of the surface does not fold.
+//! [`Expanses`]: large occluders fused from faces across edges where the image of the surface does not fold.
 //!
-//! Where an expanse meets a square of the image that no edge passes at which the expanse ends, it fills the square: what is met
-//! and not filled has an end in between. So many small faces cover together what none of them does alone, all but the squares
-//! along their contours. The nearness of all faces that meet the square is at least that of the farthest of them.
+//! 1. Neighbouring faces with the same winding in the image are joined (union-find).
+//! 2. A group fills every square that it meets and that none of its border edges passes.
+//! 3. Such a square gets the nearness of the farthest face of the group that meets it.
 //!
-//! The far side of a body covers next to nothing that its near side does not, and is left out.
+//! Many small faces thus hide together what none of them hides alone, except in the squares along their
+//! contours. The backs of bodies are left out, because their fronts hide almost the same.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
@@ -23,22 +24,22 @@ use crate::visibility::tiles::tile_grid::{Grid, TileBox};
 use crate::visibility::tiles::triangle_columns::Sides;
 use crate::visibility::view_tolerances::{Limits, Slack};
 
-/// A face this near to a square, in sides of it, may meet it.
+/// Margin within which a face may meet a square, as a share of the square's side.
 const MEETS: f64 = 1e-4;
-/// An expanse that ends this near to a square, in sides of it, does not fill it for sure; more than twice as much.
+/// Margin within which a border edge passes a square, as a share of its side. More than twice [`MEETS`].
 const ENDS: f64 = 1e-2;
-/// An expanse of faces that are larger than so many squares, on the mean, is left to its faces: each of them fills most of those that all
-/// fill.
+/// Largest mean face area of a group, in squares. Larger faces fill most of the squares on their own.
 const LARGE_FACE: f64 = 16.0;
-/// The box of an expanse has no more squares than this for each of its faces, or its share of a picture.
+/// Largest number of squares in the bounding box of a group, per face. Each group may also use its share of
+/// [`SQUARES`].
 const SQUARES_OF_FACE: usize = 64;
 const SQUARES: usize = 4_000_000;
 
-/// The expanses of a view that may fill a square.
+/// Groups of fused faces that may fill a square.
 pub(crate) struct Expanses {
-    /// By expanse.
+    /// Faces of each group.
     faces: Grouped<u32>,
-    /// The edges at which each ends.
+    /// Border edges of each group.
     ends: Grouped<u32>,
     far: FarSides,
 }
@@ -89,8 +90,10 @@ impl Expanses {
         Self { faces, ends, far }
     }
 
-    /// The numbers of those expanses, by root, that are no far sides, as large as a square, and not too large for their faces, nor
-    /// their faces too large; [`NONE`] for all other faces.
+    /// Indices of the usable groups, by root face; [`NONE`] for all other faces.
+    ///
+    /// A usable group is not the back of a body, is at least as large as a square, and respects the limits on
+    /// box size and face area.
     fn large(view: &View, mesh: &Mesh, turns: &[i8], far: &FarSides, cell: f64) -> Vec<u32> {
         let mut found: Vec<(u32, [f32; 4], u32, f64)> = Vec::new();
         let mut ids = vec![NONE; turns.len()];
@@ -133,13 +136,13 @@ impl Expanses {
         self.faces.count()
     }
 
-    /// Whether a face is of the far side of a body.
+    /// Whether a face is part of the back of a body.
     #[inline]
     pub fn is_far_side(&self, face: u32) -> bool {
         self.far.holds(face)
     }
 
-    /// Raises the cover of the squares that an expanse fills.
+    /// Raises the value of each square that a group fills.
     pub fn add(
         &self,
         expanse: usize,
@@ -181,8 +184,10 @@ impl Expanses {
 
 const NONE: u32 = u32::MAX;
 
-/// The squares around an expanse: the nearness of the farthest face that meets each, ∞ where none does and −∞ where the
-/// expanse ends.
+/// Squares in the bounding box of a group.
+///
+/// `least` holds the nearness of the farthest face that meets each square: ∞ if none does, −∞ where the group
+/// ends.
 struct Filled<'a> {
     squares: &'a Grid,
     own: TileBox,
@@ -228,7 +233,7 @@ impl<'a> Filled<'a> {
         }
     }
 
-    /// Tells the squares that an edge passes, at which the expanse ends.
+    /// Marks the squares that a border edge passes.
     fn end(&mut self, [a, b]: [DVec2; 2]) {
         let (squares, reach) = (self.squares, self.squares.cell * ENDS);
         let (low, high) = (a.min(b) - reach, a.max(b) + reach);
@@ -240,7 +245,7 @@ impl<'a> Filled<'a> {
         for row in tiles.top..=tiles.bottom {
             let top = squares.corner(0, u32::from(row)).y - reach;
             let bottom = top + squares.cell + 2.0 * reach;
-            // The part of the edge in the row.
+            // Part of the edge within the row.
             let (mut from, mut to) = (0.0, 1.0);
             if way.y != 0.0 {
                 let at = [top, bottom].map(|y| (y - a.y) / way.y);
@@ -257,7 +262,7 @@ impl<'a> Filled<'a> {
     }
 }
 
-/// Which way the corners of a face run in the image; 0 if the near plane cuts it, or it has no area.
+/// Winding of a face in the image, 1 or −1; 0 if the near plane cuts it or it has no area.
 fn turn(mesh: &Mesh, view: &View, face: u32) -> i8 {
     let points = mesh.triangles[face as usize].map(|v| view.points[v as usize]);
     if points.iter().any(|p| p.z.is_nan()) || mesh.is_degenerate(FaceId(face)) {
@@ -274,7 +279,7 @@ mod tests {
     use crate::mesh::Soup;
     use crate::scene::Camera;
 
-    /// A ball of many faces with dents, and a wavy sheet through it, in one view.
+    /// Dented ball of many faces with a wavy sheet through it, in one view.
     fn scene() -> (Mesh, View) {
         let mut soup = Soup::default();
         let n = 24u32;
@@ -348,7 +353,7 @@ mod tests {
                     );
                 }
             }
-            // The ball and the sheet fill some four tenths of the picture.
+            // The ball and the sheet cover about four tenths of the image.
             assert!(filled * 4 > grid.len(), "{across}: {filled} of {}", grid.len());
         }
     }

@@ -1,11 +1,14 @@
-//! Covers: where one triangle, or many that hang together, fill a whole small square of the image, everything behind them there
-//! is hidden by them alone.
+//! [`Covers`]: an occlusion buffer over small squares of the image, in two levels like a hierarchical
+//! Z-buffer.
 //!
-//! The squares are parts of the tiles. A segment that lies behind the covers of all squares it
-//! passes is hidden without a further look; a triangle that lies behind all covers of a tile hides
-//! nothing there that is not hidden anyway. In a city of boxes that settles most lines. A line that
-//! lies on a triangle is one of its borders, or in contact with it, and so never strictly behind a
-//! square that the triangle fills.
+//! 1. A triangle, or a group of fused faces, that fills a whole square hides everything behind it there.
+//! 2. Each square stores a nearness limit: everything farther is hidden. Each tile stores the range of its
+//!    squares.
+//! 3. A segment behind the values of all squares it passes is hidden. A triangle behind all values of a tile
+//!    is skipped there.
+//!
+//! A line on a triangle lies on its border or touches it, so it is never strictly behind a square that this
+//! triangle fills.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -22,39 +25,40 @@ use crate::visibility::tiles::tile_grid::Grid;
 use crate::visibility::tiles::triangle_columns::Sides;
 use crate::visibility::view_tolerances::{Limits, Slack};
 
-/// With fewer layers of surface than this over the page on average, covers hide less than they cost.
+/// Mean number of surface layers over the page above which the buffer saves more than it costs.
 const LAYERS: f64 = 3.0;
-/// A triangle is big if it is as large as a square of this part of the longer side of the grid.
+/// A triangle is big if its area reaches that of a square with this side, as a share of the grid's longer
+/// side.
 const BIG_FACE: f64 = 1.0 / 180.0;
-/// Big triangles that lie in so many layers over the page on average hide enough for the search for intersections to be worth
-/// their covers, by themselves.
+/// Mean number of layers of big triangles that justifies the buffer for the search for intersections alone.
 const BIG_LAYERS: f64 = 1.0;
-/// In a mesh of fewer triangles than this all intersections are found as soon as big ones are covered.
+/// Lowest number of triangles for an early buffer. In smaller meshes, finding all intersections costs no
+/// more.
 const MANY: usize = 100_000;
-/// Covers of the whole page are made by no more tasks than this at a time.
+/// Largest number of tasks that fill buffers of the whole page at the same time.
 const MOST_SHARES: usize = 8;
-/// Triangles, or expanses, that are taken together.
+/// Triangles or fused occluders per block of work.
 const BLOCK: usize = 32;
-/// So many tiles are asked whether they hide a triangle before their squares are.
+/// Largest number of tiles tested for a triangle before its squares are.
 const MOST_TILES: u32 = 64;
 
-/// The nearness behind which everything is hidden, for squares and for tiles; −∞ where nothing is.
+/// Nearness limits per square and per tile: everything farther is hidden. −∞ where nothing is hidden.
 #[derive(Debug, Clone)]
 pub struct Covers {
     tiles: Grid,
     squares: Grid,
-    /// In single precision, and no nearer than what it stands for.
+    /// One per square, row by row. In single precision, never nearer than the exact value.
     of_square: Vec<f32>,
-    /// One a tile: the farthest of the covers of its squares.
+    /// Farthest value of the squares of each tile.
     pub of_tile: Vec<f64>,
-    /// One a tile: the nearest of them.
+    /// Nearest value of the squares of each tile.
     nearest: Vec<f32>,
 }
 
 impl Covers {
-    /// Finds the covers, if they hide more than they cost.
+    /// Fills the buffer, if it is likely to save more than it costs.
     ///
-    /// The result does not depend on the number of threads: the nearest of all covers is taken.
+    /// The result does not depend on the number of threads, because each square keeps the nearest value.
     #[must_use]
     pub fn find(triangles: &Triangles) -> Self {
         if triangles.mean_layers() < LAYERS {
@@ -67,8 +71,10 @@ impl Covers {
         Self::of(triangles, squares, &large, Some(&expanses))
     }
 
-    /// Finds the covers that also spare the search for intersections: those of [`find`](Self::find), and of big triangles
-    /// alone where there are fewer layers.
+    /// Fills the buffer before the lines are known, which also saves work in the search for intersections.
+    ///
+    /// Equals [`find`](Self::find) where there are enough layers. With fewer layers, only big triangles are
+    /// used.
     #[must_use]
     pub fn find_soon(triangles: &Triangles) -> Self {
         if triangles.mean_layers() >= LAYERS {
@@ -87,10 +93,11 @@ impl Covers {
         Self::of(triangles, squares, &big, None)
     }
 
-    /// The covers of large triangles and of expanses.
+    /// Fills the buffer with large triangles and fused occluders.
     fn of(triangles: &Triangles, squares: Grid, large: &[u32], expanses: Option<&Expanses>) -> Self {
         let per_tile = squares.columns / triangles.grid.columns;
-        // Who is free takes the next few of them. Expanses come first, as one may be as large as all the rest.
+        // Free threads take the next block. Fused occluders come first, because one may be as large as all
+        // the rest.
         let expanse_count = expanses.map_or(0, Expanses::count);
         let (of_expanses, of_large) = (expanse_count.div_ceil(BLOCK), large.len().div_ceil(BLOCK));
         let next = AtomicUsize::new(0);
@@ -121,7 +128,7 @@ impl Covers {
         let mut covers: Vec<Vec<f32>> =
             (0..shares).into_par_iter().with_max_len(1).filter_map(of_share).collect();
         let Some(mut of_square) = covers.pop() else { return Self::none(triangles.grid) };
-        // A row of tiles and the rows of squares in it.
+        // One row of tiles with its rows of squares.
         let of_row = |(row, own): (usize, &mut [f32])| {
             let first = row * per_tile as usize * squares.columns as usize;
             for other in &covers {
@@ -145,7 +152,7 @@ impl Covers {
         Self { tiles: *triangles.grid, squares, of_square, of_tile, nearest }
     }
 
-    /// No covers at all: every layer has to be counted.
+    /// Empty buffer, which hides nothing. Used where all layers must be counted.
     #[must_use]
     pub fn none(grid: &Grid) -> Self {
         Self {
@@ -157,19 +164,20 @@ impl Covers {
         }
     }
 
-    /// Whether there are none.
+    /// Whether the buffer is empty.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.of_square.is_empty()
     }
 
-    /// Whether a triangle lies behind the covers of all squares that the box around it meets, of which there are at most so many;
-    /// also where it meets none.
+    /// Whether a triangle is behind the buffer in every square that its bounding box meets.
+    ///
+    /// False if the box meets more than `most` squares; true if it meets none.
     #[must_use]
     pub fn hide(&self, points: &[DVec3; 3], most: u32) -> bool {
         let [a, b, c] = points;
         let (low, high) = (a.min(*b).min(*c), a.max(*b).max(*c));
-        // Mostly tiles tell.
+        // The tiles settle most cases.
         let tiles = self.tiles.tile_box(low, high);
         let mut tells_all = tiles.area() <= MOST_TILES;
         for (tile, _) in self.tiles.tiles_of(tiles).take(MOST_TILES as usize) {
@@ -186,14 +194,14 @@ impl Covers {
         squares.area() <= most && (squares.is_empty() || self.squares.tiles_of(squares).all(is_behind))
     }
 
-    /// Whether the part of a segment between two parameters, which lies in a tile, lies behind the covers of all squares it passes.
+    /// Whether a part of a segment inside one tile is behind the buffer in all squares it passes.
     #[must_use]
     pub fn bury(&self, segment: &ImageSegment, tile: usize, start: f64, end: f64) -> bool {
         if self.of_square.is_empty() {
             return false;
         }
         let (a, b) = (segment.at(start), segment.at(end));
-        // Mostly the tile tells.
+        // The tile settles most cases.
         if a.z.max(b.z) < self.of_tile[tile] {
             return true;
         }
@@ -221,13 +229,13 @@ fn large_ones(triangles: &Triangles, cell: f64, holds: impl Fn(u32) -> bool + Sy
         .collect()
 }
 
-/// Whether a triangle is large enough in the image to fill a square, and whole.
+/// Whether a triangle is large enough in the image to fill a square, and not cut by the near plane.
 #[inline]
 fn is_large(triangles: &Triangles, id: u32, cell: f64) -> bool {
     let (p, face) = corners(triangles.mesh, triangles.view, id);
     let low = p[0].min(p[1]).min(p[2]);
     let high = p[0].max(p[1]).max(p[2]);
-    // NaN, where the near plane cuts the triangle, is no number of cells.
+    // With NaN, where the near plane cuts the triangle, the comparisons are false.
     let extent = high - low;
     extent.x >= cell
         && extent.y >= cell
@@ -235,7 +243,7 @@ fn is_large(triangles: &Triangles, id: u32, cell: f64) -> bool {
         && !triangles.mesh.is_degenerate(crate::mesh::FaceId(face))
 }
 
-/// Raises the cover of the squares that a triangle fills; everything that it hides is farther by `step`.
+/// Raises the value of each square that a triangle fills to the triangle's nearness there, less `step`.
 pub(crate) fn add(points: &[DVec3; 3], squares: &Grid, step: f64, limits: &Limits, cover: &mut [f32]) {
     let low = points[0].min(points[1]).min(points[2]);
     let high = points[0].max(points[1]).max(points[2]);
@@ -246,7 +254,7 @@ pub(crate) fn add(points: &[DVec3; 3], squares: &Grid, step: f64, limits: &Limit
     let area = u.truncate().perp_dot(v.truncate());
     let longest = u.truncate().length_squared().max(v.truncate().length_squared());
     let longest = longest.max((v - u).truncate().length_squared());
-    // What fits into a triangle is nowhere wider than the triangle is high: most slivers hold no square.
+    // A square inside a triangle is no wider than the triangle's height, so most slivers are skipped.
     if area * area <= longest * squares.cell.max(limits.height).powi(2) {
         return;
     }

@@ -1,27 +1,27 @@
-//! [`TileTriangles`]: the triangles over one tile, as its lines ask for them.
+//! [`TileTriangles`]: the triangles over one tile, loaded in full when a line needs them.
 
 use super::edge_functions::{EdgeFunctions, Window};
 use crate::visibility::occlusion::tiled_triangles::{Occluder, Reach, Triangles};
 use crate::visibility::tiles::tile_grid::Grid;
 use crate::visibility::view_tolerances::Limits;
 
-/// Stands for no place.
+/// Marks a triangle that is not loaded.
 const NOWHERE: u32 = u32::MAX;
 
-/// The triangles of a tile. Few of them are compared with a line, and only these are looked up whole. Those of the next tile
-/// take the memory over.
+/// Triangles of a tile. Only the few that are compared with a line are loaded in full. The buffers are reused
+/// for the next tile.
 #[derive(Debug, Default)]
 pub(crate) struct TileTriangles {
-    /// How far each reaches.
+    /// Bounds of each triangle.
     pub(crate) reaches: Vec<Reach>,
-    /// The place of each among those that were looked up, if it was.
+    /// Index of each triangle among the loaded ones, if it is loaded.
     places: Vec<u32>,
     looked_up: Vec<LookedUp>,
-    /// The tile, with what lies just beside it.
+    /// Area of the tile, with a small margin.
     pub(crate) window: Window,
 }
 
-/// A triangle of a tile that was looked up.
+/// Loaded triangle of a tile.
 #[derive(Debug)]
 pub(crate) struct LookedUp {
     pub(crate) sides: EdgeFunctions,
@@ -29,7 +29,7 @@ pub(crate) struct LookedUp {
 }
 
 impl TileTriangles {
-    /// Makes these the triangles of another tile of a grid.
+    /// Replaces the contents by the triangles of another tile of a grid.
     pub(crate) fn replace(
         &mut self,
         reaches: impl Iterator<Item = Reach>,
@@ -39,7 +39,7 @@ impl TileTriangles {
     ) {
         let half = grid.cell / 2.0;
         let corner = grid.corner(tile as u32 % grid.columns, tile as u32 / grid.columns);
-        // Lines are also asked about a little beside themselves.
+        // Lines are also tested slightly next to themselves.
         self.window = Window { middle: corner + half, reach: half * (1.0 + 1e-5) + 2.0 * limits.beside };
         self.reaches.clear();
         self.reaches.extend(reaches);
@@ -48,7 +48,7 @@ impl TileTriangles {
         self.looked_up.clear();
     }
 
-    /// A triangle with all that the comparison needs.
+    /// Returns a triangle with everything the exact comparison needs, and loads it first if necessary.
     #[inline]
     pub(crate) fn look_up(&mut self, entry: u32, triangles: &Triangles) -> &LookedUp {
         let place = &mut self.places[entry as usize];

@@ -1,7 +1,7 @@
-//! [`NearTiles`]: which of all triangles may lie over a few tiles, told by coarse squares of the frame.
+//! [`NearTiles`]: lookup of the triangles over a few tiles, by blocks of triangles.
 //!
-//! Some ways are asked about several times a view. Faces lie in an order of place: where each few of them lie together is found once
-//! for all ways, and by far the most are not looked at one by one.
+//! Gaps are queried several times per view. Faces are stored in spatial order, so the squares that each block
+//! of faces meets are computed once for all queries. Most blocks are then skipped as a whole.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
@@ -17,10 +17,10 @@ use crate::visibility::view_tolerances::Limits;
 /// Squares along the longer side of the frame.
 const SQUARES: u32 = 256;
 
-/// Triangles that are looked at together.
+/// Triangles per block.
 const BLOCK: usize = 32;
 
-/// The squares of the frame that the box of each block of triangles meets.
+/// Squares of the frame that the bounding box of each block of triangles meets.
 #[derive(Debug)]
 pub struct NearTiles {
     grid: Grid,
@@ -28,11 +28,11 @@ pub struct NearTiles {
 }
 
 impl NearTiles {
-    /// The squares of a view's frame.
+    /// Computes the squares of all blocks of a view.
     #[must_use]
     pub fn new(mesh: &Mesh, view: &View, limits: &Limits) -> Self {
         let size = DVec2::new(view.frame.width, view.frame.height);
-        // Lines end where the frame does, but for rounding.
+        // Lines end at the frame, up to rounding.
         let grid = Grid::new(-DVec2::splat(limits.px), size + limits.px, SQUARES);
         let triangles = Triangles { mesh, view, grid: &grid, limits };
         let (count, slack) = (triangles.count(), triangles.slack());
@@ -40,7 +40,7 @@ impl NearTiles {
             let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
             for id in block * BLOCK..((block + 1) * BLOCK).min(count) {
                 let (points, _) = corners(mesh, view, id as u32);
-                // Faces that the near plane cuts come after all others, as what it left of them.
+                // Faces cut by the near plane are represented by their clipped parts, at the end of the list.
                 if points.iter().all(|p| !p.z.is_nan()) {
                     low = points.iter().fold(low, |low, p| low.min(*p));
                     high = points.iter().fold(high, |high, p| high.max(*p));
@@ -52,8 +52,9 @@ impl NearTiles {
         Self { grid, blocks }
     }
 
-    /// The ids of the triangles of each wanted tile, ascending, by the number of the tile among these: [`Triangles::fill`] without
-    /// a cover.
+    /// Ids of the triangles over each wanted tile, ascending, by the number of the tile in `wanted`.
+    ///
+    /// Equals [`Triangles::fill`] without a cover.
     #[must_use]
     pub(crate) fn fill(&self, triangles: &Triangles, wanted: &TileSet) -> Grouped<u32> {
         let found = match self.squares(triangles, wanted) {
@@ -64,10 +65,10 @@ impl NearTiles {
         grouped_pairs(wanted.count(), found.iter().flatten().map(numbered))
     }
 
-    /// The squares in which a triangle may reach a wanted tile; none if a tile is not in the frame.
+    /// Squares whose triangles may reach a wanted tile; `None` if a tile is outside the frame.
     fn squares(&self, triangles: &Triangles, wanted: &TileSet) -> Option<TileSet> {
         let (grid, own) = (triangles.grid, &self.grid);
-        // By so much a triangle may lie beside a tile that its box meets, and a little for rounding.
+        // Margin between a tile and a triangle whose bounding box meets it, and a little for rounding.
         let slack = (grid.cell.max(own.cell) * 1e-3).max(4.0 * triangles.limits.beside);
         let (low, high) = (own.corner(0, 0), own.corner(own.columns, own.rows));
         let over = |tile: usize| {
@@ -83,7 +84,7 @@ impl NearTiles {
         ))
     }
 
-    /// The triangles of the blocks whose boxes meet one of some squares, ascending.
+    /// Triangles of the blocks whose bounding boxes meet one of the squares, ascending.
     fn over(&self, squares: &TileSet, count: usize) -> Vec<u32> {
         let is_near = |(_, tiles): &(usize, &TileBox)| !tiles.is_empty() && squares.has_any(**tiles);
         let near = self.blocks.iter().enumerate().filter(is_near);
@@ -98,7 +99,7 @@ mod tests {
     use crate::mesh::Soup;
     use crate::scene::Camera;
 
-    /// Triangles of many sizes all over the frame and beyond it.
+    /// Triangles of many sizes, inside and outside the frame.
     fn scene() -> (Mesh, View) {
         let mut dice = Dice::new(1);
         let mut soup = Soup::default();
@@ -123,7 +124,7 @@ mod tests {
         for (low, high) in [(100.0, 400.0), (0.0, 1000.0), (-50.0, 200.0), (480.0, 481.0)] {
             let grid = Grid::new(DVec2::splat(low), DVec2::splat(high), 64);
             let triangles = Triangles { mesh: &mesh, view: &view, grid: &grid, limits: &limits };
-            // Many tiles all over, and single ones, over most of which few blocks lie.
+            // Many tiles all over the grid, and single tiles, mostly with few blocks.
             let single = (0..60).map(|k| (k * 4097 / 60, usize::MAX));
             for (first, step) in std::iter::once((0, 37)).chain(single) {
                 let wanted = TileSet::new(&grid, (first..grid.len()).step_by(step));

@@ -1,7 +1,7 @@
-//! [`ViewCovers`]: the covers of a view, made before its lines are known, and the faces that lie behind them.
+//! [`ViewCovers`]: an occlusion buffer made before the lines of a view are known, and the faces it hides.
 //!
-//! A face that lies behind the covers of all squares that it may meet is out of sight, and so is every line on it: where only
-//! what is seen is drawn, nobody has to ask where it passes through others.
+//! A face behind the buffer in all squares that it may meet is out of sight, and so is every line on it.
+//! Where only visible lines are drawn, its intersections need not be computed.
 
 use crate::parallel::prelude::*;
 use glam::{DVec2, DVec3};
@@ -15,10 +15,10 @@ use crate::visibility::tiles::aligned_grid::{grid_over_box, tiles_across};
 use crate::visibility::tiles::tile_grid::Grid;
 use crate::visibility::view_tolerances::Limits;
 
-/// A face over more squares than this is not asked about.
+/// Largest number of squares tested for a face.
 const MOST_SQUARES: u32 = 256;
 
-/// The covers of a view, and the grid of its tiles.
+/// Occlusion buffer of a view, with its grid of tiles.
 #[derive(Debug, Clone)]
 pub struct ViewCovers {
     pub(crate) grid: Grid,
@@ -26,7 +26,7 @@ pub struct ViewCovers {
 }
 
 impl ViewCovers {
-    /// The covers of what is on the page; none where they would hide less than they cost.
+    /// Fills the buffer with everything on the page; `None` where it would cost more than it saves.
     #[must_use]
     pub fn of(mesh: &Mesh, view: &View) -> Option<Self> {
         let (low, high) = box_on_page(view)?;
@@ -36,7 +36,8 @@ impl ViewCovers {
         (!covers.is_empty()).then_some(Self { grid, covers })
     }
 
-    /// Whether each face surely is out of sight: behind covers, or off the page. What the near plane cuts is not.
+    /// Whether each face is certainly out of sight: behind the buffer or off the page. Faces cut by the near
+    /// plane are not.
     #[must_use]
     pub fn out_of_sight(&self, mesh: &Mesh, view: &View) -> Vec<bool> {
         let is_hidden = |triangle: &[u32; 3]| {
@@ -47,7 +48,7 @@ impl ViewCovers {
     }
 }
 
-/// The box around all vertices, as far as it is on the page; the page itself where the near plane cuts faces.
+/// Bounding box of all vertices, clipped to the page; the page itself where the near plane cuts faces.
 fn box_on_page(view: &View) -> Option<(DVec2, DVec2)> {
     let page = DVec2::new(view.frame.width, view.frame.height);
     if !view.clipped.is_empty() {

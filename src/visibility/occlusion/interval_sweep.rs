@@ -1,20 +1,22 @@
-//! From overlapping hidden intervals to pieces of constant invisibility.
+//! Sweep over overlapping hidden intervals, which gives pieces of constant invisibility.
 
 use super::triangle_occlusion::Interval;
 use crate::visibility::graph::ViewVertexKind;
 
-/// A piece of a segment behind a number of surfaces (never 0: what no layer names is visible).
+/// Piece of a segment behind a number of surfaces. The count is never 0, because visible parts have no entry.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layer {
-    /// The piece, and why it ends where it does.
+    /// Parameter range, with the reasons for its ends.
     pub interval: Interval,
     /// Number of surfaces in front.
     pub count: u16,
 }
 
-/// Sorts `hidden` and sweeps over it and over what is `known` to be hidden before: pieces of constant count in ascending order,
-/// pieces and gaps shorter than `shortest` absorbed by their neighbours. With `counting` false all counts are 1. The result is
-/// appended to `layers`.
+/// Sweeps over `hidden` intervals and `known` layers, and appends pieces of constant count in ascending
+/// order.
+///
+/// Pieces and gaps shorter than `shortest` are absorbed by their neighbours. With `counting` false, all
+/// counts are 1.
 pub fn sweep(
     hidden: &mut Vec<Interval>,
     known: &[Layer],
@@ -33,7 +35,7 @@ pub fn sweep(
     }
 }
 
-/// What is not hidden behind one thing alone: all but where `front` hides a segment and `behind` does not. Both are ascending.
+/// Hides everything except the parts that `front` hides and `behind` does not. Both lists are ascending.
 pub fn only_behind(front: &[Layer], behind: &[Layer]) -> Vec<Layer> {
     let mut hidden = Vec::new();
     let mut push = |start: (f64, ViewVertexKind), end: (f64, ViewVertexKind)| {
@@ -43,7 +45,7 @@ pub fn only_behind(front: &[Layer], behind: &[Layer]) -> Vec<Layer> {
         }
     };
     let begin = (0.0, ViewVertexKind::TJunction);
-    // Where what is hidden, one way or the other, has begun that goes on.
+    // Start of the current hidden piece, with its reason.
     let mut from = begin;
     for layer in front {
         let Interval { start, end, start_kind, end_kind } = layer.interval;
@@ -88,7 +90,7 @@ fn sweep_counting(hidden: &[Interval], known: &[Layer], shortest: f64, layers: &
     let (mut count, mut at) = (0i32, (0.0, ViewVertexKind::TJunction));
     let mut k = 0;
     while k < events.len() {
-        // Events within rounding of each other happen together.
+        // Events within `shortest` of each other are simultaneous.
         let (t, kind) = (events[k].0, events[k].2);
         let before = count;
         while k < events.len() && events[k].0 <= t + shortest {
@@ -103,7 +105,7 @@ fn sweep_counting(hidden: &[Interval], known: &[Layer], shortest: f64, layers: &
             at = (t, kind);
         }
     }
-    // Neighbours of equal count that a dropped sliver parted are one again.
+    // Merges neighbours of equal count that a dropped sliver had separated.
     let mut kept = first;
     for i in first..layers.len() {
         let layer = layers[i];

@@ -1,20 +1,20 @@
-//! [`Compared`]: the segments and triangles of a view, each of which may hide a piece of each.
+//! [`Compared`]: the segments and triangles of a view that are compared with each other.
 
 use super::tiled_triangles::Triangles;
 use crate::visibility::projection::image_segments::ImageSegment;
 use crate::visibility::view_tolerances::Limits;
 
-/// What is compared in all tiles.
+/// Input shared by the comparisons of all tiles.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Compared<'a> {
     pub(crate) triangles: &'a Triangles<'a>,
     pub(crate) segments: &'a [ImageSegment],
     pub(crate) limits: &'a Limits,
-    /// Whether it matters how many triangles hide a piece.
+    /// Whether the triangles in front of a piece are counted.
     pub(crate) counting: bool,
 }
 
-/// The part of a segment in one tile.
+/// Part of a segment inside one tile.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Item {
     pub(crate) segment: u32,

@@ -1,8 +1,8 @@
-//! [`OuterSides`]: lines just next to a segment, on the sides that none of its own faces covers. They show whether there is
-//! background there.
+//! [`OuterSides`]: lines slightly next to a segment, on the sides that its own faces leave open. They show
+//! whether background is there.
 //!
-//! A contour and a border have one such side, a crease between two faces that are seen has none. A segment whose faces are all
-//! edge-on has two.
+//! A contour or a border has one such side. A crease between two visible faces has none. A segment whose
+//! faces are all edge-on has two.
 
 use glam::{DVec2, DVec3};
 
@@ -14,20 +14,19 @@ use crate::visibility::projection::host_sides::HostedLine;
 use crate::visibility::projection::image_segments::ImageSegment;
 use crate::visibility::view_tolerances::Limits;
 
-/// A segment, moved a little to one side.
+/// Segment shifted slightly to one side.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct OuterSide {
     line: [DVec2; 2],
     shift: DVec2,
 }
 
-/// The sides of a segment that none of its own faces covers: to the left and to the right of its direction in the image (y
-/// down).
+/// Open sides of a segment: to the left and to the right of its direction in the image (y down).
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct OuterSides(pub [Option<OuterSide>; 2]);
 
 impl OuterSides {
-    /// Those of a segment; none if it has no length or no own face.
+    /// Open sides of a segment; none if it has no length or no own face.
     pub(crate) fn of(segment: &ImageSegment, triangles: &Triangles) -> Self {
         let Triangles { mesh, view, limits, .. } = triangles;
         let ImageSegment { a, b, ends, hosts, .. } = *segment;
@@ -41,33 +40,33 @@ impl OuterSides {
         Self([side(covered[0], -across * limits.beside), side(covered[1], across * limits.beside)])
     }
 
-    /// Those that there are.
+    /// Iterates over the open sides, with their numbers.
     pub(crate) fn open(&self) -> impl Iterator<Item = (usize, &OuterSide)> {
         self.0.iter().enumerate().filter_map(|(k, side)| Some((k, side.as_ref()?)))
     }
 }
 
 impl OuterSide {
-    /// The ends of the part of it that lies beside two points of the segment.
+    /// Ends of the shifted line next to two points of the segment.
     #[inline]
     pub(crate) fn beside(&self, from: DVec3, to: DVec3) -> [DVec2; 2] {
         [from, to].map(|end| end.truncate() + self.shift)
     }
 
-    /// The range of the segment's parameters where a triangle lies next to it.
+    /// Range of the segment's parameter where a triangle lies next to it on this side.
     #[inline]
     pub(crate) fn range(&self, triangle: &Occluder, limits: &Limits) -> Option<(f64, f64)> {
         covered(self.line[0], self.line[1], &triangle.corners, limits)
     }
 }
 
-/// A range of parameters where a surface lies next to the segment.
+/// Interval where a surface lies next to the segment.
 pub(crate) fn backdrop(start: f64, end: f64) -> Interval {
     let kind = ViewVertexKind::Backdrop;
     Interval { start, end, start_kind: kind, end_kind: kind }
 }
 
-/// The common part of two sets of ranges, ascending.
+/// Intersection of two sets of ranges, ascending.
 pub(crate) fn common(
     mut first: Vec<Interval>,
     mut second: Vec<Interval>,

@@ -1,7 +1,7 @@
-//! Which triangles may hide something in which tile.
+//! [`Triangles`]: the triangles over each tile that may hide something there.
 //!
-//! Only tiles that hold a segment not yet decided are filled, and only with triangles that reach
-//! before their cover (see [`crate::visibility::culling::occlusion_buffer`]).
+//! Only tiles with undecided segments are filled, and only with triangles in front of the occlusion buffer
+//! (see [`crate::visibility::culling::occlusion_buffer`]).
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -15,27 +15,27 @@ use crate::visibility::tiles::tile_set::TileSet;
 use crate::visibility::tiles::triangle_columns::Sides;
 use crate::visibility::view_tolerances::{Limits, Slack};
 
-/// How far a triangle reaches in the image, which is all that most comparisons look at.
+/// Bounds of a triangle in the image, enough to reject most comparisons.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Reach {
-    /// Least x, greatest x, least y, greatest y in the image, rounded outward.
+    /// Minimum x, maximum x, minimum y and maximum y in the image, rounded outward.
     pub bounds: [f32; 4],
-    /// Greatest nearness of any of its points, rounded towards the eye.
+    /// Maximum nearness, rounded towards the eye.
     pub nearest: f32,
-    /// The triangle: a face, or beyond those, an entry of [`View::clipped`].
+    /// Triangle id: a face, or after all faces an entry of [`View::clipped`].
     pub id: u32,
 }
 
-/// A triangle that may hide lines, with all that the comparison needs.
+/// Triangle that may hide lines, with everything the exact comparison needs.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Occluder {
-    /// The face it is, or is left of.
+    /// Face it belongs to.
     pub face: u32,
     /// Vertex ids of that face.
     pub ids: [u32; 3],
-    /// Its corners in image space.
+    /// Corners in image space.
     pub corners: [DVec3; 3],
-    /// What counts as touching it, whatever the view.
+    /// Tolerances for touching it, independent of the view.
     pub slack: Slack,
 }
 
@@ -52,7 +52,7 @@ pub struct Triangles<'a> {
     pub limits: &'a Limits,
 }
 
-/// The corners in image space and the face of an occluder.
+/// Corners in image space and face of a triangle id.
 #[inline]
 #[must_use]
 pub fn corners(mesh: &Mesh, view: &View, id: u32) -> ([DVec3; 3], u32) {
@@ -66,21 +66,21 @@ pub fn corners(mesh: &Mesh, view: &View, id: u32) -> ([DVec3; 3], u32) {
 }
 
 impl Triangles<'_> {
-    /// Faces and, after them, what the near plane left of faces it cuts.
+    /// Number of faces plus clipped parts of faces.
     pub(crate) fn count(&self) -> usize {
         self.mesh.triangles.len() + self.view.clipped.len()
     }
 
-    /// Triangles a task takes: a share of all that depends on nothing but their number.
+    /// Triangles per task; depends only on their number.
     fn chunk(&self) -> usize {
         self.count().div_ceil(16).max(1 << 11)
     }
 
-    /// The tiles that each triangle's box meets; an empty box for triangles that hide nothing or
-    /// lie off the grid.
+    /// Tiles that each triangle's bounding box meets; an empty block for triangles that hide nothing or are
+    /// off the grid.
     #[must_use]
     pub fn tile_boxes(&self) -> Vec<TileBox> {
-        // A vertex is a corner of six triangles on average: where it lies is found once.
+        // A vertex is a corner of six triangles on average, so its range of tiles is computed once.
         let slack = self.slack();
         let of_vertex = |p: &DVec3| if p.z.is_nan() { Around::CUT } else { self.grid.around(*p, slack) };
         let vertices: Vec<Around> = self.view.points.par_iter().with_min_len(GRAIN).map(of_vertex).collect();
@@ -92,7 +92,7 @@ impl Triangles<'_> {
         (0..self.count()).into_par_iter().with_min_len(GRAIN).map(of_triangle).collect()
     }
 
-    /// Lines are also asked about a little beside themselves.
+    /// Margin of the bounding boxes, user units, because lines are also tested slightly next to themselves.
     pub(crate) fn slack(&self) -> f64 {
         (self.grid.cell * 1e-6).max(2.0 * self.limits.beside)
     }
@@ -110,27 +110,27 @@ impl Triangles<'_> {
         self.grid.tile_box(low, high)
     }
 
-    /// How many triangles lie over each other on average, over the grid.
+    /// Mean number of triangles over each other, over the grid.
     pub(crate) fn mean_layers(&self) -> f64 {
-        // A sample is enough, and its order is fixed.
+        // A sample is enough; its order is fixed.
         let step = (self.count() / 4_000).max(1);
         step as f64 * self.layers_of((0..self.count() as u32).step_by(step))
     }
 
-    /// The area of a triangle in the image; 0 where the near plane cuts it.
+    /// Area of a triangle in the image; 0 where the near plane cuts it.
     pub(crate) fn area(&self, id: u32) -> f64 {
         let ([a, b, c], _) = corners(self.mesh, self.view, id);
         let area = (b - a).truncate().perp_dot((c - a).truncate()).abs() / 2.0;
         if area.is_finite() { area } else { 0.0 }
     }
 
-    /// How many of these triangles lie over each other on average, over the grid.
+    /// Mean number of layers of the given triangles, over the grid.
     pub(crate) fn layers_of(&self, ids: impl Iterator<Item = u32>) -> f64 {
         let tile = self.grid.cell * self.grid.cell;
         ids.map(|id| self.area(id)).sum::<f64>() / (tile * self.grid.len() as f64)
     }
 
-    /// The triangle with this id: a face, or beyond those, an entry of [`View::clipped`].
+    /// Triangle with this id: a face, or after all faces an entry of [`View::clipped`].
     #[inline]
     #[must_use]
     pub fn occluder(&self, id: u32) -> Occluder {
@@ -143,7 +143,7 @@ impl Triangles<'_> {
         }
     }
 
-    /// How far the triangle with this id reaches.
+    /// Bounds of the triangle with this id.
     #[inline]
     #[must_use]
     pub fn reach(&self, id: u32) -> Reach {
@@ -152,12 +152,12 @@ impl Triangles<'_> {
         Reach { bounds: outward_box(&corners), nearest: (nearest as f32).next_up(), id }
     }
 
-    /// How far each triangle reaches.
+    /// Bounds of all triangles.
     pub(crate) fn reaches(&self) -> Vec<Reach> {
         (0..self.count()).into_par_iter().with_min_len(GRAIN).map(|id| self.reach(id as u32)).collect()
     }
 
-    /// The face that a triangle is, or is left of.
+    /// Face that a triangle belongs to.
     #[inline]
     pub(crate) fn face(&self, id: u32) -> u32 {
         match (id as usize).checked_sub(self.mesh.triangles.len()) {
@@ -166,15 +166,16 @@ impl Triangles<'_> {
         }
     }
 
-    /// The ids of the triangles of each tile of the grid, if it is wanted, that reach before its cover, ascending. The boxes of all
-    /// triangles are not held beside what comes of them.
+    /// Ids of the triangles in front of `cover` in each wanted tile of the grid, ascending.
+    ///
+    /// Takes `boxes` by value, so they are freed before the result is built.
     #[must_use]
     pub(crate) fn fill(&self, boxes: Vec<TileBox>, wanted: &TileSet, cover: &[f64]) -> Grouped<u32> {
         let found = self.pairs(boxes, wanted, Some(cover));
         grouped_pairs(self.grid.len(), found.iter().flatten().map(|(tile, id)| (*tile as usize, *id)))
     }
 
-    /// Pairs of wanted tile and triangle, of each tile in the order of the triangles.
+    /// Pairs of wanted tile and triangle; in each tile in the order of the triangles.
     pub(crate) fn pairs(
         &self,
         boxes: Vec<TileBox>,
@@ -198,7 +199,7 @@ impl Triangles<'_> {
         found
     }
 
-    /// The same without a cover, of some of the triangles, whose ids ascend.
+    /// Like `pairs` without a cover, for the given triangles, whose ids ascend.
     pub(crate) fn pairs_of(&self, ids: &[u32], wanted: &TileSet) -> Vec<Vec<(u32, u32)>> {
         let of_chunk = |ids: &[u32]| {
             let mut pairs = Vec::with_capacity(ids.len());
@@ -208,7 +209,7 @@ impl Triangles<'_> {
         ids.par_chunks(GRAIN).with_max_len(1).map(of_chunk).collect()
     }
 
-    /// Adds a pair of tile and triangle for each wanted tile in which the triangle may matter.
+    /// Adds a pair of tile and triangle for each wanted tile where the triangle may matter.
     #[inline]
     fn add_tiles(
         &self,
@@ -222,7 +223,7 @@ impl Triangles<'_> {
             return;
         }
         let cover_of = |tile: usize| cover.map_or(f64::NEG_INFINITY, |cover| cover[tile]);
-        // For boxes of few tiles the exact test costs more than it saves.
+        // For boxes of few tiles, the exact test costs more than it saves.
         if tiles.area() <= 4 {
             for row in tiles.top..=tiles.bottom {
                 for column in tiles.left..=tiles.right {
@@ -264,7 +265,7 @@ impl Triangles<'_> {
 fn outward_box(points: &[DVec3; 3]) -> [f32; 4] {
     let low = points[0].min(points[1]).min(points[2]);
     let high = points[0].max(points[1]).max(points[2]);
-    // A little wider than rounding, so that what lies on the border is still looked at.
+    // Slightly more than rounding, so lines on the border are still compared.
     let pad = 1e-4;
     [
         ((low.x - pad) as f32).next_down(),
@@ -293,7 +294,7 @@ mod tests {
             soup.triangles.push([3 * k, 3 * k + 1, 3 * k + 2]);
         }
         let mesh = Mesh::build(soup);
-        // Among them, so that some lie behind the eye and some are cut.
+        // The camera is among the triangles, so some are behind the eye and some are cut.
         let camera = Camera { eye: glam::DVec3::new(0.3, -1.2, 0.4), ..Camera::three_quarter() };
         let view = View::new(&mesh, &camera);
         let limits = Limits::new(&view.frame);

@@ -1,17 +1,16 @@
-//! What one triangle hides of one segment: an interval of its parameter, found exactly.
+//! Part of one segment that one triangle hides: an interval of its parameter, computed exactly.
 //!
-//! In image space the segment is a straight line and the triangle a piece of a plane, so that
-//! being inside the triangle and being behind its plane are linear in the parameter. The rules at
-//! the limits:
+//! In image space the segment is straight and the triangle planar. So being inside the triangle and being
+//! behind its plane are both linear in the parameter. Rules for limiting cases:
 //!
-//! - A triangle that has both ends of the segment as corners, or is its host, never hides it.
-//! - A point on the projected border of a triangle counts as covered: a back edge exactly behind
-//!   a front one is hidden, and a line exactly behind the common edge of two faces does not leak.
-//! - A surface that touches the line (within a tolerance of depth) does not hide it: lines on
-//!   coplanar and touching faces are seen.
-//! - A triangle that shares one end of the segment may come as near as rounding allows.
-//! - A line that lies in the plane of a triangle, within the rounding of the file, is not hidden by it. Distances from the
-//!   plane count, which are much shorter than differences of depth where the triangle is seen at a grazing angle.
+//! - A triangle that hosts the segment, or has both its ends as corners, never hides it.
+//! - A point on the projected border of a triangle counts as covered. So a back edge exactly behind a front
+//!   edge is hidden, and a line exactly behind the common edge of two faces does not leak.
+//! - A surface that touches the line, within a depth tolerance, does not hide it. So lines on coplanar and
+//!   touching faces are visible.
+//! - A triangle that shares one end of the segment has a tighter tolerance, only for rounding.
+//! - A triangle does not hide a line in its plane, within the rounding of the file. Distances from the plane
+//!   count, which at grazing angles are much shorter than differences of depth.
 //! - A triangle seen edge-on covers nothing.
 
 use glam::{DVec2, DVec3};
@@ -25,18 +24,18 @@ use crate::visibility::view_tolerances::Limits;
 /// Part of a segment's parameter range, with the reason for each end.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Interval {
-    /// Where it starts.
+    /// Start parameter.
     pub start: f64,
-    /// Where it ends.
+    /// End parameter.
     pub end: f64,
-    /// What happens at the start: [`ViewVertexKind::TJunction`] or [`ViewVertexKind::Piercing`].
+    /// Reason for the start: [`ViewVertexKind::TJunction`] or [`ViewVertexKind::Piercing`].
     pub start_kind: ViewVertexKind,
-    /// What happens at the end.
+    /// Reason for the end.
     pub end_kind: ViewVertexKind,
 }
 
-/// The range of parameters over which the projected triangle covers the image segment p→q.
-/// A border met counts as covered.
+/// Range of parameters where the projected triangle covers the image segment p→q. The border counts as
+/// covered.
 #[inline]
 #[must_use]
 pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Option<(f64, f64)> {
@@ -44,9 +43,8 @@ pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Opt
     let sides = [(a, b - a), (b, c - b), (c, a - c)];
     let area = sides[0].1.perp_dot(c - a);
     let sign = area.signum();
-    // Most triangles that are asked lie wholly on the far side of one of their sides, and most
-    // others cover all that is asked; that much is seen without a square root, since the sum of
-    // its coordinates is no shorter than a vector.
+    // Most segments are entirely outside one side of the triangle, and most others entirely inside all sides.
+    // Neither case needs a square root, because |x| + |y| is at least the length of a vector.
     let mut at_ends = [(0.0, 0.0); 3];
     let mut inside = true;
     for ((corner, side), at) in sides.iter().zip(&mut at_ends) {
@@ -84,8 +82,10 @@ pub fn covered(p: DVec2, q: DVec2, corners: &[DVec3; 3], limits: &Limits) -> Opt
     (start <= end).then_some((start, end))
 }
 
-/// What a triangle hides of a segment between two of its parameters: that part of what it hides of the whole, so that it
-/// does not matter how the segment is cut.
+/// Part of a segment between two parameters that a triangle hides.
+///
+/// It is the interval of the whole segment, clipped to the part. So the division of the segment does not
+/// matter.
 #[inline]
 #[must_use]
 pub fn hidden_interval(
@@ -104,20 +104,21 @@ pub fn hidden_interval(
     if start > to || end < from {
         return None;
     }
-    // Heights over the plane are measured from the shared corner, where they vanish exactly.
+    // Heights over the plane are measured from the shared corner, where they are exactly zero.
     let base = corners[shared[0].or(shared[1]).unwrap_or(0)];
     let (u, v) = (corners[1] - corners[0], corners[2] - corners[0]);
     let area = u.truncate().perp_dot(v.truncate());
     let slope = DVec2::new(u.z * v.y - v.z * u.y, v.z * u.x - u.z * v.x) / area;
     let nearest = corners[0].z.max(corners[1].z).max(corners[2].z);
     let farthest = corners[0].z.min(corners[1].z).min(corners[2].z);
-    // A point that counts as covered may lie a little outside of the triangle, and then beyond its depths.
+    // A covered point may be slightly outside the triangle, and then outside its range of depths.
     let outside = limits.cover * slope.length();
     let at_corner = |end: usize| shared[end].is_some() && !segment.cut[end];
     let is_neighbour = shared[0].is_some() || shared[1].is_some();
     let lead = |t: f64| {
         let p = segment.at(t);
-        // Steep triangles extrapolate badly: their plane counts only within their own depths.
+        // The plane of a steep triangle extrapolates badly, so it counts only within the triangle's own
+        // depths.
         let plane = base.z + slope.dot(p.truncate() - base.truncate());
         let within = plane.clamp(farthest, nearest);
         let plane = if within - plane <= outside { plane.min(within) } else { within };
@@ -141,7 +142,7 @@ pub fn hidden_interval(
     let span = end - start;
     if at_start <= 0.0 {
         let t = start + span * (at_start / (at_start - at_end));
-        // From a shared corner the surface rises at once.
+        // From a shared corner the surface rises at once, so the line does not pierce it.
         if !(at_corner(0) && start == 0.0) {
             (hidden.start, hidden.start_kind) = (t, ViewVertexKind::Piercing);
         }

@@ -1,8 +1,9 @@
-//! No line twice: where two visible lines run on top of each other, the stronger one stays.
+//! Removal of coincident lines: where two visible lines coincide in the image, only the stronger one is kept.
 //!
-//! Edges of parts that touch, coplanar faces and T-vertices make lines that coincide in the image
-//! without being one edge of the mesh. Of two such lines the weaker kind gives way, of equal kinds
-//! the farther one, whatever the order of the parts in the file. Lines that share a node may be a fold of one curve, and must coincide to rounding.
+//! Edges of touching parts, coplanar faces and T-vertices give lines that coincide in the image without being
+//! one edge of the mesh. The weaker kind gives way. Of equal kinds the farther line gives way. The order of
+//! parts in the file has no effect. Lines that share a vertex may be the two sides of a fold, so they must
+//! coincide within rounding.
 
 use std::cmp::Ordering;
 
@@ -16,19 +17,19 @@ use crate::view::Frame;
 use crate::visibility::graph::{ViewEdge, ViewMap, ViewVertex, ViewVertexId, ViewVertexKind};
 use crate::visibility::tiles::tile_grid::Grid;
 
-/// Lines shorter than this many times the distance have no direction to speak of, and are left
-/// alone.
+/// Lines shorter than this multiple of the distance have no reliable direction and are left alone.
 const SHORTEST_SHARE: f64 = 8.0;
 
-/// Lines that share a node count as coinciding within this share of the distance of others: the
-/// two sides of a T-vertex do, the folds of a contour hardly ever.
+/// Share of the distance within which lines with a common vertex coincide. The two sides of a T-vertex do;
+/// the folds of a contour hardly ever do.
 const JOINED_SHARE: f64 = 1e-3;
 
-/// Lines that one task walks through the tiles.
+/// Lines per task of the grid traversal.
 const WALKED: usize = 1 << 11;
 
-/// Drops the parts of visible edges that lie within `within` (user units) of a stronger visible
-/// edge of the mesh with these `extents`, seen in a frame.
+/// Removes the parts of visible edges that lie within `within` (user units) of a stronger visible edge.
+///
+/// `frame` is the frame of the view, `extents` those of the mesh.
 pub fn remove(map: &mut ViewMap, within: f64, frame: &Frame, extents: &Extents) {
     let perspective = frame.perspective;
     let covered = find_covered(map, within, frame, extents);
@@ -51,7 +52,7 @@ pub fn remove(map: &mut ViewMap, within: f64, frame: &Frame, extents: &Extents) 
     map.edges = edges;
 }
 
-/// For each edge that gives way, the range of its parameter that another covers; ascending.
+/// Parameter ranges of edges that another edge covers, sorted by edge and start.
 fn find_covered(map: &ViewMap, within: f64, frame: &Frame, extents: &Extents) -> Vec<(u32, (f64, f64))> {
     let seen = map.edges.iter().zip(0..).filter(|(edge, _)| edge.invisibility == 0);
     let seen: Vec<u32> = seen.map(|(_, id)| id).collect();
@@ -95,20 +96,20 @@ fn find_covered(map: &ViewMap, within: f64, frame: &Frame, extents: &Extents) ->
     covered
 }
 
-/// The lines that are long enough to have a direction, and what tiles of a grid they pass.
+/// Lines long enough to have a direction, with the grid tiles they pass.
 struct Among<'a> {
     map: &'a ViewMap,
     extents: &'a Extents,
     frame: &'a Frame,
     within: f64,
-    /// With the numbers of their edges, ascending.
+    /// Indices of edges, ascending, with their lines.
     lines: Vec<(u32, Line)>,
     grid: Grid,
     in_tile: Grouped<u32>,
 }
 
 impl Among<'_> {
-    /// What one line and those before it cover of each other.
+    /// Ranges of one line and the lines before it that cover each other.
     fn covered_with(&self, number: usize, near: &mut Near) -> Vec<(u32, (f64, f64))> {
         let Self { map, extents, within, lines, .. } = self;
         let (id, line) = &lines[number];
@@ -136,26 +137,29 @@ impl Among<'_> {
         covered
     }
 
-    /// How near two lines that share a node must be: what rounding makes of two lines that were one, user units.
+    /// Distance within which two lines with a common vertex coincide, user units: the effect of rounding on a
+    /// line that was split.
     fn within_joined(&self, edges: [&ViewEdge; 2]) -> f64 {
         let shift = |edge: &ViewEdge| {
             let depth = self.map.vertices[edge.start.index()].depth;
             2.0 * self.extents.of(edge.part).rounding / self.frame.px_at(depth) * self.frame.px()
         };
-        // Not a number at the eye itself.
+        // NaN at the eye itself, which `f64::max` ignores.
         let rounding = edges.map(shift).into_iter().fold(0.0, f64::max);
         (self.within * JOINED_SHARE).max(rounding.min(self.within))
     }
 
-    /// Finds the lines before one that may run along it within reach, ascending: what does lies in a tile of the line or of one of
-    /// its neighbours at that distance, since tiles are convex.
+    /// Collects the earlier lines that may coincide with a line, ascending.
+    ///
+    /// Such a line passes a tile of the line itself or of one of its parallels at distance `within`, because
+    /// tiles are convex.
     fn find_near(&self, number: usize, Near { tiles, lines }: &mut Near) {
         let (_, line) = &self.lines[number];
         let across = Vec2::new(-line.along.y, line.along.x) * self.within;
         tiles.clear();
         for shift in [Vec2::ZERO, across, -across] {
             self.grid.walk(vector(line.start + shift), vector(line.end() + shift), |tile, _, _| {
-                // Most lines are short, and their tile comes three times.
+                // Most lines are short and yield the same tile three times.
                 if tiles.last() != Some(&tile) {
                     tiles.push(tile);
                 }
@@ -166,7 +170,7 @@ impl Among<'_> {
             own[..own.partition_point(|other| (*other as usize) < number)].iter().copied()
         };
         lines.clear();
-        // Few run along it, and are put in order.
+        // Only few lines remain, so sorting them is cheap.
         let runs_along = |other: &u32| line.runs_along(&self.lines[*other as usize].1, self.within);
         lines.extend(tiles.iter().flat_map(before).filter(runs_along));
         if tiles.len() > 1 {
@@ -176,14 +180,14 @@ impl Among<'_> {
     }
 }
 
-/// What may be near a line. That of the next line takes the memory over.
+/// Candidates near a line. The buffers are reused for the next line.
 #[derive(Default)]
 struct Near {
     tiles: Vec<usize>,
     lines: Vec<u32>,
 }
 
-/// Which of two edges that coincide stays: the lesser. Of parts that touch the smaller one has the line.
+/// Compares two coincident edges; the lesser one is kept. Of touching parts, the smaller one keeps the line.
 pub(crate) fn precedence(map: &ViewMap, extents: &Extents, one: &ViewEdge, other: &ViewEdge) -> Ordering {
     let ends = |edge: &ViewEdge| [edge.start, edge.end].map(|v| map.vertices[v.index()]);
     let depth = |edge: &ViewEdge| ends(edge).iter().map(|end| end.depth).sum::<f64>();
@@ -203,7 +207,7 @@ pub(crate) fn vector(p: Point) -> DVec3 {
     DVec3::new(p.x, p.y, 0.0)
 }
 
-/// An edge in the image.
+/// Edge in the image.
 pub(crate) struct Line {
     pub start: Point,
     pub along: Vec2,
@@ -226,17 +230,17 @@ impl Line {
         [vector(self.start), vector(self.end())]
     }
 
-    /// The piece of this line over a range of its parameter (0 to 1).
+    /// Part of this line over a range of its parameter (0 to 1).
     pub fn piece(&self, (from, to): (f64, f64)) -> Self {
         let start = self.start + self.along * (self.length * from);
         Self { start, along: self.along, length: self.length * (to - from) }
     }
 
-    /// The range of this line's parameter (0 to 1) whose distance from the other line is at most `reach`: all of that
-    /// is convex, so it is one range.
+    /// Range of this line's parameter (0 to 1) whose distance from the other line is at most `reach`. The
+    /// area around the other line is convex, so there is one range.
     pub fn within_ink_of(&self, other: &Self, reach: f64) -> Option<(f64, f64)> {
         let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
-        // Round the ends of the other line.
+        // Discs around the ends of the other line.
         for end in [other.start, other.end()] {
             let (at, off) = (self.along.dot(end - self.start), self.along.cross(end - self.start));
             let half = (reach * reach - off * off).sqrt();
@@ -244,7 +248,7 @@ impl Line {
                 (from, to) = (from.min(at - half), to.max(at + half));
             }
         }
-        // In the strip along it: within its length, and no farther to the side.
+        // Strip along the other line: within its length and within `reach` of it.
         let across = Vec2::new(-other.along.y, other.along.x);
         let (mut enters, mut leaves) = (f64::NEG_INFINITY, f64::INFINITY);
         for (way, low, high) in [(other.along, 0.0, other.length), (across, -reach, reach)] {
@@ -258,7 +262,7 @@ impl Line {
                 (enters, leaves) = (enters.max(p.min(q)), leaves.min(p.max(q)));
             }
         }
-        // An edge that is a point in the image has only round ends.
+        // An edge that is a point in the image has only the discs.
         if enters < leaves && other.length > 0.0 {
             (from, to) = (from.min(enters), to.max(leaves));
         }
@@ -266,14 +270,14 @@ impl Line {
         (to > from).then(|| (from / self.length, to / self.length))
     }
 
-    /// A quick test before the exact one.
+    /// Fast rejection test before the exact one.
     fn runs_along(&self, other: &Self, within: f64) -> bool {
         let shorter = self.length.min(other.length);
         self.along.cross(other.along).abs() * shorter <= 4.0 * within
             && self.along.cross(other.start - self.start).abs() <= other.length.max(self.length)
     }
 
-    /// The range of this line's parameter (0 to 1) along which the other lies within `within`.
+    /// Range of this line's parameter (0 to 1) along which the other line is within `within`.
     fn covered_by(&self, other: &Self, within: f64) -> Option<(f64, f64)> {
         let project = |p: Point| self.along.dot(p - self.start);
         let offset = |p: Point| self.along.cross(p - self.start);
@@ -292,7 +296,7 @@ impl Line {
     }
 }
 
-/// Emits what is left of an edge without the ranges.
+/// Appends the parts of an edge outside the given ranges.
 pub(crate) fn cut(
     vertices: &mut Vec<ViewVertex>,
     edges: &mut Vec<ViewEdge>,
@@ -408,7 +412,7 @@ mod tests {
 
     #[test]
     fn of_many_lines_those_that_coincide_give_way() {
-        // Rows of short lines, of which the last few stand there twice.
+        // Rows of short lines; the last few occur twice.
         let row = |k: usize| {
             let (x, y) = ((k % 100) as f64 * 10.0, (k / 100) as f64 * 10.0);
             ((x, y), (x + 7.0, y + 3.0), LineKind::Crease)

@@ -1,13 +1,12 @@
-//! Hidden lines that would not be seen on their own are left out: where they lie in the ink of visible lines, or of hidden
-//! lines that go before them.
+//! Removal of hidden lines that the ink of other lines would cover.
 //!
-//! 1. Half the width of its ink is known for every edge of the map.
-//! 2. For each hidden edge, the ranges that run along a visible edge within that edge's ink are found. A line that
-//!    lies in the ink of visible lines from end to end is left out as a whole, in any direction.
-//! 3. Hidden edges are taken in order: the stronger kind first, then the lesser invisibility. Each loses what runs along
-//!    the remaining pieces of those before it, so that hidden lines that coincide are drawn once.
+//! 1. Half the ink width of every edge of the map is looked up.
+//! 2. For each hidden edge, the ranges that run along a visible edge within its ink are found. A line
+//!    entirely in the ink of visible lines is removed; its direction does not matter.
+//! 3. Hidden edges are processed in order: stronger kinds first, then lower invisibility. Each loses the
+//!    ranges that run along the remaining pieces of earlier edges, so coincident hidden lines are drawn once.
 //!
-//! Source: ISO 128-2, where lines coincide: visible outlines and edges come before hidden ones.
+//! Source: ISO 128-2: where lines coincide, visible outlines and edges take precedence over hidden ones.
 
 use std::cmp::Ordering;
 
@@ -23,27 +22,28 @@ use crate::mesh::Extents;
 use crate::visibility::graph::{ViewEdge, ViewMap};
 use crate::visibility::tiles::tile_grid::Grid;
 
-/// Tiles are at least this many distances wide, so that what is near a line is in the tiles of the line moved by one distance.
+/// Smallest tile side, in multiples of the widest reach. An edge within reach of a line is then in the tiles
+/// of the line shifted by that reach.
 const CELL_OF_DISTANCE: f64 = 2.0;
 
 /// A range of an edge's parameter, 0 to 1.
 type Range = (f64, f64);
 
-/// The area that the ink of lines covers on the page.
+/// Ink of the lines on the page.
 pub struct Ink<'a> {
-    /// Half the width of the ink of an edge, user units; 0 where it is not known. Never less than
-    /// [`BEHIND_INK_PX`] is taken.
+    /// Half the ink width of an edge, user units; 0 if it is unknown. At least [`BEHIND_INK_PX`] is used.
     pub half_width: &'a (dyn Fn(&ViewEdge) -> f64 + Sync),
-    /// Which of two parts in one place comes first.
+    /// Sizes of the parts, which decide between parts in one place.
     pub extents: &'a Extents,
-    /// Whether depth runs along a line as in perspective.
+    /// Whether depth varies along a line as in perspective.
     pub perspective: bool,
     /// A px in user units.
     pub px: f64,
 }
 
-/// The map without the pieces of hidden edges that lie in the ink of others; `None` if there are none. All edges of the map
-/// are drawn.
+/// Removes the pieces of hidden edges that lie in the ink of other edges; `None` if there are none.
+///
+/// All edges of the map count as drawn.
 #[must_use]
 pub fn apart(map: &ViewMap, ink: &Ink) -> Option<ViewMap> {
     let behind = find(map, ink);
@@ -63,7 +63,7 @@ pub fn apart(map: &ViewMap, ink: &Ink) -> Option<ViewMap> {
     Some(ViewMap { vertices, edges, ..map.clone() })
 }
 
-/// For each edge the ranges that lie in the ink of others.
+/// Ranges of each edge that lie in the ink of others.
 fn find(map: &ViewMap, ink: &Ink) -> Vec<Vec<Range>> {
     let lines: Vec<Line> = map.edges.iter().map(|edge| Line::of(map, edge)).collect();
     let nothing = (DVec3::INFINITY, DVec3::NEG_INFINITY);
@@ -93,32 +93,32 @@ fn find(map: &ViewMap, ink: &Ink) -> Vec<Vec<Range>> {
     among.resolve(found)
 }
 
-/// The edges around a hidden edge.
+/// Edges near a hidden edge.
 #[derive(Default)]
 struct Found {
-    /// The ranges along visible edges, within their ink.
+    /// Ranges along visible edges, within their ink.
     behind: Vec<Range>,
     /// Whether all of it lies in the ink of visible edges.
     within: bool,
-    /// The hidden edges that go before it and run along it.
+    /// Hidden edges that precede it and run along it.
     before: Vec<u32>,
 }
 
-/// All edges of a map, and which of them pass the tiles of a grid.
+/// All edges of a map, in a grid of tiles.
 struct Among<'a> {
     map: &'a ViewMap,
     ink: &'a Ink<'a>,
-    /// Half the width of the ink of each edge.
+    /// Half the ink width of each edge.
     reaches: Vec<f64>,
     widest: f64,
-    /// One an edge.
+    /// One per edge.
     lines: Vec<Line>,
     grid: Grid,
     in_tile: Grouped<u32>,
 }
 
 impl Among<'_> {
-    /// The edges around an edge; none around a visible one.
+    /// Edges near an edge; none near a visible one.
     fn around(&self, number: usize) -> Found {
         let (edge, line) = (&self.map.edges[number], &self.lines[number]);
         if edge.invisibility == 0 || line.length == 0.0 {
@@ -146,7 +146,7 @@ impl Among<'_> {
         found
     }
 
-    /// Which of two hidden edges that coincide stays: the lesser.
+    /// Compares two coincident hidden edges; the lesser one is kept.
     fn order(&self, one: u32, other: u32) -> Ordering {
         let Self { map, ink, .. } = self;
         let [a, b] = [one, other].map(|number| &map.edges[number as usize]);
@@ -154,7 +154,7 @@ impl Among<'_> {
         by_kind.then_with(|| precedence(map, ink.extents, a, b)).then(one.cmp(&other))
     }
 
-    /// For each edge what it loses, once those before it have lost theirs.
+    /// Ranges that each edge loses, after those before it have lost theirs.
     fn resolve(&self, mut found: Vec<Found>) -> Vec<Vec<Range>> {
         let mut lost: Vec<Vec<Range>> = vec![Vec::new(); found.len()];
         for line in smooth_lines(self.map) {
@@ -177,8 +177,8 @@ impl Among<'_> {
                 let left = rest(&lost[other as usize]);
                 ranges.extend(left.into_iter().filter_map(|piece| along(line, &its.piece(piece), reach)));
             }
-            // A gap shorter than the ink is wide is closed by the ends of the ink around it. Where lines only meet, one covers
-            // no more of the other than that.
+            // Gaps shorter than the ink width are closed by the ink around them. Where lines only meet, the
+            // overlap is no longer than that.
             let width = self.reaches[number as usize] / line.length;
             let mut ranges = joined(ranges, width);
             ranges.retain(|(from, to)| to - from > width.min(0.5));
@@ -187,8 +187,10 @@ impl Among<'_> {
         lost
     }
 
-    /// The edges that may be within reach of a line, ascending; of those that are not parallel only if the line is so
-    /// short that it may cross their ink lengthwise. Tiles are convex, and wider than the reach.
+    /// Edges that may be within reach of a line, ascending.
+    ///
+    /// Edges that are not parallel count only if the line is short enough to cross their ink lengthwise. The
+    /// lookup is complete, because tiles are convex and wider than the reach.
     fn near(&self, line: &Line) -> Vec<u32> {
         let across = Vec2::new(-line.along.y, line.along.x) * self.widest;
         let is_short = line.length * BEHIND_INK_SINE <= 2.0 * self.widest;
@@ -207,7 +209,7 @@ impl Among<'_> {
     }
 }
 
-/// The remainder of the parameter from 0 to 1 without ranges that are in order and apart.
+/// Complement of sorted, disjoint ranges in the parameter range 0 to 1.
 fn rest(lost: &[Range]) -> Vec<Range> {
     let mut left = Vec::with_capacity(lost.len() + 1);
     let mut at = 0.0;
@@ -224,7 +226,7 @@ fn is_parallel(line: &Line, other: &Line) -> bool {
     other.length > 0.0 && line.along.cross(other.along).abs() <= BEHIND_INK_SINE
 }
 
-/// Ranges in order, those that overlap or have a gap no longer than `gap` between them as one.
+/// Sorted ranges, where ranges that overlap or are at most `gap` apart are merged.
 fn joined(mut ranges: Vec<Range>, gap: f64) -> Vec<Range> {
     ranges.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut joined: Vec<Range> = Vec::with_capacity(ranges.len());
@@ -237,7 +239,7 @@ fn joined(mut ranges: Vec<Range>, gap: f64) -> Vec<Range> {
     joined
 }
 
-/// The range of a line's parameter (0 to 1) along which another, which is parallel to it, runs within `within` beside it.
+/// Range of a line's parameter (0 to 1) along which a parallel line is within `within`.
 fn along(line: &Line, other: &Line, within: f64) -> Option<Range> {
     let place = |p| (line.along.dot(p - line.start), line.along.cross(p - line.start));
     let (mut a, mut b) = (place(other.start), place(other.end()));

@@ -1,16 +1,17 @@
-//! [`smooth_lines`]: hidden edges of a view map, joined to lines that end at corners and branches.
+//! [`smooth_lines`]: hidden edges of a view map, chained up to corners and branches.
 
 use super::coincident_lines::Line;
 use crate::mesh::Groups;
 use crate::visibility::graph::{ViewEdge, ViewMap};
 
-/// A line that turns by more than this (cosine of 20 degrees) has a corner there.
+/// Smallest cosine (20 degrees) between edges that continue each other without a corner.
 const CORNER_COSINE: f64 = 0.939_692_620_785_908_4;
 
-/// The hidden edges of a map by lines: an edge goes on to the next one where just two hidden edges of a kind meet without a corner.
+/// Chains the hidden edges of a map. An edge continues into the next where exactly two hidden edges of one
+/// kind meet without a corner.
 pub(crate) fn smooth_lines(map: &ViewMap) -> Vec<Vec<u32>> {
     let hidden = |edge: &ViewEdge| edge.invisibility > 0;
-    // For each node the first two hidden edges at it, and their number.
+    // First two hidden edges at each vertex, and their number.
     let mut at: Vec<([u32; 2], u32)> = vec![([0; 2], 0); map.vertices.len()];
     for (number, edge) in (0..).zip(&map.edges).filter(|(_, edge)| hidden(edge)) {
         for end in [edge.start, edge.end] {

@@ -1,5 +1,6 @@
-//! [`HostedLine`]: a line in the image and the faces that it lies on. They leave one side of it open, both or none: only there can
-//! background be seen next to the line.
+//! [`HostedLine`]: a line in the image with the faces it lies on, and the sides that these faces leave open.
+//!
+//! Background can be visible next to the line only on an open side.
 
 use glam::{DVec2, DVec3};
 
@@ -7,28 +8,28 @@ use crate::lines::NO_FACE;
 use crate::mesh::{EdgeFaces, Mesh};
 use crate::view::View;
 
-/// A straight line in image space, and its own faces.
+/// Straight line in image space, with its own faces.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct HostedLine {
     pub line: [DVec3; 2],
-    /// Ids of its ends; they name mesh vertices or points of the feature lines.
+    /// Ids of its ends: mesh vertices or points of the feature lines.
     pub ends: [u32; 2],
     pub hosts: [u32; 2],
 }
 
 impl HostedLine {
-    /// Whether its own faces leave a side of it open, so that there may be background next to it.
+    /// Whether its own faces leave a side open, so background may be next to it.
     pub fn may_bound(&self, mesh: &Mesh, view: &View, beside: f64) -> bool {
         self.across().is_some_and(|across| self.covered_sides(across, mesh, view, beside) != [true; 2])
     }
 
-    /// The unit vector to the right of the line, with y down; none if it has no length.
+    /// Unit vector to the right of the line (y down); `None` if it has no length.
     pub fn across(&self) -> Option<DVec2> {
         (self.line[1] - self.line[0]).truncate().perp().try_normalize()
     }
 
-    /// Whether its own faces cover the left side and the right side of it, farther than `beside` user units. Both count as
-    /// covered if it has no own face.
+    /// Whether its own faces cover its left side and its right side, farther than `beside` user units from
+    /// it. Without own faces, both sides count as covered.
     pub fn covered_sides(&self, across: DVec2, mesh: &Mesh, view: &View, beside: f64) -> [bool; 2] {
         if self.hosts == [NO_FACE; 2] {
             return [true; 2];
@@ -45,7 +46,7 @@ impl HostedLine {
         cover
     }
 
-    /// Adds the sides that a face covers.
+    /// Adds the sides that one face covers.
     fn add_sides(
         &self,
         face: u32,
@@ -62,7 +63,7 @@ impl HostedLine {
                 cover[0] |= height < -beside;
                 cover[1] |= height > beside;
             } else {
-                // The near plane cuts the face: its winding shows on which side of an edge of its own it lies.
+                // The near plane cuts the face, so its winding gives the side on which it lies.
                 match winding_side(self.ends, corners, view.facing[face as usize]) {
                     Some(side) => cover[side] = true,
                     None => *cover = [true; 2],
@@ -71,7 +72,8 @@ impl HostedLine {
         }
     }
 
-    /// All faces that have it as an edge, where they are more than two: which of these are its own depends on the order of parts.
+    /// All faces at this edge if there are more than two. Which two of them are the hosts depends on the
+    /// order of parts.
     fn others<'a>(&self, mesh: &'a Mesh) -> &'a [u32] {
         let [v, w] = self.ends;
         let found = mesh.edges.vertices.binary_search(&[v.min(w), v.max(w)]).ok();
@@ -82,12 +84,13 @@ impl HostedLine {
     }
 }
 
-/// The side of one of its edges on which a face lies in the image, 0 for the left; `None` if the edge is none of its own.
+/// Side of an edge on which its face lies in the image, 0 for left; `None` if the edge is not one of the
+/// face.
 fn winding_side(ends: [u32; 2], corners: [u32; 3], is_facing: bool) -> Option<usize> {
     let place = |end: u32| corners.iter().position(|v| *v == end);
     let (from, to) = (place(ends[0])?, place(ends[1])?);
     let runs_forward = (from + 1) % 3 == to;
-    // A face that turns its outside to the eye runs counterclockwise, and lies to the left of its edges.
+    // A facing face is counter-clockwise and lies to the left of its edges.
     Some(usize::from(runs_forward != is_facing))
 }
 

@@ -1,4 +1,4 @@
-//! Feature segments in image space, cut to the near plane and the page.
+//! Feature segments in image space, clipped to the near plane and the page.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -9,28 +9,28 @@ use crate::lines::{FeatureLines, FeatureSegment, LineKind, Role};
 use crate::mesh::Mesh;
 use crate::view::View;
 
-/// A feature segment as the image shows it.
+/// Feature segment in image space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ImageSegment {
-    /// Its start in image space (x, y, nearness).
+    /// Start in image space (x, y, nearness).
     pub a: DVec3,
-    /// Its end.
+    /// End in image space.
     pub b: DVec3,
-    /// The ids of its feature ends; they name mesh vertices or points of the feature lines.
+    /// Ids of its feature ends: mesh vertices or points of the feature lines.
     pub ends: [u32; 2],
-    /// Whether near plane or page cut the ends off.
+    /// Whether the near plane or the page cut off each end.
     pub cut: [bool; 2],
     /// Faces that never hide it.
     pub hosts: [u32; 2],
     /// Index of the feature segment.
     pub source: u32,
-    /// Whether its own faces leave a side of it open in the image, so that there may be background next to it.
+    /// Whether its own faces leave a side open in the image, so background may be next to it.
     pub bounds: bool,
-    /// What it does in the drawing.
+    /// Role in the drawing.
     pub role: Role,
 }
 
-/// The image-space point at parameter `t`, 0 to 1, of the way from `a` to `b`; the ends are exact.
+/// Image-space point at parameter `t` (0 to 1) between `a` and `b`; the ends are exact.
 #[inline]
 #[must_use]
 pub fn between(a: DVec3, b: DVec3, t: f64) -> DVec3 {
@@ -44,7 +44,7 @@ pub fn between(a: DVec3, b: DVec3, t: f64) -> DVec3 {
 }
 
 impl ImageSegment {
-    /// The image-space point at parameter `t`, 0 to 1.
+    /// Image-space point at parameter `t`, 0 to 1.
     #[inline]
     #[must_use]
     pub fn at(&self, t: f64) -> DVec3 {
@@ -59,14 +59,14 @@ impl ImageSegment {
     }
 }
 
-/// All feature segments of which something lies on the page, in order.
+/// Projects all feature segments with any part on the page, in order.
 #[must_use]
 pub fn project(mesh: &Mesh, view: &View, lines: &FeatureLines) -> Vec<ImageSegment> {
     let one = |(segment, source): (&FeatureSegment, u32)| {
         project_one(mesh, view, lines, segment, source).unwrap_or(OFF_PAGE)
     };
     let count = lines.segments.len() as u32;
-    // Mostly all are on the page.
+    // Usually all are on the page.
     let mut found: Vec<ImageSegment> =
         lines.segments.par_iter().zip(0..count).with_min_len(1 << 10).map(one).collect();
     if found.par_iter().any(|segment| segment.source == OFF_PAGE.source) {
@@ -75,7 +75,7 @@ pub fn project(mesh: &Mesh, view: &View, lines: &FeatureLines) -> Vec<ImageSegme
     found
 }
 
-/// Stands for a segment of which nothing is on the page: no segment has that number.
+/// Stands for a segment off the page; no segment has that index.
 const OFF_PAGE: ImageSegment = ImageSegment {
     a: DVec3::ZERO,
     b: DVec3::ZERO,
@@ -115,7 +115,7 @@ fn project_one(
         cut[0] = true;
     }
     let bounds = match segment.kind {
-        // The witnesses of a smooth contour say whether there is background next to it.
+        // The background next to a smooth contour comes from the mesh contour matched to it.
         _ if segment.role == Role::Curve => false,
         LineKind::Contour | LineKind::Border => true,
         LineKind::Crease | LineKind::Material | LineKind::Intersection => {

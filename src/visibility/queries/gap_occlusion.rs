@@ -1,4 +1,4 @@
-//! [`Ahead`]: whether a straight way between two lines leads behind another surface than theirs.
+//! [`Ahead`]: whether a straight gap between two lines passes behind a surface of another component.
 
 use std::sync::OnceLock;
 
@@ -21,16 +21,17 @@ use crate::visibility::tiles::aligned_grid::grid_over;
 use crate::visibility::tiles::tile_set::TileSet;
 use crate::visibility::view_tolerances::Limits;
 
-/// Tiles along the longer side of the grid that finds triangles: as small as ways are short, as all triangles of a tile are looked at.
+/// Tiles along the longer side of the grid for the lookup of triangles. Tiles are small because gaps are
+/// short and every triangle of a tile is compared.
 const TILES: u32 = 256;
-/// Tiles that one task looks at.
+/// Tiles per task.
 const TILES_PER_TASK: usize = 8;
-/// A triangle whose box is farther than this (user units) from that of a way hides nothing of it, as with lines.
+/// Largest distance between the bounding boxes of a triangle and a gap that are still compared, user units.
 const BESIDE: f64 = 1e-4;
-/// The end of a way is no feature end.
+/// Marks an end of a gap, which is not a feature end.
 const NO_END: u32 = u32::MAX;
 
-/// What may lie before the lines of a view map.
+/// Surfaces that may hide gaps between the lines of a view map.
 #[derive(Debug)]
 pub struct Ahead<'a> {
     mesh: &'a Mesh,
@@ -39,25 +40,27 @@ pub struct Ahead<'a> {
     lines: &'a FeatureLines,
     seen: &'a [SeenContour],
     moved: Vec2,
-    /// Made when the first ways are asked about.
+    /// Built on the first query.
     near: OnceLock<NearTiles>,
 }
 
-/// A straight way through the image between two points of lines.
+/// Straight gap in the image between two points of lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Way {
-    /// Where it begins and ends, user units on the page.
+    /// Start and end, user units on the page.
     pub ends: [Point; 2],
-    /// Distances of these points from the eye along the optical axis, world units.
+    /// Depths of the ends along the optical axis, world units.
     pub depths: [f64; 2],
     /// Feature segments of the two lines.
     pub segments: [u32; 2],
 }
 
 impl<'a> Ahead<'a> {
-    /// All surfaces of a `mesh` before the `lines` of a view of it. `pieces` says which connected piece each face is of, and is empty
-    /// if there is but one; `seen` is what is seen of the contours of the polyhedron; the map of the lines has been `moved` by so much
-    /// on the page since it was made, user units.
+    /// Prepares queries against all surfaces of `mesh` in front of the `lines` of a view.
+    ///
+    /// `pieces` holds the connected component of each face, and is empty if there is only one. `seen` lists
+    /// the visible parts of the mesh contour. `moved` is the offset on the page applied to the view map since
+    /// it was made, user units.
     #[must_use]
     pub fn new(
         (mesh, pieces): (&'a Mesh, &'a [u32]),
@@ -69,10 +72,12 @@ impl<'a> Ahead<'a> {
         Self { mesh, pieces, view, lines, seen, moved, near: OnceLock::new() }
     }
 
-    /// Of each way, whether it leads behind a surface that is of another piece than the lines that it leads
-    /// between, and that is seen there. What hides the way of the lines' own piece does not count, nor what
-    /// lies behind that, nor what the way touches; nor what lies before the way where the polyhedron's contour
-    /// is seen beside it.
+    /// Reports for each gap whether it passes behind a visible surface of another component than its two
+    /// lines.
+    ///
+    /// Surfaces of the lines' own components do not count, nor surfaces behind those, nor surfaces that the
+    /// gap touches. A surface in front of the gap does not count either where the mesh contour is visible
+    /// next to the gap.
     #[must_use]
     pub fn hides(&self, ways: &[Way]) -> Vec<bool> {
         if self.pieces.is_empty() || ways.is_empty() {
@@ -83,7 +88,7 @@ impl<'a> Ahead<'a> {
         let segments: Vec<ImageSegment> = ways.iter().map(|way| self.image(way)).collect();
         let own: Vec<[u32; 2]> = ways.iter().map(|way| way.segments.map(|s| self.piece(s))).collect();
         let grid = grid_over(segments.iter(), TILES);
-        // Ways are few and short: what lies in the tiles that they lead through is numbered by these alone.
+        // Gaps are few and short, so only the tiles they pass through are numbered.
         let mut items: Vec<(usize, Item)> = Vec::new();
         for (s, segment) in segments.iter().zip(0..) {
             grid.walk(s.a, s.b, |tile, start, end| items.push((tile, Item { segment, start, end })));
@@ -126,7 +131,8 @@ impl<'a> Ahead<'a> {
         if let Some(near) = self.near.get() {
             return near;
         }
-        // A task that waited here for another could be one that the other does meanwhile, and never end: rather is it made twice.
+        // Built outside the lock, so it may be built twice. Waiting for another thread here could deadlock,
+        // because that thread may run this very task while it builds.
         let made = NearTiles::new(self.mesh, self.view, limits);
         self.near.get_or_init(|| made)
     }
@@ -154,7 +160,7 @@ impl<'a> Ahead<'a> {
     }
 }
 
-/// A triangle and its box in the image.
+/// Triangle with its bounding box in the image.
 struct Over {
     whole: Occluder,
     low: DVec2,
@@ -168,18 +174,18 @@ impl From<Occluder> for Over {
     }
 }
 
-/// What is around a tile of the image.
+/// Triangles and contours around one tile of the image.
 struct Around<'a> {
     ahead: &'a Ahead<'a>,
     limits: &'a Limits,
-    /// The triangles over the tile.
+    /// Triangles over the tile.
     over: &'a [Over],
-    /// Contours of the polyhedron that are seen in it or beside it.
+    /// Visible parts of the mesh contour in the tile or within the match distance of it.
     seen: &'a [SeenContour],
 }
 
 impl Around<'_> {
-    /// Whether something hides the part of a way in the tile that is of other pieces than its lines'.
+    /// Whether a triangle of another component hides the part of a gap in the tile.
     fn hides(&self, way: &ImageSegment, part: (f64, f64), own: [u32; 2]) -> bool {
         let Self { ahead, limits, over, .. } = self;
         let is_own = |over: &Over| own.contains(&ahead.pieces[over.whole.face as usize]);
@@ -198,8 +204,10 @@ impl Around<'_> {
         })
     }
 
-    /// Whether a contour of the polyhedron is seen beside a point of a way: it crosses the line that is drawn
-    /// there at a right angle to the way, as far to either side as a curve may lie from its contour.
+    /// Whether the mesh contour is visible next to a point of a gap.
+    ///
+    /// It is if the contour crosses the normal of the gap there, no farther away than a smooth contour may be
+    /// from its mesh contour.
     fn is_seen_beside(&self, way: &ImageSegment, at: DVec2, own: [u32; 2]) -> bool {
         let along = (way.b - way.a).truncate();
         let across = along.perp().normalize_or_zero();
@@ -213,7 +221,7 @@ impl Around<'_> {
     }
 }
 
-/// Nearness of a triangle at a point of the image; none beside it.
+/// Nearness of a triangle at a point of the image; `None` outside the triangle.
 fn nearness([a, b, c]: &[DVec3; 3], point: DVec2) -> Option<f64> {
     let (u, v, p) = ((*b - *a).truncate(), (*c - *a).truncate(), point - a.truncate());
     let area = u.perp_dot(v);

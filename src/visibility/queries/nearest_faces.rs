@@ -1,7 +1,7 @@
-//! [`front_faces`]: which face the eye sees at points of the image.
+//! [`front_faces`]: the nearest face at given points of the image.
 //!
-//! All lines of sight leave one point, so the points are put in a grid over the image and every
-//! face looks up those that it may cover; no tree over space is built.
+//! All lines of sight leave one point. So the points are sorted into a grid over the image, and every face
+//! visits the points in its bounding box. No spatial tree is needed.
 
 use std::ops::Range;
 
@@ -12,33 +12,33 @@ use crate::geometry::lists::csr_lists::{Grouped, grouped_pairs};
 use crate::mesh::{FaceId, Mesh};
 use crate::view::View;
 
-/// The face in front at a point of the image.
+/// Nearest face at a point of the image.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Front {
-    /// The face.
+    /// Index of the face.
     pub face: u32,
-    /// How near it is there, as image space has it.
+    /// Nearness of the face at the point, in image space.
     pub nearness: f64,
 }
 
-/// Faces looked at by one task.
+/// Faces per task.
 const TASK: usize = 1 << 12;
 
-/// Points in a cell of the grid, on average.
+/// Mean number of points per cell of the grid.
 const POINTS_A_CELL: usize = 2;
 
-/// A point is on the right side of a line through two others unless it is nearer to it than this part of their coordinates: a
-/// thousand times what rounding does.
+/// Margin of the bounding-box test, as a share of the coordinates. About a thousand times the rounding error
+/// of the side test.
 const ROUNDING_OF_SIDES: f64 = 1e-12;
 
-/// Most cells across the image.
+/// Largest number of cells across the image.
 const MOST_CELLS: usize = 512;
 
-/// The face nearest to the eye at each of some points in user units; `None` where there is none.
+/// Finds the nearest face at each point (user units); `None` where there is no face.
 ///
-/// Faces without area or seen edge-on cover nothing. A point on the edge between two faces gets
-/// one of them, of equally near ones that of the lesser id, on any number of threads. Where surfaces of unlike colours overlap in
-/// one plane, it is the one that is on top there: see [`Overlay`](crate::mesh::Overlay).
+/// Faces without area or seen edge-on cover nothing. A point on the edge between two faces gets one of them;
+/// of equally near faces, the one with the smaller id. The number of threads has no effect. Where surfaces of
+/// different colours overlap in one plane, the top one is returned: see [`Overlay`](crate::mesh::Overlay).
 #[must_use]
 pub fn front_faces(mesh: &Mesh, view: &View, points: &[DVec2]) -> Vec<Option<Front>> {
     let Some(grid) = PointGrid::new(points) else { return Vec::new() };
@@ -76,7 +76,8 @@ pub fn front_faces(mesh: &Mesh, view: &View, points: &[DVec2]) -> Vec<Option<Fro
             *front = Some(*hit);
         }
     }
-    // Which of surfaces in one plane is nearer says rounding alone.
+    // Rounding alone decides which of two surfaces in one plane is nearer, so overlays are applied
+    // afterwards.
     for (point, hit) in tasks.iter().flatten().filter(|_| !mesh.overlays.is_empty()) {
         if let Some(front) = &mut fronts[*point as usize]
             && mesh.is_over(hit.face, front.face)
@@ -87,13 +88,14 @@ pub fn front_faces(mesh: &Mesh, view: &View, points: &[DVec2]) -> Vec<Option<Fro
     fronts
 }
 
-/// Points of the image in cells.
+/// Points of the image in a grid of cells.
 struct PointGrid {
     low: DVec2,
     high: DVec2,
     cells_per_unit: DVec2,
     across: usize,
-    /// The points of each cell with their numbers, row by row, so that what a face touches of a row is one run in memory.
+    /// Points of each cell with their indices, row by row, so that the cells of a face in one row are
+    /// contiguous.
     cells: Grouped<(DVec2, u32)>,
 }
 
@@ -120,7 +122,7 @@ impl PointGrid {
         [at.x, at.y].map(|x| (x.max(0.0) as usize).min(self.across - 1))
     }
 
-    /// Cells that the box from `low` to `high` touches: columns and rows.
+    /// Columns and rows of the cells that the box from `low` to `high` touches.
     fn touched(&self, low: DVec2, high: DVec2) -> Option<[Range<usize>; 2]> {
         if low.cmpgt(self.high).any() || high.cmplt(self.low).any() {
             return None;
@@ -141,7 +143,7 @@ impl PointGrid {
         if area == 0.0 {
             return;
         }
-        // Each side is run through from its lesser vertex, so that both its faces find the same sign.
+        // Each side is evaluated from its vertex with the smaller id, so both its faces get the same sign.
         let side = |i: usize, j: usize, p: DVec2| {
             let turn = |from: DVec3, to: DVec3| {
                 let from = from.truncate();
@@ -151,8 +153,8 @@ impl PointGrid {
                 if ids[i] < ids[j] { turn(corners[i], corners[j]) } else { -turn(corners[j], corners[i]) };
             if area > 0.0 { turn } else { -turn }
         };
-        // Most points near a small face are not in its box even, which is sooner told than on which side of its sides they are.
-        // What rounding may make of these is less than the margin.
+        // Most points of these cells are outside the bounding box, which is cheaper to test than the sides.
+        // The margin exceeds the rounding error of the side test.
         let margin = low.abs().max(high.abs()) * ROUNDING_OF_SIDES;
         let (low, high) = (low - margin, high + margin);
         for row in rows {
@@ -181,7 +183,7 @@ mod tests {
 
     #[test]
     fn the_nearest_face_is_found_at_every_point() {
-        // Three sheets above each other, each smaller than the one below.
+        // Three stacked sheets, each smaller than the one below.
         let mut positions = Vec::new();
         let mut triangles = Vec::new();
         for (height, half) in [(0.0, 4.0), (1.0, 2.0), (2.0, 1.0)] {
@@ -231,7 +233,7 @@ mod tests {
             let mesh = Mesh::build(Soup { positions: positions.clone(), triangles, ..Soup::default() });
             let camera = Camera::azimuth_elevation(30.0, 20.0, UpAxis::Z).fit_points(&positions, 0.1);
             let view = View::new(&mesh, &camera);
-            // Anywhere, and at the very corners of faces.
+            // Random points, and the corners of faces.
             let (width, height) = (camera.width, camera.height);
             let anywhere = || DVec2::new(dice.between(0.0, width), dice.between(0.0, height));
             let mut asked: Vec<DVec2> = std::iter::repeat_with(anywhere).take(2000).collect();

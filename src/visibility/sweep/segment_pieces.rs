@@ -1,4 +1,4 @@
-//! [`Cuts`]: what visibility leaves of lines, piece by piece.
+//! [`Cuts`]: segments cut into visible and hidden pieces.
 
 use super::segment_visibility;
 use crate::lines::Role;
@@ -7,14 +7,14 @@ use crate::visibility::occlusion::interval_sweep::Layer;
 use crate::visibility::occlusion::triangle_occlusion::Interval;
 use crate::visibility::projection::image_segments::ImageSegment;
 
-/// What visibility says of one segment.
+/// Hidden and backed intervals of one segment.
 #[derive(Clone, Copy)]
 pub(crate) struct Seen<'a> {
     pub hidden: &'a [Layer],
     pub backed: &'a [Interval],
 }
 
-/// A piece of a segment between two parameters.
+/// Piece of a segment between two parameters.
 pub(crate) struct SegmentPart {
     pub start: f64,
     pub end: f64,
@@ -23,14 +23,14 @@ pub(crate) struct SegmentPart {
     pub silhouette: bool,
 }
 
-/// Segments of which anything is kept, in their order, with their pieces one after the other.
+/// Segments with at least one kept piece, in order, and their pieces one after the other.
 #[derive(Default)]
 pub(crate) struct Cuts {
     pub segments: Vec<Cut>,
     pub pieces: Vec<SegmentPart>,
 }
 
-/// A segment, by its number, and how many pieces it has.
+/// Cut segment: its index and its number of pieces.
 pub(crate) struct Cut {
     pub segment: usize,
     pub count: usize,
@@ -38,14 +38,14 @@ pub(crate) struct Cut {
 }
 
 impl Cuts {
-    /// Cuts a segment and keeps it, unless nothing of it is seen and what is hidden is not kept.
+    /// Cuts a segment and keeps it, unless nothing of it is visible and hidden pieces are not kept.
     pub fn add(&mut self, id: usize, segment: &ImageSegment, seen: Seen, shortest: f64, keeps_hidden: bool) {
-        // Of most lines behind walls nothing is left.
+        // Most lines behind walls are hidden throughout.
         if !keeps_hidden && seen.hidden == segment_visibility::BURIED {
             return;
         }
         let first = self.pieces.len();
-        // The witnesses of a smooth contour say what lies next to it.
+        // The background next to a smooth contour comes from the mesh contour matched to it.
         let bounds = segment.bounds || segment.role == Role::Curve;
         cut_segment(segment, seen, bounds, shortest, &mut self.pieces);
         if keeps_hidden || self.pieces[first..].iter().any(|p| p.invisibility == 0) {
@@ -56,8 +56,9 @@ impl Cuts {
     }
 }
 
-/// Cuts a segment where its invisibility changes, and the visible parts of one that `bounds` a surface also where background
-/// begins or ends next to them.
+/// Cuts a segment where its invisibility changes.
+///
+/// If it `bounds` a surface, the visible parts are also cut where background begins or ends next to them.
 fn cut_segment(segment: &ImageSegment, seen: Seen, bounds: bool, shortest: f64, out: &mut Vec<SegmentPart>) {
     let shortest = shortest / segment.length().max(shortest);
     let mut at = 0.0;
@@ -96,7 +97,8 @@ fn visible(
     };
     let mut at = start;
     if bounds {
-        // A line that many thin things cross has many stretches, and as many others beside it.
+        // A line behind many thin parts has many visible pieces and many backed intervals, hence the binary
+        // search.
         let first = seen.backed.partition_point(|backed| backed.end <= start);
         for backed in seen.backed[first..].iter().take_while(|backed| backed.start < end) {
             let (from, to) = (backed.start.max(at), backed.end.min(end));
@@ -134,7 +136,7 @@ mod tests {
         Layer { interval: interval(start, end), count }
     }
 
-    /// Start, end, surfaces in front, and whether it is silhouette, of each piece of each segment that is kept.
+    /// Start, end, layers in front and silhouette flag of each piece of each kept segment.
     fn kept(bounds: bool, keeps_hidden: bool, hidden: &[&[Layer]]) -> Vec<Vec<(f64, f64, u16, bool)>> {
         let segment = ImageSegment {
             a: DVec3::ZERO,

@@ -1,17 +1,18 @@
-//! Visibility: which parts of which segments are hidden, and by how many surfaces.
+//! [`Visibility`]: the hidden parts of all segments, and the number of surfaces in front of each.
 //!
-//! Invisibility counts every surface layer between a line and the eye, whether it turns its
-//! outside to the eye or not: a line behind a closed box is behind two layers.
+//! Invisibility counts every surface layer between a line and the eye, facing or averted. So a line behind a
+//! closed box is behind two layers.
 //!
-//! All lines of sight of a view leave one point, so a grid over the *image* answers what a tree
-//! over space would: the page is cut into tiles, every segment is walked through them, and inside
-//! a tile each segment is compared with each triangle there. What a triangle hides is an interval
-//! of the segment's parameter (see [`crate::visibility::occlusion::triangle_occlusion`]); the visible parts are what no interval
-//! covers. Cusps, T-junctions and piercings fall out of that with computed end points.
+//! 1. All lines of sight of a view leave one point, so a grid over the *image* replaces a spatial tree.
+//! 2. Every segment is traversed through the tiles of the grid.
+//! 3. Inside a tile, each segment is compared with each triangle there. A triangle hides an interval of the
+//!    segment's parameter (see [`crate::visibility::occlusion::triangle_occlusion`]).
+//! 4. The visible parts are those that no interval covers. Cusps, T-junctions and piercings follow, with
+//!    computed end points.
 //!
-//! Source: the idea of subtracting intervals follows Blender's Line Art and
-//! three-edge-projection; deciding in the image is after Arthur Appel, "The notion of
-//! quantitative invisibility and the machine rendering of solids", 1967.
+//! Source: intervals are subtracted as in Blender's Line Art and three-edge-projection. Visibility is decided
+//! in the image, after Arthur Appel, "The notion of quantitative invisibility and the machine rendering of
+//! solids", 1967.
 
 use std::borrow::Cow;
 use std::ops::Range;
@@ -38,7 +39,7 @@ use crate::visibility::tiles::aligned_grid::{grid_over, tiles_across};
 use crate::visibility::tiles::tile_set::TileSet;
 use crate::visibility::view_tolerances::Limits;
 
-/// A segment is hidden from end to end when no more than this share of it is left.
+/// Largest visible share of a segment that still counts as hidden from end to end.
 const WHOLE_SLACK: f64 = 1e-9;
 
 /// Hidden from end to end.
@@ -49,36 +50,36 @@ const fn whole(start: f64, end: f64) -> Layer {
     Layer { interval: Interval { start, end, start_kind: kind, end_kind: kind }, count: 1 }
 }
 
-/// What is known of all segments.
+/// Visibility of all segments.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Visibility {
-    /// Whether each segment is hidden from end to end by one layer or more; only where layers are
-    /// not counted.
+    /// Whether each segment is hidden from end to end by at least one layer; only where layers are not
+    /// counted.
     buried: Vec<bool>,
     hidden: Grouped<Layer>,
     backed: Grouped<Interval>,
-    /// How many times a segment was compared with a triangle.
+    /// Number of comparisons between a segment and a triangle.
     pub tests: u64,
 }
 
 impl Visibility {
-    /// The hidden pieces of a segment with their counts, ascending.
+    /// Hidden pieces of a segment with their counts, ascending.
     #[must_use]
     pub fn hidden(&self, segment: usize) -> &[Layer] {
         if self.buried[segment] { &BURIED } else { self.hidden.of(segment) }
     }
 
-    /// The ranges of a segment that have a surface beside them on the outer side, ascending; only
-    /// for segments that bound a surface.
+    /// Ranges of a segment with a surface next to them on the outer side, ascending. Only for segments that
+    /// bound a surface.
     #[must_use]
     pub fn backed(&self, segment: usize) -> &[Interval] {
         self.backed.of(segment)
     }
 }
 
-/// Decides the visibility of all segments but smooth contours, of which nothing is told: their witnesses are asked.
+/// Computes the visibility of all segments except smooth contours, which take theirs from the mesh contour.
 ///
-/// With `counting` false, counts are not told apart and stay 1, which is faster.
+/// With `counting` false, all counts are 1, which is faster.
 #[must_use]
 pub fn decide(
     mesh: &Mesh,
@@ -90,7 +91,7 @@ pub fn decide(
     decide_with(mesh, view, segments, limits, counting, None)
 }
 
-/// The same with the help of covers of the view, where they fit.
+/// Like [`decide`], with an occlusion buffer made earlier, which is used if its grid fits.
 #[must_use]
 pub(crate) fn decide_with(
     mesh: &Mesh,
@@ -120,7 +121,7 @@ pub(crate) fn decide_with(
     let wanted = TileSet::new(&grid, (0..grid.len()).filter(|tile| !items.of(*tile).is_empty()));
     let occluders = triangles.fill(boxes, &wanted, &covers.of_tile);
 
-    // Where triangles lie over several tiles, how far each reaches is found once.
+    // Where triangles overlap several tiles, their bounds are computed once.
     let several = occluders.value_count() > 2 * triangles.count();
     let reaches = if several { triangles.reaches() } else { Vec::new() };
     let reach = |id: &u32| reaches.get(*id as usize).copied().unwrap_or_else(|| triangles.reach(*id));
@@ -152,7 +153,7 @@ pub(crate) fn decide_with(
         result.tidy();
         result
     };
-    // Some tiles are crowded and most are not.
+    // Some tiles are crowded and most are not, so tasks are small and buffers are lent to them.
     let memories = Spare::default();
     let results: Vec<TileResult> = (0..grid.len().div_ceil(TILES))
         .into_par_iter()
@@ -160,14 +161,14 @@ pub(crate) fn decide_with(
         .map(|k| memories.lend(|memory| decided(memory, k * TILES..((k + 1) * TILES).min(grid.len()))))
         .collect();
     let long_tests = long.as_ref().map_or(0, |long| long.tests);
-    // What is found takes as much room again while it is put in order.
+    // Freed first, because sorting the results takes the same amount of memory again.
     drop((long, occluders, items, memories));
     let mut told = gather(segments, limits, &buried, &results);
     told.tests += long_tests;
     told
 }
 
-/// Brings the findings of all tiles back to their segments and joins them there.
+/// Gathers the results of all tiles by segment and joins them there.
 fn gather(
     segments: &[ImageSegment],
     limits: &Limits,
@@ -176,8 +177,8 @@ fn gather(
 ) -> Visibility {
     let shortest = |segment: usize| limits.piece / segments[segment].length().max(limits.piece);
     let wholes = || buried_items.iter().chain(results.iter().flat_map(|r| &r.whole));
-    // The items of a segment part its parameter range, so that a segment all of whose items are
-    // hidden is known by their sum.
+    // The parts of a segment divide its parameter range. So a segment is entirely hidden if its hidden parts
+    // add up to 1.
     let mut length = vec![0.0f64; segments.len()];
     for item in wholes() {
         length[item.segment as usize] += item.end - item.start;
@@ -197,7 +198,7 @@ fn gather(
             grouped_pairs(segments.len(), pairs.map(|(segment, interval)| (*segment as usize, *interval)));
         backed.tidied(|segment, intervals| {
             let mut joined = Vec::new();
-            // Beside a corner the outer side may graze a face that only shares the vertex.
+            // Near a corner, the outer side may graze a face that only shares the vertex.
             let grazing = 4.0 * limits.beside / segments[segment].length().max(4.0 * limits.beside);
             sweep(intervals, &[], grazing, false, &mut joined);
             intervals.clear();
@@ -208,13 +209,13 @@ fn gather(
     Visibility { tests: results.iter().map(|r| r.tests).sum(), hidden, backed, buried }
 }
 
-/// Joins pieces of equal count that touch, and drops what is shorter than rounding.
+/// Joins touching pieces of equal count and drops those shorter than rounding.
 fn join_layers(layers: &mut Vec<Layer>, shortest: f64) {
     layers.sort_by(|a, b| a.interval.start.total_cmp(&b.interval.start));
     join_touching(layers, shortest);
     layers.retain(|l| l.interval.end - l.interval.start > shortest);
-    // Both faces beside an edge cover it, so that behind every edge lies a sliver of one layer
-    // more: what it parted is one again.
+    // Both faces at an edge cover it, so behind every edge there is a sliver with one more layer. The pieces
+    // on both sides of it are joined again.
     join_touching(layers, 2.0 * shortest);
 }
 

@@ -1,4 +1,4 @@
-//! One tile: its segments against its triangles.
+//! Comparison of the segments and triangles of one tile.
 
 use glam::DVec3;
 
@@ -17,30 +17,30 @@ use crate::visibility::projection::image_segments::ImageSegment;
 use crate::visibility::tiles::tile_grid::Grid;
 use crate::visibility::tiles::triangle_columns::Sides;
 
-/// Lists up to this long are looked through as they are.
+/// Lists up to this length are neither sorted nor subdivided.
 const FEW: usize = 32;
-/// A tile with more pairs than this for each of its segments and triangles is cut into finer ones.
+/// Largest number of pairs per segment and triangle of a tile before it is subdivided.
 const CROWD: usize = 64;
-/// Finer tiles along each side of a crowded one.
+/// Finer tiles along each side of a subdivided tile.
 const FINER: u32 = 8;
-/// Finer tiles with so many times as many pairs are in vain.
+/// Largest growth factor of the number of pairs for keeping a subdivision.
 const IN_VAIN: usize = 2;
 
-/// What a run of tiles found out about segments.
+/// Results of a run of tiles.
 #[derive(Debug, Default)]
 pub(crate) struct TileResult {
-    /// Items that are hidden from end to end.
+    /// Segment parts that are hidden from end to end.
     pub(crate) whole: Vec<Item>,
-    /// Hidden pieces of others.
+    /// Hidden pieces of the other segment parts.
     pub(crate) hidden: Vec<(u32, Layer)>,
     /// Where a segment that may bound a surface has no background next to it.
     pub(crate) backed: Vec<(u32, Interval)>,
-    /// How many times a segment was compared with a triangle.
+    /// Number of comparisons between a segment and a triangle.
     pub(crate) tests: u64,
 }
 
 impl TileResult {
-    /// Gives back the room that nothing was found for.
+    /// Frees unused capacity.
     pub(crate) fn tidy(&mut self) {
         self.whole.shrink_to_fit();
         self.hidden.shrink_to_fit();
@@ -48,44 +48,44 @@ impl TileResult {
     }
 }
 
-/// What all tiles share.
+/// Input shared by all tiles.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Context<'a> {
     pub(crate) compared: Compared<'a>,
-    /// What is known of long lines before: their items are compared with the other triangles.
+    /// Results known for long lines; their parts are only compared with the other triangles.
     pub(crate) long: Option<&'a LongPairs>,
 }
 
-/// What a worker takes from tile to tile.
+/// Buffers that a worker reuses from tile to tile.
 #[derive(Debug, Default)]
 pub(crate) struct Memory {
     /// The triangles of the tile.
     pub(crate) triangles: TileTriangles,
     /// 0, 1, 2 and so on.
     numbers: Vec<u32>,
-    /// What is found out about one item.
+    /// Buffers for the comparison of one segment part.
     found: Found,
 }
 
-/// What is found out about an item, before it is put together.
+/// Intervals found for one segment part, before they are merged.
 #[derive(Debug, Default)]
 struct Found {
     hidden: Vec<Interval>,
-    /// What is known to be hidden before.
+    /// Layers known to hide it before the comparison.
     known: Vec<Layer>,
     layers: Vec<Layer>,
 }
 
-/// Which triangles of a tile to look at.
+/// Triangles of a tile to compare.
 #[derive(Clone, Copy)]
 struct Entries<'a> {
     chosen: &'a [u32],
-    /// Whether nearer ones come first.
+    /// Whether they are sorted, nearest first.
     ordered: bool,
 }
 
 impl Context<'_> {
-    /// Compares the items of a tile of a grid with its triangles.
+    /// Compares the segment parts of a tile of a grid with its triangles.
     pub(crate) fn decide_tile(
         &self,
         items: &[Item],
@@ -121,8 +121,8 @@ impl Context<'_> {
         }
         let sorted: Vec<u32>;
         let mut entries = entries;
-        // Sorting pays where many lines are asked of many triangles: hidden ones then meet what
-        // hides them first.
+        // Sorting pays with many lines and many triangles, because a hidden line then meets its occluder
+        // first.
         if !counting && count > FEW && items.len() > FEW / 4 {
             sorted = nearest_first(&memory.triangles.reaches, entries.chosen);
             entries = Entries { chosen: &sorted, ordered: true };
@@ -160,8 +160,11 @@ impl Context<'_> {
         memory.found = Found { hidden, known, layers };
     }
 
-    /// Cuts a crowded tile into finer ones: where a dense model is small on the page, a grid over the page does not part its
-    /// lines. False, and nothing is decided, where lines and triangles lie along each other, and would only meet more often.
+    /// Subdivides a crowded tile: where a dense model is small on the page, the grid over the page does not
+    /// separate its lines.
+    ///
+    /// Returns false and decides nothing where lines and triangles lie along each other, because they would
+    /// only meet more often.
     fn decide_finer(
         &self,
         items: &[Item],
@@ -228,7 +231,7 @@ impl Context<'_> {
         true
     }
 
-    /// The finer tiles that each triangle may lie over, where they are wanted for triangles as near as it.
+    /// Pairs of finer tile and triangle that may overlap, where `is_wanted(tile, nearness)`.
     fn finer_pairs(
         &self,
         all: &mut TileTriangles,
@@ -245,7 +248,7 @@ impl Context<'_> {
             let [left, right, top, bottom] = bounds.map(f64::from);
             let (low, high) = (DVec3::new(left, top, 0.0), DVec3::new(right, bottom, 0.0));
             let tiles = grid.tile_box(low - slack, high + slack);
-            // The box of a needle holds many tiles that it does not meet.
+            // The bounding box of a needle-shaped triangle contains many tiles that the triangle misses.
             let sides = (tiles.area() > 4).then(|| Sides::new(&all.look_up(*entry, triangles).whole.corners));
             for row in tiles.top..=tiles.bottom {
                 let whole = u32::from(tiles.left)..u32::from(tiles.right) + 1;
@@ -258,8 +261,9 @@ impl Context<'_> {
         pairs
     }
 
-    /// Collects what the triangles of a tile hide of an item. True if one of them, or a run of
-    /// them, hides all of it and counts are not asked for.
+    /// Collects the intervals of a segment part that triangles hide.
+    ///
+    /// Returns true if one triangle, or several that join, hide all of it and counts are not needed.
     #[inline(never)]
     fn gather_hidden(
         &self,
@@ -318,7 +322,8 @@ impl Context<'_> {
         false
     }
 
-    /// Collects where a segment has no background next to it: where surfaces lie beside all sides that its own faces leave open.
+    /// Collects the parts of a segment without background next to them: a surface lies next to each of its
+    /// open sides.
     #[inline(never)]
     fn gather_backed(
         &self,
@@ -346,7 +351,7 @@ impl Context<'_> {
         }
     }
 
-    /// Collects where a surface lies on one side of a segment.
+    /// Collects the ranges where a surface lies next to a segment on one side.
     fn gather_beside(
         &self,
         (number, side): (usize, &OuterSide),
@@ -366,7 +371,7 @@ impl Context<'_> {
             run = longer(run, (interval.start, interval.end));
         }
         for entry in entries.chosen {
-            // No other triangle tells more.
+            // The range is already complete.
             if run.0 <= item.start && run.1 >= item.end {
                 return;
             }
@@ -388,9 +393,9 @@ impl Context<'_> {
     }
 }
 
-/// Some of the triangles with the nearer ones first, of equally near ones in their order.
+/// Some of the triangles, nearest first; equally near ones in their order.
 fn nearest_first(reaches: &[Reach], chosen: &[u32]) -> Vec<u32> {
-    // Numbers that order as the negative of a nearness does, above the place in the tile.
+    // Bits that sort by falling nearness, above the index in the tile.
     let key = |entry: &u32| {
         let bits = reaches[*entry as usize].nearest.to_bits();
         let falling = if bits >> 31 == 0 { !bits & (u32::MAX >> 1) } else { bits };

@@ -1,4 +1,4 @@
-//! [`Items`]: what lies of each line in each tile, but for what lies behind covers.
+//! [`Items`]: the parts of all segments in each tile, except those behind the occlusion buffer.
 
 use crate::parallel::prelude::*;
 
@@ -9,19 +9,19 @@ use crate::visibility::occlusion::occlusion_input::Item;
 use crate::visibility::projection::image_segments::ImageSegment;
 use crate::visibility::tiles::tile_grid::Grid;
 
-/// Segments that are walked as one piece of work.
+/// Segments per task.
 const CHUNK: usize = 1 << 10;
 
-/// The items of all segments of which visibility is asked.
+/// Parts of all segments whose visibility is computed.
 #[derive(Debug)]
 pub(crate) struct Items {
-    /// By tile, those that have to be compared with triangles.
+    /// Parts that must be compared with triangles, by tile.
     pub open: Grouped<Item>,
-    /// Those that lie behind covers: one of a segment all of which does.
+    /// Parts behind the occlusion buffer; a single one for a segment that is entirely behind it.
     pub buried: Vec<Item>,
 }
 
-/// The same of some segments, each with its tile.
+/// Parts of the segments of one task; open parts come with their tiles.
 #[derive(Default)]
 struct Walked {
     open: Vec<(u32, Item)>,
@@ -29,7 +29,8 @@ struct Walked {
 }
 
 impl Items {
-    /// Walks all segments through the tiles but smooth contours, whose witnesses are asked.
+    /// Splits all segments at tile borders. Smooth contours are skipped, because they take their visibility
+    /// from the mesh contour.
     pub fn new(segments: &[ImageSegment], grid: &Grid, covers: &Covers) -> Self {
         let walked: Vec<Walked> = (0..segments.len().div_ceil(CHUNK))
             .into_par_iter()
@@ -81,7 +82,7 @@ mod tests {
         hash(axis, &[n]) as f64 / u64::MAX as f64
     }
 
-    /// Eight plates behind each other, seen from the front.
+    /// Eight parallel plates, seen from the front.
     fn plates() -> (Mesh, View) {
         let mut soup = Soup::default();
         for plate in 0..8 {
@@ -98,7 +99,7 @@ mod tests {
         (mesh, view)
     }
 
-    /// Segments all over the page, from the nearness of the nearest corner to that of the farthest.
+    /// Segments all over the page, with nearness between that of the farthest and of the nearest corner.
     fn segments(view: &View, count: u64) -> Vec<ImageSegment> {
         let depths = || view.points.iter().map(|p| p.z);
         let (far, near) =
@@ -153,7 +154,8 @@ mod tests {
                 let wanted = f64::from(u8::from(s.role == Role::Line));
                 assert!((part - wanted).abs() < 1e-9, "{part}");
             }
-            // With covers more than half of these lines are buried whole, and without them none.
+            // With covers, more than half of these lines are entirely hidden by them; without covers, none
+            // are.
             let whole = buried.iter().filter(|item| (item.start, item.end) == (0.0, 1.0)).count();
             assert_eq!(whole > segments.len() / 2, !covers.is_empty(), "{whole} of {}", buried.len());
         }

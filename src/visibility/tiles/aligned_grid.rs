@@ -1,4 +1,4 @@
-//! The grid of tiles over what is asked about on a page.
+//! Grids over the image whose tiles stay in place when lines come and go.
 
 use glam::{DVec2, DVec3};
 
@@ -6,8 +6,9 @@ use super::tile_grid::Grid;
 use crate::geometry::numbers::powers_of_two::power_of_two_above;
 use crate::visibility::projection::image_segments::ImageSegment;
 
-/// A grid over the box around some segments. Its tiles seldom move when lines come and go: they are a power of
-/// two wide, and lie on multiples of that.
+/// Grid over the bounding box of some segments.
+///
+/// Tiles are a power of two wide and lie on multiples of their width, so they rarely move when lines change.
 pub(crate) fn grid_over<'a>(segments: impl Iterator<Item = &'a ImageSegment>, across: u32) -> Grid {
     let around = segments.fold(None, |around: Option<(DVec3, DVec3)>, s| {
         let (low, high) = around.unwrap_or((s.a, s.a));
@@ -17,18 +18,19 @@ pub(crate) fn grid_over<'a>(segments: impl Iterator<Item = &'a ImageSegment>, ac
     grid_over_box(low.truncate(), high.truncate(), across)
 }
 
-/// The same over a box.
+/// Grid over a box, with the same alignment.
 pub(crate) fn grid_over_box(low: DVec2, high: DVec2, across: u32) -> Grid {
     let size = (high - low).max_element();
     if !(size > 0.0 && size.is_finite()) {
         return Grid::new(low, high, across);
     }
-    // Between 0.7 and 1.4 times as many as asked for.
+    // Gives 0.7 to 1.4 times the requested number of tiles.
     let cell = power_of_two_above(size / f64::from(across) * std::f64::consts::FRAC_1_SQRT_2);
     Grid::of_cells((low / cell).floor() * cell, high, cell)
 }
 
-/// Denser meshes want smaller tiles; crowded tiles are cut further.
+/// Tiles across the page for a number of triangles. Denser meshes get smaller tiles; crowded tiles are
+/// subdivided later.
 pub(crate) fn tiles_across(triangles: usize) -> u32 {
     match triangles {
         0..=2_000 => 32,
@@ -38,8 +40,9 @@ pub(crate) fn tiles_across(triangles: usize) -> u32 {
     }
 }
 
-/// Squares of covers along each side of a tile. Finer ones hide more lines and cost more: that pays where a mesh is so dense that its
-/// lines are short.
+/// Squares of the occlusion buffer along each side of a tile.
+///
+/// Smaller squares hide more lines and cost more. They pay where a mesh is so dense that its lines are short.
 pub(crate) fn squares_per_tile(triangles: usize) -> u32 {
     if triangles > 200_000 { 6 } else { 2 }
 }

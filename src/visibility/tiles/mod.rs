@@ -1,4 +1,4 @@
-//! Square tiles over the image, in which segments and triangles are brought together.
+//! Square tiles over the image, where segments and triangles meet.
 //!
 //! 1. A grid of square tiles covers the bounding box of the segments. Denser meshes get smaller tiles.
 //! 2. Each segment is traversed tile by tile (Amanatides and Woo 1987).

@@ -1,4 +1,4 @@
-//! A grid of square tiles over the image, and the walk of a segment through it.
+//! Grid of square tiles over the image, with segment traversal.
 
 use glam::{DVec2, DVec3};
 
@@ -16,7 +16,7 @@ pub struct Grid {
     per_cell: f64,
 }
 
-/// A block of tiles: first and last column, first and last row.
+/// Block of tiles: first and last column, first and last row.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TileBox {
     /// First column.
@@ -30,17 +30,17 @@ pub struct TileBox {
 }
 
 impl TileBox {
-    /// No tile at all.
+    /// The empty block.
     pub const EMPTY: Self = Self { left: 1, right: 0, top: 1, bottom: 0 };
 
-    /// Whether it holds no tile.
+    /// Whether the block is empty.
     #[inline]
     #[must_use]
     pub const fn is_empty(self) -> bool {
         self.left > self.right
     }
 
-    /// The tiles that both have.
+    /// Intersection of two blocks.
     #[inline]
     #[must_use]
     pub fn within(self, other: Self) -> Self {
@@ -64,8 +64,10 @@ impl TileBox {
     }
 }
 
-/// The columns and rows from a little before to a little behind a point, counted from one; zero and one more than there are
-/// stand for what lies beyond the grid. Those of several points are those of the box around them.
+/// Columns and rows within a margin of a point, counted from 1. The values 0 and count + 1 stand for
+/// positions outside the grid.
+///
+/// The ranges of several points combine to that of their bounding box.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Around {
     from: [u16; 2],
@@ -73,10 +75,10 @@ pub(crate) struct Around {
 }
 
 impl Around {
-    /// A point that has no place in the image, nor has a box around it.
+    /// Range of a point without image position; makes every combined range empty.
     pub const CUT: Self = Self { from: [0; 2], to: [u16::MAX; 2] };
 
-    /// What is around all three of a triangle.
+    /// Combined range of the three corners of a triangle.
     #[inline]
     pub fn of_all([a, b, c]: [Self; 3]) -> Self {
         let least = |k: usize| a.from[k].min(b.from[k]).min(c.from[k]);
@@ -86,7 +88,7 @@ impl Around {
 }
 
 impl Grid {
-    /// Where a point lies, with so much to all sides.
+    /// Range of a point with a margin of `slack` to all sides.
     #[inline]
     pub(crate) fn around(&self, point: DVec3, slack: f64) -> Around {
         let last = self.corner(self.columns, self.rows);
@@ -105,7 +107,7 @@ impl Grid {
         Around { from: [column(low.x), row(low.y)], to: [column(high.x), row(high.y)] }
     }
 
-    /// The tiles within: [`Self::tile_box`] of the box around the points that it is of.
+    /// Tiles in a range; equals [`Self::tile_box`] of the bounding box of its points and margins.
     #[inline]
     pub(crate) fn tiles_within(&self, around: Around) -> TileBox {
         let ([left, top], [right, bottom]) = (around.from, around.to);
@@ -122,7 +124,7 @@ impl Grid {
         }
     }
 
-    /// The tiles that the box from `low` to `high` meets.
+    /// Tiles that the box from `low` to `high` meets.
     #[inline]
     #[must_use]
     pub fn tile_box(&self, low: DVec3, high: DVec3) -> TileBox {
@@ -138,7 +140,7 @@ impl Grid {
         }
     }
 
-    /// The tiles of a block, row by row, with their top left corners.
+    /// Tiles of a block, row by row, with their top left corners.
     #[inline]
     pub fn tiles_of(&self, tiles: TileBox) -> impl Iterator<Item = (usize, DVec2)> + '_ {
         (u32::from(tiles.top)..=u32::from(tiles.bottom)).flat_map(move |row| {
@@ -147,7 +149,7 @@ impl Grid {
         })
     }
 
-    /// A grid of about `across` tiles along the longer side of the box from `low` to `high`.
+    /// Grid of about `across` tiles along the longer side of the box from `low` to `high`.
     #[must_use]
     pub fn new(low: DVec2, high: DVec2, across: u32) -> Self {
         let size = (high - low).max(DVec2::ZERO);
@@ -156,7 +158,7 @@ impl Grid {
         Self { columns: count(size.x), rows: count(size.y), cell, origin: low, per_cell: 1.0 / cell }
     }
 
-    /// A grid of tiles of a given side from `low` until `high` is in it.
+    /// Grid of tiles with a given side, from `low` on, that contains `high`.
     #[must_use]
     pub fn of_cells(low: DVec2, high: DVec2, cell: f64) -> Self {
         let count = |length: f64| ((length / cell) as u32).saturating_add(1);
@@ -172,7 +174,7 @@ impl Grid {
         Self { columns, rows, cell, origin: self.origin, per_cell: 1.0 / cell }
     }
 
-    /// The tile of `coarse` that a tile of this refinement of it lies in.
+    /// Tile of `coarse` that contains a tile of this refinement of it.
     #[inline]
     #[must_use]
     pub fn tile_of_square(&self, square: usize, coarse: &Self, across: u32) -> usize {
@@ -180,7 +182,7 @@ impl Grid {
         coarse.tile(square % self.columns / across, square / self.columns / across)
     }
 
-    /// A grid over one tile of this one, with `across` tiles along its sides.
+    /// Grid over one tile of this one, with `across` tiles along its sides.
     #[must_use]
     pub fn of_tile(&self, tile: usize, across: u32) -> Self {
         let tile = tile as u32;
@@ -195,7 +197,7 @@ impl Grid {
         self.columns as usize * self.rows as usize
     }
 
-    /// Whether there are none.
+    /// Whether there are no tiles.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -208,14 +210,14 @@ impl Grid {
         row as usize * self.columns as usize + column as usize
     }
 
-    /// The column that x lies in, kept on the grid.
+    /// Column that contains x, clamped to the grid.
     #[inline]
     #[must_use]
     pub fn column(&self, x: f64) -> u32 {
         (((x - self.origin.x) * self.per_cell).max(0.0) as u32).min(self.columns - 1)
     }
 
-    /// The row that y lies in, kept on the grid.
+    /// Row that contains y, clamped to the grid.
     #[inline]
     #[must_use]
     pub fn row(&self, y: f64) -> u32 {
@@ -229,8 +231,8 @@ impl Grid {
         self.origin + DVec2::new(f64::from(column), f64::from(row)) * self.cell
     }
 
-    /// Calls `visit(tile, t0, t1)` for the tiles that the image segment a→b passes through, in
-    /// order; the parameter ranges join without gap or overlap.
+    /// Calls `visit(tile, t0, t1)` for the tiles along the image segment a→b, in order. The parameter ranges
+    /// join without gap or overlap.
     ///
     /// Source: Amanatides and Woo, "A fast voxel traversal algorithm for ray tracing", 1987.
     #[inline]

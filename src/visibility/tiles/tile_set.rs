@@ -1,9 +1,9 @@
-//! [`TileSet`]: some tiles of a grid, which a block of tiles meets or does not.
+//! [`TileSet`]: a set of tiles of a grid, with ranks and queries by block.
 
 use super::tile_grid::{Grid, TileBox};
 use crate::geometry::lists::rank_bitset::Ranks;
 
-/// Some tiles of a grid, numbered row by row.
+/// Set of tiles of a grid, numbered row by row.
 #[derive(Debug)]
 pub(crate) struct TileSet {
     /// Rows begin at whole words.
@@ -13,7 +13,7 @@ pub(crate) struct TileSet {
 }
 
 impl TileSet {
-    /// Those that are listed, in any order and any number of times.
+    /// Set of the listed tiles, in any order and with repetitions.
     pub fn new(grid: &Grid, listed: impl IntoIterator<Item = usize>) -> Self {
         let columns = grid.columns as usize;
         let stride = columns.next_multiple_of(64);
@@ -21,24 +21,24 @@ impl TileSet {
         Self { held: Ranks::new(grid.rows as usize * stride, listed.into_iter().map(place)), columns, stride }
     }
 
-    /// How many there are.
+    /// Number of tiles.
     pub fn count(&self) -> usize {
         self.held.count()
     }
 
-    /// Whether it holds the tile in a column and row.
+    /// Whether it contains the tile in a column and row.
     #[inline]
     pub fn has(&self, column: usize, row: usize) -> bool {
         self.held.contains(row * self.stride + column)
     }
 
-    /// The number of a tile that it holds, from 0 on in the order of tiles.
+    /// Rank of one of its tiles, from 0 on in the order of tiles.
     #[inline]
     pub fn number(&self, tile: usize) -> usize {
         self.held.of(tile / self.columns * self.stride + tile % self.columns) as usize
     }
 
-    /// Whether it holds any of a block that is not empty.
+    /// Whether it contains any tile of a block, which must not be empty.
     #[inline]
     pub fn has_any(&self, tiles: TileBox) -> bool {
         (usize::from(tiles.top)..=usize::from(tiles.bottom)).any(|row| {
@@ -47,7 +47,7 @@ impl TileSet {
         })
     }
 
-    /// The numbers of those of a block, ascending.
+    /// Ranks of its tiles in a block, ascending.
     pub fn within(&self, tiles: TileBox) -> impl Iterator<Item = usize> + '_ {
         (usize::from(tiles.top)..=usize::from(tiles.bottom)).flat_map(move |row| {
             let places = (usize::from(tiles.left)..=usize::from(tiles.right))
@@ -56,7 +56,7 @@ impl TileSet {
         })
     }
 
-    /// All of them, ascending.
+    /// All its tiles, ascending.
     pub fn iter(&self) -> impl Iterator<Item = usize> + '_ {
         self.held.iter().map(|place| place / self.stride * self.columns + place % self.stride)
     }
@@ -71,7 +71,7 @@ mod tests {
 
     #[test]
     fn blocks_meet_the_tiles_that_they_hold() {
-        // Of 3 and of 150 columns, so that rows take one word and several.
+        // With 3 and with 150 columns, so rows take one word or several.
         for (size, of) in [((3.0, 50.0), 9), ((50.0, 3.0), 40), ((150.0, 20.0), 100), ((150.0, 150.0), 3)] {
             let grid = Grid::of_cells(DVec2::ZERO, DVec2::from(size) - 0.5, 1.0);
             let is_held = |tile: &usize| hash(1, &[*tile as u64]).is_multiple_of(of);

@@ -1,4 +1,4 @@
-//! [`Sides`]: the three sides of a triangle in the image, and which squares of a grid lie inside them.
+//! [`Sides`]: the sides of a triangle in the image as half planes, and the squares of a grid row inside them.
 
 use glam::{DVec2, DVec3};
 
@@ -8,15 +8,15 @@ use super::tile_grid::{Grid, TileBox};
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Sides([Side; 3]);
 
-/// An inward half plane n·x + d > 0, solved for x.
+/// Inward half plane n·x + d > 0, solved for x.
 #[derive(Debug, Clone, Copy)]
 struct Side {
-    /// -1 where x is to be greater, 1 where it is to be less, 0 where n has no x.
+    /// −1 if x must be greater, 1 if it must be less, 0 if n has no x component.
     way: f64,
-    /// x at y = 0 and how it grows with y; or d and the y of n.
+    /// x at y = 0 and its growth with y. Without x component of n: d and the y component.
     at: f64,
     along: f64,
-    /// By how much x changes where a square that has its centre there is to be a length further inside, for each of its length.
+    /// Change in x of a square's centre per unit of length that the square must be farther inside.
     aside: f64,
 }
 
@@ -43,11 +43,11 @@ impl Sides {
         Self([side(a, b), side(b, c), side(c, a)])
     }
 
-    /// The columns of a row of tiles whose squares lie wholly inside all sides (`reach` is minus
-    /// half a tile) or not wholly outside one (`reach` is half a tile or more).
+    /// Columns of a grid row whose squares are entirely inside all sides (`reach` is minus half a tile), or
+    /// not entirely outside one (`reach` is half a tile or more).
     ///
-    /// A square with half side h and centre c lies wholly inside a side n·x + d > 0 if
-    /// n·c + d > h (|nx| + |ny|): solved for the x of the centre, row by row.
+    /// A square with half side h and centre c is entirely inside a side n·x + d > 0 if n·c + d > h (|nx| +
+    /// |ny|). This is solved for the x of the centre, row by row.
     #[inline]
     pub(crate) fn columns(&self, grid: &Grid, tiles: TileBox, row: u16, reach: f64) -> std::ops::Range<u32> {
         let corner = grid.corner(0, u32::from(row));
@@ -63,7 +63,7 @@ impl Sides {
                 return 0..0;
             }
         }
-        // Rounding may not add a tile that is not filled, nor lose one that is met.
+        // Rounding must not add a tile that is not filled, nor lose one that is met.
         let margin = if reach < 0.0 { 1e-6 } else { -1e-6 };
         let per_cell = 1.0 / grid.cell;
         let (left, right) = (f64::from(tiles.left), f64::from(tiles.right));
@@ -72,7 +72,7 @@ impl Sides {
         if from > right || to < left {
             return 0..0;
         }
-        // Between the bounds of the box, which are no less than 0, whole numbers are found by cutting off.
+        // The bounds are not negative, so truncation finds whole numbers.
         let (first, last) = (from as u32, to as u32);
         let first = first + u32::from(f64::from(first) < from);
         first..(last + 1).max(first)
@@ -94,7 +94,7 @@ mod tests {
             let sides = Sides::new(&points);
             let [a, b, c] = points.map(DVec3::truncate);
             let way = (b - a).perp_dot(c - a).signum();
-            // How far inside of all sides a point lies.
+            // Smallest distance of a point from the sides, positive inside.
             let inside = |p: DVec2| {
                 let of_side = |q: DVec2, r: DVec2| (r - q).normalize().perp_dot(p - q) * way;
                 of_side(a, b).min(of_side(b, c)).min(of_side(c, a))
@@ -115,7 +115,7 @@ mod tests {
                         .map(|(x, y)| inside(corner + DVec2::new(x, y) * grid.cell))
                         .into_iter()
                         .fold(f64::INFINITY, f64::min);
-                    // Between both it is rounding that tells.
+                    // In between, rounding decides.
                     assert!(depth < 1e-4 || full.contains(&column), "{points:?} at {row}, {column}");
                     assert!(depth > -1e-4 || !full.contains(&column), "{points:?} at {row}, {column}");
                     let middle = inside(corner + grid.cell / 2.0);

@@ -1,7 +1,8 @@
-//! [`Turned`]: how far each vertex of a rounded surface is from being seen edge-on, by which most edges need no closer look.
+//! [`Turned`]: the margin of each vertex of a rounded surface from being seen edge-on, which skips most
+//! edges.
 //!
-//! Of an edge between normals that lean apart by little ([`SmoothNormals::gentle`]) it is enough to know that of its ends: two small
-//! numbers in place of two normals.
+//! For an edge between normals that differ little ([`SmoothNormals::gentle`]) the margins of its ends are
+//! enough: two small numbers instead of two normals.
 
 use crate::parallel::prelude::*;
 use glam::DVec3;
@@ -12,26 +13,30 @@ use crate::surface::SmoothNormals;
 use crate::surface::normals::straight_edges::GENTLE_COSINE;
 use crate::view::Frame;
 
-/// What is left for rounding, much more than it is: of facing as it is, of lengths as a share, and of numbers in single precision.
+/// Margins for rounding, much larger than the error: absolute for facing values, a factor for lengths, and a
+/// factor for single precision.
 const FACING_MARGIN: f64 = 1e-6;
 const LENGTH_MARGIN: f64 = 1.0 - 1e-9;
 const SINGLE_MARGIN: f64 = 1.0 - 1e-6;
 
-/// How far the vertices of a mesh are from being seen edge-on in a view.
+/// Margins of the vertices of a mesh from being seen edge-on in a view.
 #[derive(Debug)]
 pub(crate) struct Turned {
-    /// By how much lines of sight may turn along a gentle edge from each vertex before the field can vanish there; below zero
-    /// where the surface is turned away, zero where it may vanish at once.
+    /// Largest turn of the line of sight, along a gentle edge from each vertex, that keeps the field from
+    /// vanishing. Negative where the surface is averted; zero where the field may vanish at once.
     room: Vec<f32>,
-    /// No vertex is nearer to the eye. In a parallel view lines of sight do not turn: it is infinite.
+    /// Distance of the nearest vertex from the eye; infinite in a parallel view, where lines of sight do not
+    /// turn.
     nearest: f64,
 }
 
 impl Turned {
-    /// That of a view in which the field varies along an edge by no more than `reach` times what normal and line of sight turn.
+    /// Margins in a view. The field must vary along an edge by at most `reach` times the turn of normal and
+    /// line of sight.
     pub fn of(mesh: &Mesh, smooth: &SmoothNormals, frame: &Frame, reach: f64) -> Self {
         let most = (2.0 - 2.0 * GENTLE_COSINE).sqrt();
-        // Those on edges that part surfaces have several normals, of which this is one; no gentle edge ends at them.
+        // Vertices on edges that separate surfaces have several normals, and only one is used here. No gentle
+        // edge ends at them.
         let vertices = mesh.positions.par_iter().zip(&smooth.normals).with_min_len(GRAIN);
         let of_vertex = |(at, normal): (&DVec3, &DVec3)| {
             let facing = normal.dot(frame.to_eye(*at));
@@ -53,11 +58,12 @@ impl Turned {
         Self { room, nearest }
     }
 
-    /// Whether the field cannot vanish over a gentle edge between two vertices, of this length squared.
+    /// Whether the field cannot vanish over a gentle edge between two vertices, given its squared length.
     #[inline]
     pub fn all_along(&self, ends: [u32; 2], length_squared: f64) -> bool {
         let [a, b] = ends.map(|vertex| f64::from(self.room[vertex as usize]));
-        // Unit vectors from two points to the eye differ by no more than the way between them, seen from the nearer one.
+        // Unit vectors from two points to the eye differ by at most the distance between the points, divided
+        // by that to the nearer one.
         let room = a.abs().min(b.abs());
         a * b > 0.0 && length_squared < (room * self.nearest).powi(2) * LENGTH_MARGIN
     }
@@ -70,7 +76,7 @@ mod tests {
     use crate::mesh::Soup;
     use crate::scene::{Camera, Projection};
 
-    /// A ball of many faces, dented by chance.
+    /// Ball of many faces with random dents.
     fn ball(across: u32) -> Mesh {
         let mut dice = Dice::new(5);
         let mut soup = Soup::default();

@@ -1,7 +1,9 @@
-//! [`Cones`]: what bounds runs of edges, by which a view passes over whole runs that cannot hold its contour.
+//! [`Cones`]: bounds of runs of edges, used by a view to skip whole runs that cannot contain its contour.
 //!
-//! Edges are in an order of place, so that a run of them is a spot of the surface: a ball holds its points and a cone its
-//! normals. From the ball's distance and the cone's angle follows how far from edge-on any of it is seen at least.
+//! 1. Edges are stored in spatial order, so a run covers a small patch of the surface.
+//! 2. A ball bounds the points of a run, and a cone its normals.
+//! 3. The distance of the ball and the angle of the cone bound how far from edge-on every point of the run is
+//!    seen.
 //!
 //! Source: Shirman and Abi-Ezzi, "The cone of normals technique for fast processing of curved patches",
 //! Computer Graphics Forum 12(3), 1993.
@@ -14,36 +16,37 @@ use crate::surface::SmoothNormals;
 use crate::surface::refine::edge_marks::RUN;
 use crate::view::Frame;
 
-/// What bounds leave for rounding, much more than it is: of lengths as a share, of facing as it is.
+/// Margins for rounding, much larger than the error: a factor of lengths, and an absolute margin of facing
+/// values.
 const LENGTH_MARGIN: f64 = 1.0 + 1e-9;
 const FACING_MARGIN: f64 = 1e-6;
-/// Depths of a smaller share of the distance have lost too many digits to be told by.
+/// Depth, as a share of the distance, below which too many digits are lost to use it.
 const SHALLOW: f64 = 1e-3;
 
-/// Bounds of the rounded edges of a mesh, which no view changes.
+/// Bounds of the rounded edges of a mesh, independent of the view.
 #[derive(Debug)]
 pub struct Cones {
     runs: Vec<Option<Cone>>,
 }
 
-/// Bounds of the rounded edges of a run.
+/// Bounds of the rounded edges of one run.
 #[derive(Debug, Clone, Copy)]
 struct Cone {
-    /// The ball around their ends.
+    /// Ball around their ends.
     middle: DVec3,
     radius: f64,
-    /// The cone around their normals: its axis, and the cosine and sine of its half angle.
+    /// Cone around their normals: its axis, and the cosine and sine of its half angle.
     axis: DVec3,
     cosine: f64,
     sine: f64,
-    /// The length of the longest.
+    /// Length of the longest edge.
     length: f64,
-    /// The most that normals at both ends of one differ.
+    /// Largest difference between the normals at both ends of an edge.
     turn: f64,
 }
 
 impl Cones {
-    /// The bounds of all runs of edges.
+    /// Computes the bounds of all runs of edges.
     #[must_use]
     pub fn new(mesh: &Mesh, smooth: &SmoothNormals) -> Self {
         let runs = mesh.edges.len().div_ceil(RUN);
@@ -52,8 +55,11 @@ impl Cones {
         Self { runs }
     }
 
-    /// Whether all edges of a run are shorter than the root of `short` times their depth, or so far from edge-on that the field,
-    /// which varies by no more than `reach` times what normal and line of sight turn, cannot vanish over them.
+    /// Whether no edge of a run matters for the contour: all are shorter than the root of `short` times their
+    /// depth, or too far from edge-on.
+    ///
+    /// Too far means that the field cannot vanish over them, if it varies by at most `reach` times the turn
+    /// of normal and line of sight.
     #[inline]
     pub(crate) fn is_passed(&self, run: usize, frame: &Frame, reach: f64, short: f64) -> bool {
         self.runs[run].is_none_or(|cone| cone.is_passed(frame, reach, short))
@@ -104,7 +110,7 @@ impl Cone {
 
     fn is_passed(&self, frame: &Frame, reach: f64, short: f64) -> bool {
         let mut to_eye = -frame.forward;
-        // Of the angle by which lines of sight from the ball differ from that of its middle.
+        // Angle between lines of sight from the ball and that of its centre.
         let (mut cosine, mut sine) = (1.0, 0.0);
         let mut turn = self.turn;
         let mut least_depth = 1.0;
@@ -118,7 +124,8 @@ impl Cone {
             to_eye /= far;
             sine = self.radius / far;
             cosine = (1.0 - sine * sine).sqrt();
-            // Unit vectors from two points to the eye differ by no more than the way between them, seen from the nearer one.
+            // Unit vectors from two points to the eye differ by at most the distance between the points,
+            // divided by that to the nearer one.
             turn += self.length / near;
             least_depth = frame.depth(self.middle) - self.radius;
             if least_depth < far * SHALLOW {
@@ -129,7 +136,7 @@ impl Cone {
             return true;
         }
         let facing = self.axis.dot(to_eye);
-        // The most that normal and line of sight together lean from the axis and the line to the middle.
+        // Largest angle of normal and line of sight together from the axis and the line to the centre.
         let lean_cosine = self.cosine * cosine - self.sine * sine;
         let lean_sine = self.sine * cosine + self.cosine * sine;
         let across = (1.0 - facing * facing).max(0.0).sqrt();
@@ -146,7 +153,7 @@ mod tests {
     use crate::mesh::Soup;
     use crate::scene::{Camera, Projection};
 
-    /// A torus with dents, so that there are folds as well.
+    /// Torus with dents, so it has folds as well.
     fn dented(across: u32) -> Mesh {
         let mut dice = Dice::new(3);
         let mut soup = Soup::default();
