@@ -1,5 +1,5 @@
-//! Reports at the end of a test run which shared models were missing and which tests were therefore skipped.
-//! Tests run in alphabetical order, so the module's name puts it last.
+//! Reports the shared models that tests requested and did not find. Tests run in alphabetical order, so the
+//! module's name puts this report last.
 
 use std::io::Write as _;
 
