@@ -1,5 +1,5 @@
-//! Hiding or moving a part does not change the drawing of distant parts under a fixed camera. Lines far from
-//! it stay identical; only a few fills and hatch strokes may change.
+//! Hiding or moving a part does not change the drawing of distant parts under a fixed camera. Lines of the
+//! castle stay identical; elsewhere, a small share of the marks may change, such as fills and hatch strokes.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
