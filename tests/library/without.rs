@@ -1,4 +1,5 @@
-//! Tests run in the order of their names: this comes last, and tells what the others had to leave out.
+//! Reports the shared models that tests requested and did not find. Tests run in alphabetical order, so the
+//! module's name puts this report last.
 
 use std::io::Write as _;
 
@@ -7,7 +8,8 @@ use crate::support::readers::shared_folder;
 #[test]
 fn what_was_skipped_is_said() {
     if let Some(line) = shared_folder::absent() {
-        // Not by a macro: what these print is kept from view where a test passes.
+        // Written directly to stderr, because the test harness hides the output of print macros in passing
+        // tests.
         let _ = writeln!(std::io::stderr().lock(), "\n{line}");
     }
 }

@@ -1,5 +1,5 @@
-//! Lines found in the image: the edge tests are what their papers say, pixel for pixel; what is traced lies where geometry has it;
-//! and no mesh is needed but faces.
+//! Lines traced from depth and normal maps: edge tests against their papers pixel by pixel, traced lines
+//! against closed forms and exact lines, and polygon soups against the closed model.
 
 use glam::DVec3;
 use kurbo::Point;
@@ -32,7 +32,7 @@ fn style(sets: &[&str]) -> Style {
     Style::load("ink", &sets).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The lines of a drawing, or those of some class.
+/// Returns the line segments of a drawing, or only those of one class.
 fn lines(drawing: &Drawing, class: Option<&str>) -> Vec<[Point; 2]> {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     let of_class = |classes: &[&str]| class.is_none_or(|class| classes.contains(&class));
@@ -45,7 +45,7 @@ fn drawn(scene: &Scene, camera: &Camera, sets: &[&str]) -> Vec<[Point; 2]> {
 
 const IMAGE: &str = "lines.source=image";
 
-/// The part of lines that lies within some distances of others.
+/// Returns the share of the length of `own` that lies within each distance (px) of `others`.
 fn within<const N: usize>(own: &[[Point; 2]], others: &[[Point; 2]], distances: [f64; N]) -> [f64; N] {
     let ink = Ink::new(others.to_vec(), 4.0);
     let places = samples(own, 0.5);
@@ -56,7 +56,7 @@ fn within<const N: usize>(own: &[[Point; 2]], others: &[[Point; 2]], distances: 
     })
 }
 
-/// Scenes with all there is: flat faces, round ones, several parts, cut-outs, a scan.
+/// Example models with flat faces, rounded surfaces, several parts, cut-outs and a scan.
 const SCENES: [&str; 5] = ["gear.obj", "pump.glb", "goose.obj", "bear.ply", "street.glb"];
 
 fn example(name: &str, size: f64) -> (Scene, Camera) {
@@ -67,13 +67,13 @@ fn example(name: &str, size: f64) -> (Scene, Camera) {
     (scene, camera)
 }
 
-/// The value at a pixel, with that of the rim beyond.
+/// Returns the value at a pixel; outside the image, the value of the nearest border pixel.
 fn at<T: Copy>(values: &[T], maps: &Maps, x: i64, y: i64) -> T {
     let (x, y) = (x.clamp(0, maps.columns as i64 - 1), y.clamp(0, maps.rows as i64 - 1));
     values[y as usize * maps.columns + x as usize]
 }
 
-/// Scheelk, sections 3.4.3 and 3.4.4, as they stand there.
+/// Edge test of Scheelk, sections 3.4.3 and 3.4.4, written out literally.
 fn scheelk(maps: &Maps, x: i64, y: i64) -> bool {
     let depth = |x, y| at(&maps.depths, maps, x, y);
     let gradient = |value: &dyn Fn(i64, i64) -> f32, x: i64, y: i64| {
@@ -107,7 +107,7 @@ fn scheelk(maps: &Maps, x: i64, y: i64) -> bool {
     p(&of_depth, 0.003) + p(&of_normals, 0.0125) >= 0.75
 }
 
-/// Ishaya, listing 4, instruction by instruction; registers hold r, g, b alike, and a.
+/// Edge test of Ishaya, listing 4, instruction by instruction. Registers hold equal r, g and b, and a.
 fn ishaya(maps: &Maps, x: i64, y: i64) -> bool {
     let texel = |dx: i64, dy: i64| {
         let n = at(&maps.normals, maps, x + dx, y + dy);
@@ -130,7 +130,7 @@ fn ishaya(maps: &Maps, x: i64, y: i64) -> bool {
     r0 = saturated(4.0 * r0 * r1);
     r0_a += r1_a;
     r0_a += 1.0 - r0;
-    // Eight bits: what is not half a step above one half is not above it.
+    // With eight bits, a value less than half a step above one half does not count as above it.
     r0_a > 0.5 + 0.5 / 256.0
 }
 
@@ -158,7 +158,7 @@ fn raster_edges_are_those_of_the_papers_pixel_for_pixel() {
 
 #[test]
 fn normals_and_depth_are_those_of_the_surface() {
-    // A sphere of radius 1 in a parallel view of 4 units on 200 px.
+    // A sphere of radius 1 in an orthographic view of 4 units on 200 px.
     let scene = pipeline::scene([sphere(60, 1.0)]);
     let mut camera = orthographic(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO, 4.0);
     (camera.width, camera.height) = (200.0, 200.0);
@@ -182,7 +182,7 @@ fn normals_and_depth_are_those_of_the_surface() {
 
 #[test]
 fn depth_is_linear_in_perspective_and_faces_turn_to_the_eye() {
-    // A floor seen at a slant, wound away from the eye.
+    // A floor seen at an angle, wound away from the camera.
     let corners = [[-4., -4., 0.], [4., -4., 0.], [4., 4., 0.], [-4., 4., 0.]].map(DVec3::from_array);
     let floor = Solid { positions: corners.to_vec(), triangles: vec![[0, 2, 1], [0, 3, 2]] };
     let scene = pipeline::scene([floor]);
@@ -225,8 +225,8 @@ fn a_sphere_is_one_circle_and_a_box_its_edges() {
     }
 }
 
-/// Lines in the image against those of the surface. Where both exist they lie within 0.7 px of each other, contours of the surface
-/// are found, and curves have no more nodes than twice those of the surface.
+/// Asserts that image lines agree with exact lines: nearby lines lie within 0.7 px of each other, exact
+/// contours are found, and image curves have at most twice the number of nodes.
 fn agrees(name: &str, scene: &Scene, camera: &Camera) {
     let exact = render(scene, camera, &style(&[])).unwrap();
     let image = render(scene, camera, &style(&[IMAGE])).unwrap();
@@ -265,7 +265,7 @@ fn traced_lines_lie_where_exact_ones_do() {
     }
 }
 
-/// Each quad by itself: its corners moved by chance, its outside on either side.
+/// Returns the quads of a solid as loose faces: each has its own randomly moved corners and a random winding.
 fn loosened(solid: &Solid, by: f64) -> Geometry {
     let mut dice = Dice::new(5);
     let mut geometry = Geometry::default();
@@ -302,7 +302,7 @@ fn a_soup_of_ten_thousand_loose_quads_looks_like_the_closed_model() {
         let image = drawn(&soup, &camera, &[IMAGE]);
         assert!(within(&image, &closed, [1.0])[0] > 0.98, "{by}: {:?}", within(&image, &closed, [1.0]));
         assert!(within(&closed, &image, [1.0])[0] > 0.98, "{by}: {:?}", within(&closed, &image, [1.0]));
-        // On the surface each quad has its own borders.
+        // In the exact drawing, each quad has its own borders.
         assert!(length(&drawn(&soup, &camera, &[])) > 10.0 * length(&closed));
     }
 }

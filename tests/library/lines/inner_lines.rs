@@ -1,4 +1,5 @@
-//! Curvature and the lines inside that follow from it, on surfaces where geometry says what they are.
+//! Curvature, suggestive contours, ridges and valleys against closed forms: sphere, tube, saddle, torus, hill
+//! and ellipsoid.
 
 use crate::support::pipeline;
 use crate::support::pipeline::orthographic;
@@ -26,7 +27,7 @@ fn curvature_of(solid: &Solid) -> (Mesh, Curvature) {
     (mesh, curvature)
 }
 
-/// A height field over −`half`..`half` squared.
+/// A height field over the square from −`half` to `half`.
 fn field(half: f64, cells: u32, height: impl Fn(f64, f64) -> f64) -> Solid {
     let mut solid = Solid::default();
     let row = cells + 1;
@@ -43,7 +44,7 @@ fn field(half: f64, cells: u32, height: impl Fn(f64, f64) -> f64) -> Solid {
     solid
 }
 
-/// A sphere without poles: the six sides of a cube, blown up.
+/// A sphere without poles: a subdivided cube projected onto the sphere.
 fn sphere(cells: u32, radius: f64) -> Solid {
     let mut ball = Solid::default();
     for side in 0..6 {
@@ -80,7 +81,7 @@ fn inside_lines(mesh: &Mesh, camera: &Camera, options: &LineOptions) -> FeatureL
     lines
 }
 
-/// World positions of the ends of all segments of a kind.
+/// Returns the world positions of the ends of all segments of a kind.
 fn points(mesh: &Mesh, lines: &FeatureLines, kind: LineKind) -> Vec<DVec3> {
     let segments = lines.segments.iter().filter(|s| s.kind == kind);
     segments.flat_map(|s| s.ends).map(|end| lines.position(mesh, end) + mesh.origin).collect()
@@ -104,7 +105,7 @@ fn a_sphere_bends_alike_everywhere() {
             assert!(near(p.k1, 0.5, 0.01) && near(p.k2, 0.5, 0.01), "{p:?} at {at}");
         }
     }
-    // A hundredth of the radius.
+    // The feature size is a hundredth of the radius.
     assert!(near(curvature.feature_size(0), 0.02, 0.0005), "{}", curvature.feature_size(0));
 }
 
@@ -133,7 +134,8 @@ fn a_saddle_bends_both_ways() {
     assert!(along.x.abs() > 0.99, "bends towards the normal along x: {p:?}");
 }
 
-/// The angle round the tube of a torus of radius 3 about z, and the ways round the tube and the axis.
+/// Returns the angle around the tube of a torus (radius 3, axis z), and the unit tangents around the tube and
+/// around the axis.
 fn on_torus(p: DVec3) -> (f64, DVec3, DVec3) {
     let out = DVec3::new(p.x, p.y, 0.0).normalize();
     let v = atan2(p.z, p.dot(out) - 3.0);
@@ -154,7 +156,7 @@ fn curvatures_of_a_torus_and_their_derivatives() {
         assert!(near(p.k1, 1.0, 0.01) && near(p.k2, cos / (3.0 + cos), 0.01), "{p:?} at {v}");
         let sense = p.dir1.dot(round_tube);
         assert!(near(sense.abs(), 1.0, 1e-3));
-        // Only the curvature round the axis changes, on the way round the tube.
+        // Only the curvature around the axis changes, and only in the direction around the tube.
         let change = -3.0 * sin / ((3.0 + cos) * (3.0 + cos));
         let wanted = [0.0, 0.0, change * sense.signum(), 0.0];
         let found = curvature.derivative[i];
@@ -180,7 +182,7 @@ fn suggestive_contours_of_a_torus_lie_where_radial_curvature_vanishes() {
         assert!(near(radial, 0.0, 0.02), "{radial} at {p}");
         assert!(cos < 0.0, "only the inner half bends both ways: {p}");
     }
-    // A sphere bends one way only.
+    // A sphere has no negative curvature, and so no suggestive contours.
     let ball = mesh_of(&sphere(40, 2.0));
     assert!(inside_lines(&ball, &camera, &options(&[LineKind::Suggestive], inside)).segments.is_empty());
 }
@@ -198,7 +200,7 @@ fn highlights_are_the_other_zeros() {
 
 #[test]
 fn the_crest_of_a_hill_is_a_ridge_and_its_feet_are_valleys() {
-    // Height e^(−4 x²).
+    // The height is e^(−4 x²).
     let hill = field(2.0, 160, |x, _| pow(std::f64::consts::E, -4.0 * x * x));
     let mesh = mesh_of(&hill);
     let camera = orthographic(DVec3::new(1.0, -2.0, 10.0), DVec3::ZERO, 5.0);
@@ -211,7 +213,7 @@ fn the_crest_of_a_hill_is_a_ridge_and_its_feet_are_valleys() {
     for p in ridges.iter().filter(inner) {
         assert!(p.x.abs() < 0.03, "a ridge at {p}");
     }
-    // Where the curvature of the profile is least.
+    // The valleys lie at the largest upward curvature of the profile.
     let bend = |x: f64| {
         let z = pow(std::f64::consts::E, -4.0 * x * x);
         let (slope, second) = (-8.0 * x * z, (64.0 * x * x - 8.0) * z);
@@ -230,7 +232,7 @@ fn the_ridges_of_an_ellipsoid_lie_round_its_waist() {
     let mesh = mesh_of(&sphere(100, 1.0).moved(|p| DVec3::new(3.0 * p.x, p.z, -2.0 * p.y)));
     let camera = orthographic(DVec3::new(3.0, 8.0, 4.0), DVec3::ZERO, 8.0);
     let curvature = Curvature::new(&mesh, &SmoothNormals::rounded(&mesh), 0.0);
-    // Half of the least curvature across the waist.
+    // Half of the smallest curvature across the waist.
     let ridge = 1.0 * curvature.feature_size(0);
     let inside = InsideOptions { smooth: 0.0, ridge, ..InsideOptions::default() };
     let lines = inside_lines(&mesh, &camera, &options(&[LineKind::Ridge], inside));
@@ -242,7 +244,8 @@ fn the_ridges_of_an_ellipsoid_lie_round_its_waist() {
 
 #[test]
 fn apparent_ridges_gather_near_the_contour_of_a_tube() {
-    // A tube bends alike all round; what the eye sees of it bends most where it turns away.
+    // The curvature of a tube is constant around it; its view-dependent curvature is largest near the
+    // contour.
     let mesh = mesh_of(&tube(200, 40, 1.0, 2.0));
     let camera = orthographic(DVec3::new(10.0, 0.0, 0.0), DVec3::ZERO, 5.0);
     let inside =
@@ -294,7 +297,7 @@ fn strengths_lie_between_none_and_full_and_lines_end_weak() {
     ends.for_each(|end| degrees[end as usize - mesh.positions.len()] += 1);
     let view = View::new(&mesh, &camera);
     for (point, degree) in degrees.iter().enumerate().filter(|(_, degree)| **degree == 1) {
-        // At a contour a line ends as it is.
+        // A line that ends at a contour does not fade.
         let at = lines.points[point];
         let beside =
             lines.segments.iter().find(|s| s.ends.contains(&((mesh.positions.len() + point) as u32)));

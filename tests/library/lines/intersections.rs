@@ -1,4 +1,5 @@
-//! Intersections of triangles: known curves, contacts that are none, and a slow reference.
+//! Intersections of triangles, tested against closed-form curves, contacts that must give none, and a
+//! brute-force search over all pairs.
 
 use crate::support::readers::mesh_file;
 use crate::support::scenes::random_dice::Dice;
@@ -30,7 +31,7 @@ fn length(curves: &IntersectionCurves) -> f64 {
         .sum()
 }
 
-/// Number of closed loops; fails where a point does not join exactly two segments.
+/// Returns the number of closed loops. Panics if a point does not join exactly two segments.
 fn loops(curves: &IntersectionCurves) -> usize {
     let mut touching = vec![Vec::new(); curves.points.len()];
     for segment in &curves.segments {
@@ -55,7 +56,8 @@ fn loops(curves: &IntersectionCurves) -> usize {
     count
 }
 
-/// Triangle `b` cut by the plane of `a`, clipped by the sides of `a`: another way than the library's.
+/// Reference intersection of two triangles: `b` cut by the plane of `a`, then clipped by the sides of `a`.
+/// The library uses another method.
 fn clipped(a: [DVec3; 3], b: [DVec3; 3]) -> Option<[DVec3; 2]> {
     let normal = |t: [DVec3; 3]| (t[1] - t[0]).cross(t[2] - t[0]);
     let sides = |t: [DVec3; 3], o: [DVec3; 3]| o.map(|p| normal(t).dot(p - t[0]));
@@ -90,7 +92,7 @@ fn clipped(a: [DVec3; 3], b: [DVec3; 3]) -> Option<[DVec3; 2]> {
     (from < to).then(|| [p.lerp(q, from), p.lerp(q, to)])
 }
 
-/// The slow reference: all pairs.
+/// Reference search that tests all pairs of triangles.
 fn brute_force(solid: &Solid) -> Vec<([u32; 2], [DVec3; 2])> {
     let bounds = |points: &mut dyn Iterator<Item = DVec3>| {
         points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), p| (l.min(p), h.max(p)))
@@ -134,7 +136,7 @@ fn agrees_with_brute_force(solid: &Solid, nearness: f64) -> Result<usize, String
     Ok(found.len())
 }
 
-/// Triangles with corners of their own.
+/// Random triangles that share no vertices.
 fn soup(dice: &mut Dice, most: usize, mut corner: impl FnMut(&mut Dice) -> DVec3) -> Solid {
     let count = 2 + dice.below(most - 2);
     Solid {
@@ -143,7 +145,7 @@ fn soup(dice: &mut Dice, most: usize, mut corner: impl FnMut(&mut Dice) -> DVec3
     }
 }
 
-/// A mesh that shares vertices at random.
+/// A random mesh with shared vertices.
 fn tangle(dice: &mut Dice) -> Solid {
     let count = 4 + dice.below(76);
     let mut triangles: Vec<[u32; 3]> = (0..count).map(|_| [0; 3].map(|_| dice.below(30) as u32)).collect();
@@ -151,7 +153,7 @@ fn tangle(dice: &mut Dice) -> Solid {
     Solid { positions: (0..30).map(|_| dice.point(1.0)).collect(), triangles }
 }
 
-/// Looks at 200 solids.
+/// Checks 200 random solids.
 fn all(mut solid: impl FnMut(&mut Dice) -> Solid, check: impl Fn(&Solid) -> Result<(), String>) {
     for seed in 0..200 {
         let solid = solid(&mut Dice::new(seed));
@@ -233,7 +235,7 @@ fn sphere_through_box_gives_closed_loops() {
 
 #[test]
 fn sphere_aligned_with_box_gives_closed_loops() {
-    // Vertices of the sphere lie in planes and edges of the box as well as rounding lets them.
+    // Vertices of the sphere lie in planes and edges of the box, up to rounding.
     for radius in [1.1, 1.2, 1.3] {
         let curves = find(&scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0)), sphere(24, radius)]));
         assert_eq!(loops(&curves), 6, "radius {radius}");
@@ -255,7 +257,7 @@ fn tube_through_plane_gives_one_polygon() {
 
 #[test]
 fn row_of_vertices_in_the_plane_joins_at_the_vertices() {
-    // With four rows the middle vertices lie in the plane z = 0 exactly.
+    // With four rows, the middle vertices lie exactly in the plane z = 0.
     let plane = cuboid(DVec3::new(-5.0, -5.0, 0.0), DVec3::new(5.0, 5.0, 1.0));
     let tilted = tube(12, 4, 1.0, 2.0).moved(|p| DVec3::new(p.x, p.y, p.z + 0.25 * p.x));
     assert_eq!(loops(&find(&scene([plane, tilted]))), 2);
@@ -265,7 +267,8 @@ fn row_of_vertices_in_the_plane_joins_at_the_vertices() {
 fn contacts_are_no_intersections() {
     let unit = || cuboid(DVec3::ZERO, DVec3::ONE);
     let beside = |x: f64, y: f64, z: f64| unit().moved(move |p| p + DVec3::new(x, y, z));
-    // Face on face, shifted face on face, edge on edge, corner on corner, and one on the same plane.
+    // In order: face on face, shifted face on face, edge on edge, corner on corner, and two boxes stacked
+    // along z.
     for (x, y, z) in [
         (1.0, 0.0, 0.0),
         (1.0, 0.25, 0.5),
@@ -369,7 +372,8 @@ fn empty_input_gives_nothing() {
     assert_eq!(find(&point), IntersectionCurves::default());
 }
 
-/// A square face in two halves whose common side runs along x, crossed there by a wall that goes on to both sides or ends.
+/// A face split into triangles along the x axis, one per entry of `halves`, and a wall in the plane y = 0
+/// that crosses the split.
 fn crossed_on_a_diagonal(halves: &[f64], turn: glam::DQuat) -> Solid {
     let mut solid = Solid {
         positions: vec![
@@ -409,13 +413,14 @@ fn surfaces_that_cross_along_a_diagonal_have_a_curve_there() {
             length(&strict)
         );
         assert!(length(&both) > 0.4, "{round}");
-        // Surfaces that only touch have none.
+        // Surfaces that only touch have no curve.
         assert!(find(&crossed_on_a_diagonal(&[1.0], turn)).segments.is_empty(), "{round}");
         assert!(find(&crossed_on_a_diagonal(&[1.0, 1.5], turn)).segments.is_empty(), "{round}");
     }
 }
 
-/// Two faces that have a side along x and two walls that have a shorter one there, each given by where its third corner lies.
+/// Two faces with a common side along x, and two walls with a shorter side on the same line. Each triangle is
+/// given by the y and z of its third corner.
 fn along_each_other(faces: [[f64; 2]; 2], walls: [[f64; 2]; 2], turn: glam::DQuat) -> Solid {
     let on_line = [-1.0, 2.0, 0.1, 0.9].map(|x| DVec3::new(x, 0.0, 0.0));
     let mut solid = Solid { positions: on_line.to_vec(), triangles: Vec::new() };
@@ -442,7 +447,7 @@ fn surfaces_that_cross_along_an_edge_of_each_have_a_curve_there() {
             assert_eq!(curves.segments.len(), 1, "{round}");
             assert!((length(&curves) - 0.8).abs() < 1e-9, "{round}");
         }
-        // A roof upside down on the ridge of another one, and two in one plane with it.
+        // Surfaces that only touch: an inverted roof on another ridge, and two pairs of coplanar surfaces.
         let touching = [(flat, [[0.3, 0.8], [-0.3, 0.7]]), (ridge, [[0.9, -0.1], [-0.9, -0.1]])];
         for (faces, walls) in touching.into_iter().chain([(flat, flat), (ridge, ridge)]) {
             assert!(find(&along_each_other(faces, walls, turn)).segments.is_empty(), "{round}");
@@ -455,7 +460,7 @@ fn bodies_with_a_common_vertex_pass_through_each_other_from_there() {
     let mut dice = Dice::new(14);
     for round in 0..200 {
         let turn = glam::DQuat::from_axis_angle(dice.direction(), dice.between(0.0, 3.0));
-        // Two faces that cross along x from their common vertex, for one unit.
+        // Two faces that cross along x for one unit, starting at their common vertex.
         let corners = [[0.0, 0.0, 0.0], [3.0, 1.0, 0.0], [3.0, -1.0, 0.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0]];
         let positions = corners.map(|corner| turn * DVec3::from(corner));
         let found = |bodies: &[PartId]| {
@@ -465,7 +470,7 @@ fn bodies_with_a_common_vertex_pass_through_each_other_from_there() {
         let curves = found(&[PartId(0), PartId(1)]);
         assert_eq!(curves.segments.len(), 1, "{round}");
         assert!((length(&curves) - 1.0).abs() < 1e-9, "{round}");
-        // Of one body they are neighbours.
+        // Within one body, they are neighbours.
         assert!(found(&[]).segments.is_empty() && found(&[PartId(1); 2]).segments.is_empty(), "{round}");
     }
 }

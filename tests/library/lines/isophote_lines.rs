@@ -1,4 +1,5 @@
-//! Isophotes as lines: where the tone changes and nowhere else, whether tones are painted or not.
+//! Isophotes as lines, tested against closed forms: they are drawn where the tone changes and nowhere else,
+//! with and without fills.
 
 use glam::DVec3;
 use kurbo::Point;
@@ -11,7 +12,7 @@ use crate::support::pipeline::{orthographic, scene};
 use crate::support::references::textbook_camera::Eye;
 use crate::support::scenes::solids::{Solid, cuboid, sphere};
 
-/// Isophotes alone, at these levels of light, with and without fills.
+/// Returns two styles with isophotes only, at the given thresholds: without and with fills.
 fn styles(light: &str, thresholds: &str, more: &str) -> [Style; 2] {
     [false, true].map(|painted| {
         let sheet = format!(
@@ -22,7 +23,7 @@ fn styles(light: &str, thresholds: &str, more: &str) -> [Style; 2] {
     })
 }
 
-/// The lines of a part.
+/// Returns the isophote segments of a part.
 fn lines(drawing: &Drawing, part: &str) -> Vec<[Point; 2]> {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     let own = marks.filter(|mark| mark.provenance.classes.first() == Some(&"isophote"));
@@ -38,7 +39,7 @@ fn length(lines: &[[Point; 2]]) -> f64 {
     lines.iter().map(|[a, b]| (*b - *a).hypot()).sum()
 }
 
-/// Whether lines are those wanted: each lies on the others, up to `off` px.
+/// Asserts that two sets of lines cover each other within `off` px and have equal length.
 fn agree(found: &[[Point; 2]], wanted: &[[Point; 2]], off: f64, name: &str) {
     let near = |p: Point, lines: &[[Point; 2]]| {
         lines.iter().map(|line| distance(p, *line)).fold(f64::INFINITY, f64::min)
@@ -57,12 +58,12 @@ fn agree(found: &[[Point; 2]], wanted: &[[Point; 2]], off: f64, name: &str) {
     assert!((found - wanted).abs() < 0.01 * wanted + 2.0, "{name}: {found} px in place of {wanted}");
 }
 
-/// Straight pieces between points of space, in the image.
+/// Projects a 3-D polyline to the image.
 fn traced(eye: &Eye, points: &[DVec3]) -> Vec<[Point; 2]> {
     points.windows(2).map(|pair| [eye.image(pair[0]), eye.image(pair[1])]).collect()
 }
 
-/// A level rectangle.
+/// A horizontal rectangle.
 fn sheet(middle: DVec3, half: [f64; 2]) -> Solid {
     let corner = |x: f64, y: f64| middle + DVec3::new(x * half[0], y * half[1], 0.0);
     Solid {
@@ -97,13 +98,13 @@ fn a_ball_has_circles_where_light_says_with_and_without_fills() {
 
 #[test]
 fn in_the_shadow_of_a_sheet_on_a_ball_no_isophote_is_inked() {
-    // Light from above; a sheet over one half of the ball. What is in its shadow has one tone.
+    // Light from above, and a sheet over one half of the ball. All points in its shadow have the same tone.
     let model = scene([sphere(96, 1.0), sheet(DVec3::new(1.5, 0.0, 3.0), [1.5, 2.0])]);
     let camera = orthographic(DVec3::new(0.0, -9.0, 0.0), DVec3::ZERO, 2.4);
     let light = "{ kind = 'directional', direction = [0, 0, 1], space = 'world' }";
     let eye = Eye::new(&camera);
-    // Seen from the front the isophotes are level lines, of which the lit half is left; the border of the shadow runs upright to where the
-    // ball turns from the light.
+    // From the front, the isophotes are horizontal lines, drawn in the lit half only. The border of the
+    // shadow is vertical and ends where the ball turns away from the light.
     let level = |z: f64| traced(&eye, &[DVec3::new(-(1.0 - z * z).sqrt(), 0.0, z), DVec3::new(0.0, 0.0, z)]);
     let border = traced(&eye, &[DVec3::new(0.0, 0.0, 0.3), DVec3::new(0.0, 0.0, 1.0)]);
     let wanted = [level(0.3), level(0.6), border].concat();
@@ -114,13 +115,14 @@ fn in_the_shadow_of_a_sheet_on_a_ball_no_isophote_is_inked() {
 
 #[test]
 fn a_shadow_and_a_pool_of_light_on_a_plane_are_inked_where_the_tone_changes() {
-    // A lamp at (0, 0, 10) lights a circle of radius 6 brighter than the rest; a small sheet half-way casts a shadow over its rim.
+    // A lamp at (0, 0, 10) lights a circle of radius 6 more brightly than the rest. A small sheet half-way up
+    // casts a shadow across the circle.
     let model = scene([sheet(DVec3::ZERO, [12.0, 12.0]), sheet(DVec3::new(3.0, 0.0, 5.0), [0.5, 0.5])]);
     let camera = orthographic(DVec3::new(0.0, 0.0, 30.0), DVec3::ZERO, 26.0);
     let light = "{ kind = 'point', position = [0, 0, 10], space = 'world' }";
     let level = 10.0 / 136.0_f64.sqrt();
     let eye = Eye::new(&camera);
-    // The shadow: x from 5 to 7, y from -1 to 1.
+    // The shadow covers x from 5 to 7 and y from −1 to 1.
     let rim = 35.0_f64.sqrt();
     let start = ligne::geometry::numbers::portable_math::atan2(1.0, rim);
     let arc = |k: usize| {
@@ -138,7 +140,7 @@ fn a_shadow_and_a_pool_of_light_on_a_plane_are_inked_where_the_tone_changes() {
     for style in styles(light, &format!("[{level}]"), "cast_shadows = true") {
         agree(&drawn(&model, &camera, &style, "part 0"), &wanted, 1.0, "plane");
     }
-    // Without cast shadows there is the whole circle.
+    // Without cast shadows, the whole circle is drawn.
     let whole = styles(light, &format!("[{level}]"), "");
     for style in whole {
         let found = length(&drawn(&model, &camera, &style, "part 0"));
@@ -149,7 +151,8 @@ fn a_shadow_and_a_pool_of_light_on_a_plane_are_inked_where_the_tone_changes() {
 
 #[test]
 fn shadows_that_are_as_dark_as_what_is_lit_have_no_line() {
-    // Light falls on the floor so flatly that it is in the darkest tone already; the block's own sides are in others.
+    // Light falls on the floor at a low angle. At the higher threshold the lit floor already has the darkest
+    // tone, so the shadow adds none. The sides of the block have other tones.
     let model =
         scene([sheet(DVec3::ZERO, [9.0, 9.0]), cuboid(DVec3::new(-1.0, -1.0, 0.0), DVec3::splat(1.0))]);
     let camera = orthographic(DVec3::new(12.0, -20.0, 25.0), DVec3::ZERO, 24.0);

@@ -1,4 +1,5 @@
-//! Joints between flush parts of one material: left out, the drawing is that of the union of the parts.
+//! Joints between flush parts of one material: without them, the parts are drawn exactly as their geometric
+//! union.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -15,15 +16,15 @@ use crate::support::measures::line_picture::{Ink, samples};
 use crate::support::references::drawing_judge::axis;
 use crate::support::scenes::random_dice::Dice;
 
-/// Lines may move by this much, px.
+/// Largest distance that lines may move, px.
 const TOLERANCE_PX: f64 = 0.06;
-/// Lengths that may differ in all, px: corners that are a little rounder.
+/// Largest total length that may differ, px. Corners may be slightly rounder.
 const SLACK_PX: f64 = 0.5;
-/// Places along lines are compared this far apart, px.
+/// Distance between sample points along lines, px.
 const STEP_PX: f64 = 0.25;
 const SCENES: u64 = 15;
 
-/// Corners, faces as polygons, and a material.
+/// A polygon mesh with one material.
 #[derive(Clone)]
 struct Body {
     corners: Vec<DVec3>,
@@ -31,7 +32,7 @@ struct Body {
     material: &'static str,
 }
 
-/// An outline in x and z, counter-clockwise where y comes nearer, drawn out along y.
+/// An outline in x and z, extruded along y. It is counter-clockwise if `front` is the nearer y.
 fn prism(outline: &[[f64; 2]], [front, back]: [f64; 2]) -> Body {
     let count = outline.len();
     let corners =
@@ -62,7 +63,7 @@ enum Numbers {
     SixDecimals,
 }
 
-/// An OBJ file of bodies, each of them a part.
+/// Writes bodies as an OBJ file with one part each, and reads it.
 fn scene(bodies: &[Body], place: impl Fn(DVec3) -> DVec3, numbers: Numbers) -> Scene {
     let mut text = String::new();
     let mut first = 1;
@@ -85,9 +86,9 @@ fn scene(bodies: &[Body], place: impl Fn(DVec3) -> DVec3, numbers: Numbers) -> S
     Scene::from_bytes(text.as_bytes(), ModelFormat::Obj).unwrap()
 }
 
-/// Lines by whether they are seen, and whether they are silhouettes.
+/// Returns the lines of a drawing, grouped by visible or hidden and by silhouette or inside.
 ///
-/// Pens differ otherwise: the foot of a box on a wider one is a contour of the box, and a crease of the union.
+/// Pens would differ: the foot of a box on a wider box is a contour of the box, but a crease of the union.
 fn lines(drawing: &Drawing) -> BTreeMap<String, Vec<[Point; 2]>> {
     let mut lines: BTreeMap<String, Vec<[Point; 2]>> = BTreeMap::new();
     let layers = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Lines);
@@ -100,7 +101,8 @@ fn lines(drawing: &Drawing) -> BTreeMap<String, Vec<[Point; 2]>> {
     lines
 }
 
-/// Which lines one drawing has and the other has not, and how long they are.
+/// Describes the lines that only one of two drawings has, with their lengths. Returns `None` if the drawings
+/// agree.
 fn difference(one: &Drawing, two: &Drawing) -> Option<String> {
     let (one, two) = (lines(one), lines(two));
     let mut said = String::new();
@@ -120,7 +122,7 @@ fn difference(one: &Drawing, two: &Drawing) -> Option<String> {
     (!said.is_empty()).then_some(said)
 }
 
-/// A style that draws hidden lines and moves no corner.
+/// A style that draws hidden lines and moves no corners.
 fn style(name: &str, joints: bool) -> Style {
     let exact =
         ["lines.hidden=solid", "chain.smooth=0", "chain.simplify=0", "chain.tidy=0", "chain.fit=false"];
@@ -129,7 +131,7 @@ fn style(name: &str, joints: bool) -> Style {
     Style::load(name, &set).unwrap()
 }
 
-/// Parts and their union.
+/// Returns random parts, and their union as one body.
 fn parts_and_union(dice: &mut Dice, kind: usize) -> (Vec<Body>, Body) {
     let steps = |dice: &mut Dice, count: usize| -> Vec<f64> {
         let ways = (0..count).map(|k| if k == 0 { 0.0 } else { dice.between(0.4, 2.0) });
@@ -141,7 +143,7 @@ fn parts_and_union(dice: &mut Dice, kind: usize) -> (Vec<Body>, Body) {
     };
     let depth = dice.between(0.3, 1.5);
     match kind {
-        // A row of boxes of one height; they may run into each other.
+        // A row of boxes of equal height. In kind 1 they overlap.
         0 | 1 => {
             let count = 3 + dice.below(4);
             let (at, height) = (steps(dice, count), dice.between(0.5, 2.0));
@@ -151,7 +153,7 @@ fn parts_and_union(dice: &mut Dice, kind: usize) -> (Vec<Body>, Body) {
             let end = boxes.iter().flat_map(|body| &body.corners).map(|p| p.x).fold(0.0, f64::max);
             (boxes, block([0.0; 3], [end, depth, height]))
         }
-        // A brick wall: courses whose bricks end anywhere.
+        // A brick wall whose courses have joints at random places.
         2 => {
             let (length, courses) = (6.0, 2 + dice.below(3));
             let mut bricks = Vec::new();
@@ -167,7 +169,7 @@ fn parts_and_union(dice: &mut Dice, kind: usize) -> (Vec<Body>, Body) {
             }
             (bricks, block([0.0; 3], [length, depth, z]))
         }
-        // Two bars that cross.
+        // Two crossing bars.
         3 => {
             let [a, b, c] = [0, 1, 2].map(|_| dice.between(0.3, 2.0));
             let [d, e, f] = [0, 1, 2].map(|_| dice.between(0.3, 1.5));
@@ -192,7 +194,7 @@ fn parts_and_union(dice: &mut Dice, kind: usize) -> (Vec<Body>, Body) {
             ];
             (bars, prism(&plus, [0.0, depth]))
         }
-        // Columns of unlike height, on a plinth that is longer than each of them.
+        // Columns of different heights on a plinth that is longer than each of them.
         _ => {
             let count = 3 + dice.below(3);
             let at = steps(dice, count);
@@ -222,7 +224,7 @@ fn without_joints_parts_are_drawn_as_their_union() {
             let place = |p: DVec3| if turned { turn * p + away } else { p };
             let whole = scene(std::slice::from_ref(&union), place, Numbers::Exact);
             let iso = Camera::named(NamedView::Iso, UpAxis::Z).with_frame(600.0, 600.0);
-            // From a corner in perspective, from anywhere, and along the faces.
+            // In perspective from a corner, from a random direction, and along the faces.
             let target = place(DVec3::new(2.0, 0.5, 0.7));
             let towards = |eye: DVec3, up: DVec3| {
                 let projection = Projection::Orthographic { height: 9.0 };
@@ -256,7 +258,7 @@ fn without_joints_parts_are_drawn_as_their_union() {
 
 #[test]
 fn without_joints_sheets_are_drawn_as_one() {
-    // A long sheet over two short ones, wound the other way or not.
+    // A long sheet above two short ones; one of these is wound the other way in the second round.
     let mut parts =
         vec![sheet([0.0, 1.0], [4.0, 2.0]), sheet([0.0, 0.0], [1.5, 1.0]), sheet([1.5, 0.0], [4.0, 1.0])];
     let whole = scene(&[sheet([0.0, 0.0], [4.0, 2.0])], |p| p, Numbers::Exact);
@@ -276,7 +278,7 @@ fn what_is_no_joint_stays() {
     let long = block([0.0; 3], [3.0, 1.0, 1.0]);
     let beside = block([3.0, 0.0, 0.0], [5.0, 1.0, 1.0]);
     let painted = Body { material: "wood", ..beside.clone() };
-    // Its front leans by half a degree, or stands back.
+    // The front leans by half a degree, or stands slightly back.
     let mut leaning = beside.clone();
     for corner in leaning.corners.iter_mut().filter(|p| p.x > 4.0 && p.y < 0.5) {
         corner.y += 0.02;
@@ -285,7 +287,7 @@ fn what_is_no_joint_stays() {
     let apart = block([3.002, 0.0, 0.0], [5.0, 1.0, 1.0]);
     for (what, other) in [("paint", painted), ("leaning", leaning), ("back", back), ("apart", apart)] {
         let scene = scene(&[long.clone(), other], |p| p, Numbers::Exact);
-        // Only the front counts: the other sides are flush.
+        // Only the front is compared, because the other sides are flush.
         let front = Camera::named(NamedView::Front, UpAxis::Z).with_frame(600.0, 600.0).fit(&scene);
         let [with, without] =
             [true, false].map(|joints| render(&scene, &front, &style("ink", joints)).unwrap());

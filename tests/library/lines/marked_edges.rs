@@ -1,4 +1,5 @@
-//! What a glTF file says about its edges (EXT_mesh_primitive_edge_visibility) goes before what their angles say.
+//! Edge visibility of glTF files (EXT_mesh_primitive_edge_visibility) overrides the creases found by dihedral
+//! angle.
 
 use glam::DVec3;
 use ligne::Scene;
@@ -11,17 +12,17 @@ use EdgeMark::{Contour, Hard, Hidden, Unmarked};
 
 const CREASE_DEG: f64 = 40.0;
 
-/// Heights of a strip of paper at x = 0, 1, 2, 3: it is folded by 90 degrees at 1, by 45 at 2.
+/// Heights of a strip of paper at x = 0, 1, 2, 3. It is folded by 90 degrees at x = 1 and by 45 at x = 2.
 const HEIGHTS: [f32; 4] = [0.0, 1.0, 0.0, 0.0];
 
-/// Two triangles for each of the three squares of the strip; vertices 2x and 2x + 1 stand at x.
+/// Two triangles for each of the three squares of the strip. Vertices 2x and 2x + 1 are at x.
 const TRIANGLES: [[u32; 3]; 6] = [[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3], [4, 6, 7], [4, 7, 5]];
 
-/// Marks of the sides of the triangles, every value among them: the folds are hidden (0) and a silhouette (1), the
-/// diagonals of two flat squares hard (2 and 3, and 3 alone).
+/// Visibility values of the triangle sides, with every value present. The folds are hidden (0) and a
+/// silhouette (1); the diagonals of two flat squares are hard (2 and 3, and 3 alone).
 const VALUES: [[u8; 3]; 6] = [[2, 0, 2], [3, 0, 2], [0, 1, 3], [0, 0, 0], [0, 2, 0], [0, 0, 0]];
 
-/// A file in memory, put together piece by piece.
+/// Builds a GLB file in memory.
 #[derive(Default)]
 struct File {
     bytes: Vec<u8>,
@@ -30,7 +31,7 @@ struct File {
 }
 
 impl File {
-    /// Adds an accessor over bytes of its own.
+    /// Adds an accessor with its own buffer view and returns its index.
     fn add(&mut self, component: u32, shape: &str, count: usize, bytes: &[u8]) -> usize {
         self.views.push(json!({"buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len()}));
         self.bytes.extend(bytes);
@@ -55,7 +56,7 @@ impl File {
         self.add(5121, "SCALAR", values.len(), values)
     }
 
-    /// The bytes of a file of one primitive with the extension.
+    /// Returns the bytes of a file with one primitive and the extension.
     fn glb(self, points: usize, indices: usize, mode: u32, edges: &Value) -> Vec<u8> {
         let name = "EXT_mesh_primitive_edge_visibility";
         let primitive = json!({
@@ -80,14 +81,14 @@ impl File {
         glb
     }
 
-    /// The scene of that file.
+    /// Reads the file as a scene.
     fn read(self, points: usize, indices: usize, mode: u32, edges: &Value) -> Result<Scene, String> {
         let glb = self.glb(points, indices, mode, edges);
         gltf::read_bytes(&glb, &|_, _| Err(std::io::ErrorKind::NotFound.into())).map_err(|e| e.to_string())
     }
 }
 
-/// Values of two bits, one after the other from the lowest on.
+/// Packs two-bit values into bytes, lowest bits first.
 fn packed(values: &[u8]) -> Vec<u8> {
     let byte = |four: &[u8]| four.iter().rev().fold(0, |byte, value| byte << 2 | value);
     values.chunks(4).map(byte).collect()
@@ -97,7 +98,7 @@ fn strip_points() -> Vec<[f32; 3]> {
     (0..8).map(|i| [(i / 2) as f32, (i % 2) as f32, HEIGHTS[i / 2]]).collect()
 }
 
-/// The strip with some edges; `make` adds what they need to the file.
+/// Reads the strip with edge data; `make` adds the accessors that the data needs.
 fn strip(make: impl FnOnce(&mut File) -> Value) -> Result<Scene, String> {
     let mut file = File::default();
     let points = file.points(&strip_points());
@@ -110,7 +111,7 @@ fn marks(scene: &Scene) -> &[[EdgeMark; 3]] {
     &scene.geometries[0].edge_marks
 }
 
-/// Where the creases run, as the columns and rows of their ends.
+/// Returns the creases as the columns and rows of their ends, sorted.
 fn creases(scene: &Scene) -> Vec<[(i32, i32); 2]> {
     let mesh = Mesh::build(scene.to_soup());
     let hard = HardEdges::above(&mesh, CREASE_DEG);
@@ -166,7 +167,7 @@ fn line_strings_are_hard_and_all_else_is_hidden() {
     let scene = scene.unwrap();
     assert_eq!(creases(&scene), [DIAGONALS[0], FOLDS[0], [(2, 0), (3, 1)]]);
     assert_eq!(marks(&scene)[0], [Hidden, Hard, Hard]);
-    // Borders are lines of their own, but marked all the same.
+    // Borders are drawn as borders, but they keep their marks.
     assert_eq!(marks(&scene)[3], [Hidden, Hard, Hard]);
     assert!(marks(&scene).as_flattened().iter().all(|mark| *mark != Unmarked));
     assert!(scene.warnings.is_empty());
@@ -178,14 +179,15 @@ fn line_strings_are_hard_and_all_else_is_hidden() {
     assert_eq!(creases(&both.unwrap()), [DIAGONALS[0], DIAGONALS[1], FOLDS[1]]);
 }
 
-/// Where corners are split, each face has vertices of its own, and a line string goes along any of them.
+/// With split corners, each face has its own vertices. A line string matches an edge by position, through any
+/// of them.
 #[test]
 fn line_strings_go_by_place() {
     let mut file = File::default();
     let corners = strip_points();
     let split: Vec<[f32; 3]> = TRIANGLES.as_flattened().iter().map(|i| corners[*i as usize]).collect();
     let (points, indices) = (file.points(&split), file.shorts(&(0..18).collect::<Vec<_>>()));
-    // Vertex 2 of the first triangle and vertex 0 of the third stand at the two ends of the first fold.
+    // Vertex 2 of the first triangle and vertex 0 of the third are at the two ends of the first fold.
     let edges = json!({"lineStrings": [{"indices": file.octets(&[2, 6])}]});
     let scene = file.read(points, indices, 4, &edges).unwrap();
     assert_eq!(creases(&scene), [FOLDS[0]]);

@@ -1,4 +1,5 @@
-//! Diagonals that cut polygons of a file into triangles are no creases, unless the polygon is folded there.
+//! Diagonals that triangulate a polygon of a file are no creases unless the polygon is folded there; tested
+//! on polygons with known sides.
 
 use glam::{DAffine3, DVec3};
 use ligne::Scene;
@@ -7,7 +8,7 @@ use ligne::lines::{LineKind, LineOptions, Surface};
 use ligne::load::{obj, ply};
 use ligne::mesh::{EdgeMark, Mesh};
 
-/// A polygon model: its corners and faces.
+/// A polygon model: points, and faces as vertex indices.
 struct Polygons {
     points: Vec<[f64; 3]>,
     faces: Vec<Vec<usize>>,
@@ -38,7 +39,7 @@ impl Polygons {
         ply::read_bytes(text.as_bytes(), "polygons").expect("a model")
     }
 
-    /// Whether two places are joined by a side of a face.
+    /// Whether a side of a face joins two points.
     fn is_side(&self, a: DVec3, b: DVec3) -> bool {
         let at = |corner: usize| DVec3::from(self.points[corner]);
         let is_one = |p: DVec3, q: DVec3| p.distance(q) < 1e-6;
@@ -51,7 +52,7 @@ impl Polygons {
     }
 }
 
-/// The edges that are creases of a scene, as places, by an angle.
+/// Returns the creases of a scene as pairs of positions, for a crease angle.
 fn creases(scene: &Scene, crease_deg: f64) -> Vec<[DVec3; 2]> {
     let options = LineOptions { crease_deg, kinds: vec![LineKind::Crease], ..LineOptions::default() };
     let surface = Surface::new(Mesh::build(scene.to_soup()), &options);
@@ -63,7 +64,7 @@ fn creases(scene: &Scene, crease_deg: f64) -> Vec<[DVec3; 2]> {
         .collect()
 }
 
-/// A box whose top has one corner lifted.
+/// A box with one corner of its top lifted.
 fn lifted_box(lift: f64) -> Polygons {
     let corner = |k: usize| {
         [10.0 * f64::from(u8::from(k % 4 == 1 || k % 4 == 2)), 10.0 * f64::from(u8::from(k % 4 > 1)), 0.0]
@@ -76,7 +77,7 @@ fn lifted_box(lift: f64) -> Polygons {
     Polygons { points, faces }
 }
 
-/// A saddle of squares, or of hexagons where `corners` is 6: quads in pairs without the side between.
+/// A saddle of quads. With `corners` = 6, pairs of quads are merged to hexagons.
 fn saddle(corners: usize) -> Polygons {
     let across = 7;
     let point = |k: usize| {
@@ -110,7 +111,7 @@ fn no_crease_runs_along_a_diagonal_of_a_warped_polygon() {
 
 #[test]
 fn a_folded_polygon_has_a_crease_where_it_is_folded() {
-    // One corner lies so much higher that the top turns at its diagonal by less than 40 degrees, and by more.
+    // The lifted corner folds the top along its diagonal, by less than 40 degrees or by more.
     let turn = |lift: f64| {
         let (a, b, c) =
             (DVec3::new(10.0, 0.0, 0.0), DVec3::new(10.0, 10.0, lift), DVec3::new(0.0, 10.0, 0.0));
@@ -128,7 +129,7 @@ fn a_folded_polygon_has_a_crease_where_it_is_folded() {
 
 #[test]
 fn triangles_that_a_file_has_and_quads_with_a_corner_twice_keep_their_creases() {
-    // A roof of 30 degrees: of triangles, and of quads whose last corner is there twice.
+    // A roof of 30 degrees: as triangles, and as quads whose last corner is repeated.
     let text = "v 0 0 0\nv 10 0 0\nv 10 5 2.8867513\nv 0 5 2.8867513\nv 10 10 0\nv 0 10 0\n";
     let plain = format!("{text}f 1 2 3\nf 1 3 4\nf 4 3 5\nf 4 5 6\n");
     let twice = format!("{text}f 1 2 3 3\nf 1 3 4 4\nf 4 3 5 5\nf 4 5 6 6\n");

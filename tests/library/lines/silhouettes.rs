@@ -1,4 +1,5 @@
-//! Lines of every kind with background on one side are outline: places next to them against rays.
+//! Lines of every kind are silhouettes exactly if background lies on one side; rays at sample points next to
+//! the lines are the reference.
 
 use crate::support::pipeline::{exact, geometry, orthographic, scene, scene_of_geometries, stages};
 use crate::support::references::drawing_judge::{axis, ink_marks};
@@ -16,17 +17,18 @@ use ligne::scene::{Camera, Material, Scene};
 use ligne::style::Style;
 use rayon::prelude::*;
 
-/// Kinds of lines that lie on surfaces and may be their outline.
+/// Kinds of lines that lie on surfaces and can be silhouettes.
 const KINDS: [LineKind; 5] =
     [LineKind::Contour, LineKind::Border, LineKind::Crease, LineKind::Material, LineKind::Intersection];
 
-/// How far next to a line rays are shot, px. Where they do not agree with each other, rounding decides.
+/// Distances of the rays from the line, px. A sample is skipped if its rays disagree, because rounding then
+/// decides.
 const ASIDE: [f64; 4] = [5e-4, 1e-3, 2e-3, 1e-2];
 
-/// No place is nearer than this to an end of a line, px.
+/// Smallest distance of a sample from the ends of its line, px.
 const FROM_ENDS: f64 = 0.1;
 
-/// Places asked, those of them with background on one side by kind, and those where the drawing is wrong.
+/// Sample count, samples with background on one side by kind, and samples where the drawing is wrong.
 #[derive(Default, Debug)]
 struct Found {
     asked: usize,
@@ -69,7 +71,7 @@ fn compare(scene: &Scene, camera: &Camera, options: &LineOptions) -> Found {
     found
 }
 
-/// A sheet of so many cells, bent and wound at random.
+/// A grid of random size, bent and wound at random.
 fn sheet(dice: &mut Dice) -> Solid {
     let (columns, rows) = (1 + dice.below(4) as u32, 1 + dice.below(3) as u32);
     let at = |column: u32, row: u32, dice: &mut Dice| {
@@ -97,7 +99,7 @@ fn sheet(dice: &mut Dice) -> Solid {
     solid.moved(|p| turn * p + place)
 }
 
-/// Sheets and boxes that pass through each other, their faces of two materials.
+/// Sheets and boxes that intersect each other, with two materials assigned at random.
 fn sheets_and_boxes(dice: &mut Dice) -> Scene {
     let mut solids: Vec<Solid> = (0..3).map(|_| sheet(dice)).collect();
     for _ in 0..2 {
@@ -114,7 +116,7 @@ fn sheets_and_boxes(dice: &mut Dice) -> Scene {
     Scene { materials, ..scene_of_geometries(shapes) }
 }
 
-/// Boxes and sheets along the axes, of which many are seen edge-on.
+/// Axis-aligned boxes and sheets. Many of their faces are seen edge-on.
 fn along_the_axes(dice: &mut Dice) -> Scene {
     let mut number = |most: usize| dice.below(most) as f64 * 0.25;
     let mut solids = Vec::new();
@@ -123,7 +125,7 @@ fn along_the_axes(dice: &mut Dice) -> Scene {
         let size = DVec3::new(number(4), number(4), number(4)) + 0.25;
         let mut solid = cuboid(low, low + size);
         if k > 1 {
-            // An open box, or a single side of one.
+            // An open box, or a single side of a box.
             solid.triangles.truncate(if k > 3 { 2 } else { 10 });
         }
         solids.push(solid);
@@ -173,7 +175,7 @@ fn silhouettes_are_lines_with_background_beside_them() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// A gable roof without thickness: all its lower edges are borders, and its ridge is a crease.
+/// A gable roof without thickness. Its lower edges are borders and its ridge is a crease.
 fn roof() -> Solid {
     let at = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
     Solid {

@@ -1,4 +1,4 @@
-//! Intersections sought from what is in sight show as much as those of the full search.
+//! The intersection search that is limited to visible faces draws the same lines as the full search.
 
 use crate::support::readers::shared_folder;
 use crate::support::scenes::solids::{Solid, cuboid, sphere, torus, tube};
@@ -16,10 +16,10 @@ use ligne::surface::Origin;
 use ligne::view::View;
 use ligne::visibility::{self, ViewCovers};
 
-/// Directions to the eye: azimuth and elevation in degrees.
+/// View directions: azimuth and elevation, degrees.
 const DIRECTIONS: [(f64, f64); 4] = [(35.0, 22.0), (200.0, 10.0), (120.0, 50.0), (-60.0, -20.0)];
 
-/// Length of the curves that shows in a view, in thousandths of the longer side of the frame.
+/// Returns the visible length of the curves in a view, in thousandths of the longer side of the frame.
 fn visible_length(mesh: &Mesh, view: &View, curves: &IntersectionCurves) -> f64 {
     let first = mesh.positions.len() as u32;
     let segment = |s: &ligne::mesh::intersect::intersection_curves::IntersectionSegment| FeatureSegment {
@@ -46,7 +46,7 @@ fn visible_length(mesh: &Mesh, view: &View, curves: &IntersectionCurves) -> f64 
     length * 1000.0 / view.frame.width.max(view.frame.height)
 }
 
-/// Compares both searches from several sides, and returns the greatest length that showed.
+/// Compares both searches from several directions. Returns the largest visible length.
 fn compare(name: &str, mesh: &Mesh, fit: impl Fn(Camera) -> Camera, up: UpAxis) -> f64 {
     let all = all_curves(mesh);
     let mut greatest = 0.0_f64;
@@ -81,11 +81,11 @@ fn compare(name: &str, mesh: &Mesh, fit: impl Fn(Camera) -> Camera, up: UpAxis) 
     greatest
 }
 
-/// Of faces that are said to be out of sight no ray finds a point that no other face is before.
+/// Asserts by rays that another face lies in front of each sample point of the culled faces.
 fn assert_hidden(name: &str, mesh: &Mesh, view: &View, out: &[bool]) {
     let corners = |face: usize| mesh.triangles[face].map(|v| view.points[v as usize]);
     let hidden: Vec<usize> = (0..out.len()).filter(|face| out[*face]).collect();
-    // A few hundred of them say enough.
+    // A few hundred faces are a sufficient sample.
     for face in hidden.iter().step_by((hidden.len() / 300).max(1)) {
         let [a, b, c] = corners(*face);
         for [s, t] in [[0.01, 0.01], [0.98, 0.01], [0.01, 0.98], [0.33, 0.34]] {
@@ -149,14 +149,14 @@ fn a_field_of_sunken_boxes_shows_all_its_seams() {
     assert!(compare_solids("field", std::iter::once(ground).chain((0..900).map(house))) > 1000.0);
 }
 
-/// Upright plates one behind the other, and rods through all of them.
+/// Vertical plates one behind the other, with rods through all of them.
 fn pierced_plates() -> Solid {
     let mut all = Solid::default();
     for k in 0..9 {
         let y = f64::from(k);
-        // Lower ones in front, so that the upper edge of each is seen.
+        // The plates in front are lower, so the upper edge of each is visible.
         all.add(cuboid(DVec3::new(-8.0, y, -4.0), DVec3::new(8.0, y + 0.2, 4.0 + 0.3 * y)));
-        // Many small faces, behind and before.
+        // Many small faces, behind and in front.
         let ball = sphere(24, 0.7).moved(|p| p + DVec3::new(1.7 * y - 7.0, y + 0.3, 3.9 + 0.3 * y));
         all.add(ball);
     }
@@ -175,7 +175,7 @@ fn faces_behind_covers_are_hidden_to_every_ray() {
     for (azimuth, elevation) in DIRECTIONS {
         let camera =
             Camera::azimuth_elevation(azimuth, elevation, UpAxis::Z).fit_points(&solid.positions, 0.05);
-        // Whole on the page, and larger than it.
+        // Once with the whole model on the page, once with the model larger than the page.
         for camera in [camera, Camera { width: 400.0, ..camera }] {
             let view = View::new(&mesh, &camera);
             let covers = ViewCovers::of(&mesh, &view).expect("there are many layers");
@@ -188,7 +188,7 @@ fn faces_behind_covers_are_hidden_to_every_ray() {
     assert!(compare_solids("plates", [solid]) > 1000.0);
 }
 
-/// The first view asks only what is in sight, later ones are told all.
+/// The first view searches only the visible faces; later views use the full search. All drawings are equal.
 #[test]
 fn the_second_drawing_of_a_view_is_the_first() {
     let solid = pierced_plates();
@@ -231,7 +231,7 @@ fn curves_found_once_make_the_lines_of_every_view() {
         };
         let plain = lines::extract(&surface, &view, &options);
         assert_eq!(with(&curves), plain);
-        // What is known is not sought again.
+        // Curves that are given are not searched again.
         assert_ne!(with(&IntersectionCurves::default()), plain);
     }
 }
@@ -273,7 +273,7 @@ fn what_is_known_of_a_surface_finds_the_curves_of_its_finer_ones() {
     let mut all = cuboid(DVec3::splat(-1.0), DVec3::splat(1.0));
     all.add(torus(24, 12, 1.1, 0.4));
     all.add(torus(24, 12, 1.1, 0.4).moved(tilted));
-    // A face without area, which takes no part.
+    // A degenerate face, which has no intersections.
     let first = all.positions.len() as u32;
     all.positions.extend([DVec3::new(-0.5, 0.0, 0.3), DVec3::new(0.5, 0.0, 0.3), DVec3::new(1.5, 0.0, 0.3)]);
     all.triangles.push([first, first + 1, first + 2]);
@@ -296,6 +296,6 @@ fn what_is_known_of_a_surface_finds_the_curves_of_its_finer_ones() {
         }
         assert_eq!(curves_of_finer(&known, &finer), curves);
     }
-    // Pieces through whole faces, and through each other.
+    // Refined faces crossing unrefined faces, and refined faces crossing each other.
     assert!(found.iter().all(|count| *count > 0), "{found:?}");
 }

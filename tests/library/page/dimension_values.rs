@@ -1,4 +1,4 @@
-//! Dimensions against the model: each value times its unit is the distance in the model, to half of its last decimal.
+//! Dimensions on technical sheets equal distances of the model, to half a unit of their last decimal.
 
 use std::fs;
 
@@ -10,7 +10,7 @@ use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::sheet_models::{folder, item, obj, words};
 use crate::support::scenes::solids::Solid;
 
-/// A plate: a row of square cells, each with a round hole in its middle. Lengths have three decimals.
+/// A plate: a row of square cells with a round hole in each. Lengths have three decimals.
 struct Plate {
     side: f64,
     thick: f64,
@@ -18,11 +18,11 @@ struct Plate {
     solid: Solid,
 }
 
-/// Corners of a hole.
+/// Number of corners of a hole.
 const CORNERS: u32 = 48;
 
 impl Plate {
-    /// A random plate at a random place, along two of the axes.
+    /// Returns a random plate at a random place, parallel to two random axes.
     fn random(dice: &mut Dice) -> Self {
         let thousandths =
             |low: f64, high: f64, dice: &mut Dice| (dice.between(low, high) * 1000.0).round() / 1000.0;
@@ -46,13 +46,13 @@ impl Plate {
         Self { side, thick, radii, solid: solid.moved(turned) }
     }
 
-    /// Its length, height and thickness.
+    /// Returns its length, height and thickness.
     fn sizes(&self) -> [f64; 3] {
         [self.radii.len() as f64 * self.side, self.side, self.thick]
     }
 }
 
-/// The faces of a cell and the wall of its hole.
+/// Adds the faces of a cell and the wall of its hole.
 fn add_cell(solid: &mut Solid, (side, cell): (f64, usize), radius: f64, thick: f64) {
     let centre = DVec3::new((cell as f64 + 0.5) * side, side / 2.0, 0.0);
     let first = solid.positions.len() as u32;
@@ -72,7 +72,7 @@ fn add_cell(solid: &mut Solid, (side, cell): (f64, usize), radius: f64, thick: f
     }
 }
 
-/// The four walls around a plate.
+/// Adds the four walls around a plate.
 fn add_walls(solid: &mut Solid, [length, height, thick]: [f64; 3]) {
     let ring = [[0.0, 0.0], [length, 0.0], [length, height], [0.0, height]];
     for k in 0..4 {
@@ -85,11 +85,11 @@ fn add_walls(solid: &mut Solid, [length, height, thick]: [f64; 3]) {
     }
 }
 
-/// The formats of the test: their file, and how many of its units are a millimetre.
+/// Model file names with the length of a millimetre in file units.
 const FORMATS: [(&str, f64); 5] =
     [("plate.obj", 1.0), ("six.obj", 1.0), ("plate.stl", 1.0), ("plate.ply", 1.0), ("plate.gltf", 0.001)];
 
-/// A model file; texts are in double precision or with six decimals, others in single precision.
+/// Writes a model file. Text formats have double precision or six decimals; the others have single precision.
 fn file(name: &str, solid: &Solid, scale: f64) -> Vec<u8> {
     let single = || solid.positions.iter().map(|p| (*p * scale).as_vec3());
     let corners = || solid.triangles.iter().flatten();
@@ -158,17 +158,18 @@ fn file(name: &str, solid: &Solid, scale: f64) -> Vec<u8> {
     }
 }
 
-/// Units of length with their millimetres.
+/// Units of length in millimetres.
 const UNITS: [(&str, f64); 5] = [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", 25.4), ("ft", 304.8)];
 
-/// The unit that a sheet names.
+/// Returns the length unit named on a sheet, in millimetres.
 fn unit_of(composed: &Composed) -> f64 {
     let block = words(item(composed, "title-block"));
     let at = block.iter().position(|word| word == "Dimensions in").expect("the unit is named");
     UNITS.iter().find(|(name, _)| *name == block[at + 1]).expect("a unit").1
 }
 
-/// A value with half of its last decimal, of at most `decimals`.
+/// Parses a dimension. Returns its value and half a unit of its last decimal, counting at least `decimals`
+/// decimals.
 fn value(word: &str, decimals: usize, has_comma: bool) -> Option<(f64, f64)> {
     let word = word.rsplit(['⌀', 'R']).next()?;
     assert!(!word.contains(if has_comma { '.' } else { ',' }), "{word}");
@@ -177,7 +178,8 @@ fn value(word: &str, decimals: usize, has_comma: bool) -> Option<(f64, f64)> {
     Some((word.parse().ok()?, 0.5 / 10_f64.powi(own.max(decimals) as i32)))
 }
 
-/// Sheets of one plate in all views, in a format: each value is a distance of the model, and each distance that is asked for is there.
+/// Checks one plate in all views, in one file format: each value is a distance of the model, and each
+/// requested distance is present.
 fn check(round: u64) {
     let mut dice = Dice::new(round);
     let plate = Plate::random(&mut dice);
@@ -201,7 +203,7 @@ fn check(round: u64) {
             _ => "1:1000",
         }
     );
-    // Along each axis in pictorial views; between sides in others.
+    // Along each axis in pictorial views, and between opposite sides in the other views.
     let mut asked = Vec::new();
     for view in ["iso", "trimetric"] {
         for axis in 0..3 {
@@ -236,7 +238,7 @@ fn check(round: u64) {
     let mut known = asked.clone();
     known.extend((0..2 * plate.radii.len()).map(|k| 0.5 * k as f64 * plate.side));
     known.extend(plate.radii.iter().map(|radius| plate.side / 2.0 - radius));
-    // As the sheet writes them: the model in its unit, in the unit of the sheet.
+    // Converted as on the sheet: from model units to the unit of the sheet.
     let told: Vec<(f64, f64)> = words(item(&composed, "notes"))
         .iter()
         .filter_map(|word| value(word, decimals, has_comma))

@@ -1,4 +1,5 @@
-//! Letters: lines within their widths and ellipses, as even as any, missing letters, words parted, the same each time.
+//! Text blocks: optimal line breaks by brute force, ink within bounds, fallback fonts, hyphenation, shaping
+//! and rejected input.
 
 use kurbo::{Point, Rect, Shape};
 use ligne::colour::srgb::Colour;
@@ -12,7 +13,8 @@ fn comic() -> Setting {
     Setting::new(Font::named("comic").unwrap()).with_em(4.0)
 }
 
-/// The words of lines broken after some of the blanks, as bits say, and the widest line.
+/// Breaks words into lines at the blanks given by `bits`. Returns the number of lines and the width of the
+/// widest.
 fn broken(words: &[&str], bits: u32, setting: &Setting) -> (usize, f64) {
     let mut text = String::new();
     for (number, word) in words.iter().enumerate() {
@@ -79,7 +81,7 @@ fn no_other_breaks_fit_a_smaller_ellipse() {
     }
 }
 
-/// Around all that is inked.
+/// Returns the bounding box of the ink.
 fn ink(block: &Block, corner: Point) -> Rect {
     let marks = block.marks(corner, Colour::BLACK);
     marks.iter().map(|mark| mark.path.bounding_box()).reduce(|a, b| a.union(b)).unwrap()
@@ -115,7 +117,7 @@ fn letters_are_as_high_as_asked_for() {
     for font in Font::names() {
         let setting = Setting::new(Font::named(font).unwrap()).with_capitals(3.5);
         let height = ink(&Block::unbroken("H", &setting).unwrap(), Point::ZERO).height();
-        // The pen of Routed Gothic is round, and its capitals are as high as their middle line says.
+        // Routed Gothic has a round pen, and its capital height is that of the centre line.
         assert!((height - 3.5).abs() < 0.6, "{font}: {height}");
     }
 }
@@ -155,7 +157,7 @@ fn words_are_parted_by_their_language() {
         balanced.lines.len() == 3
             && balanced.width <= block.lines.iter().map(|l| l.width).fold(0.0, f64::max)
     );
-    // Where words fit whole they stay so.
+    // Words that fit are not hyphenated.
     let whole = Block::balanced("Hyphenation everywhere", &comic().in_language("en"), 30.0).unwrap();
     assert_eq!(whole.words(), "Hyphenation\neverywhere");
     assert!(
@@ -180,7 +182,7 @@ fn a_run_says_which_bytes_its_letters_show() {
         let run = mark.provenance.text.as_ref().unwrap();
         let said: String = run.glyphs.iter().map(|glyph| &run.words[glyph.shows.clone()]).collect();
         assert_eq!(said, run.words.as_ref());
-        // The outline is where the glyphs are.
+        // The outline of the mark has the bounding box of its glyphs.
         let font = Font::named("comic").unwrap();
         let mut around: Option<Rect> = None;
         for glyph in run.glyphs.iter() {
@@ -231,7 +233,7 @@ fn what_is_no_text_and_no_font_is_refused() {
     assert!(Font::from_bytes(b"not a font").unwrap_err().to_string().contains("is not a font"));
     let absent = Font::open("absent.ttf").unwrap_err();
     assert!(absent.to_string().starts_with("absent.ttf: cannot be read"), "{absent}");
-    // Damaged fonts are refused or set something, and do no more.
+    // Damaged fonts are rejected or set something, without a crash.
     let whole = std::fs::read("fonts/ComicNeue-Bold.otf").unwrap();
     for cut in [12, 100, 1000, 5000, 20_000] {
         if let Ok(font) = Font::from_bytes(&whole[..cut]) {

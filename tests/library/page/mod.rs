@@ -1,4 +1,4 @@
-//! Pages, panels, letters and technical sheets.
+//! Pages, panels, lettering and technical sheets: layouts, texts, dimensions and page files.
 
 mod dimension_values;
 mod letters;

@@ -1,4 +1,5 @@
-//! Pages: balloons cover no face, drawings lie within their frames, and what is wrong is told with its place.
+//! Comic pages: balloons cover no faces and hold their text, tails point at speakers, figures break borders,
+//! and errors name their line.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,14 +11,14 @@ use ligne::kurbo::{self, BezPath, Point, Rect, Shape};
 use ligne::page::layout::{Reading, cells};
 use ligne::page::{PageFile, figure};
 
-/// A folder of this test's own.
+/// Creates a temporary folder for one test.
 fn folder(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("ligne-pages-{name}-{}", std::process::id()));
     fs::create_dir_all(&folder).unwrap();
     folder
 }
 
-/// A person of two boxes: `body`, and `head` upon it.
+/// A figure of two boxes: `body`, and `head` above it.
 fn person() -> String {
     let mut text = String::new();
     let boxes = [("body", [-0.5, 0.0, -0.3], [0.5, 1.5, 0.3]), ("head", [-0.3, 1.6, -0.3], [0.3, 2.2, 0.3])];
@@ -38,7 +39,7 @@ fn person() -> String {
 const WORDS: [&str; 12] =
     ["tower", "we", "must", "never", "build", "before", "breakfast", "again", "you", "say", "quietly", "so"];
 
-/// A page of panels with two persons each, who talk; and how many balloons there are.
+/// Returns a random page of panels with two talking figures each, and its number of balloons.
 fn talking_page(dice: &mut Dice) -> (String, usize) {
     let layouts = ["1 [1 | 1] / 1 [1 | 1]", "1 / 1 [1 |6° 1]", "1 [2 |-5° 3] / 1", "1 / 1"];
     let layout = layouts[dice.below(4)];
@@ -76,7 +77,7 @@ fn talking_page(dice: &mut Dice) -> (String, usize) {
     (text, balloons)
 }
 
-/// A path as straight lines, one list of points for each of its pieces.
+/// Flattens a path. Returns one list of points per subpath.
 fn flat(path: &BezPath) -> Vec<Vec<Point>> {
     let mut pieces: Vec<Vec<Point>> = Vec::new();
     kurbo::flatten(path, 0.02, |element| match element {
@@ -87,7 +88,8 @@ fn flat(path: &BezPath) -> Vec<Vec<Point>> {
     pieces
 }
 
-/// Whether lines of two paths cross, or one holds a point of the other: asked side by side.
+/// Whether the outlines of two paths cross, or one path contains a point of the other. Sides are compared
+/// pairwise.
 fn overlap(a: &BezPath, b: &BezPath) -> bool {
     if a.bounding_box().intersect(b.bounding_box()).area() <= 0.0 {
         return false;
@@ -120,7 +122,7 @@ fn marks(item: &Item) -> impl Iterator<Item = &Mark> {
     item.drawing.layers.iter().flat_map(|layer| &layer.marks)
 }
 
-/// The balloons of a panel: outlines with their tails, and the letters in each.
+/// Returns the balloons of a panel: outlines with their tails, and the letters in each.
 fn balloons(item: &Item) -> Vec<(BezPath, Vec<BezPath>)> {
     let mut found: Vec<(BezPath, Vec<BezPath>)> = Vec::new();
     for mark in marks(item) {
@@ -135,7 +137,7 @@ fn balloons(item: &Item) -> Vec<(BezPath, Vec<BezPath>)> {
     found
 }
 
-/// Where heads are in a panel, found as the page does not: by its scene and camera anew.
+/// Returns the outlines of the heads in a panel, computed from scene and camera independently of the page.
 fn heads(panel: &Item, text: &str, number: usize, folder: &Path) -> Vec<BezPath> {
     let own = text.split("[[page.panel]]").nth(number + 1).unwrap();
     let line = |key: &str| own.lines().find(|line| line.starts_with(key)).unwrap();
@@ -167,7 +169,7 @@ fn heads(panel: &Item, text: &str, number: usize, folder: &Path) -> Vec<BezPath>
                 let k = scale / p.dot(forward);
                 bounds.center() + kurbo::Vec2::new(k * p.dot(right), -k * p.dot(up))
             });
-            // Twelve triangles of eight corners: all that is seen of the head.
+            // All triangles between the eight corners: their union is the visible area of the head.
             let corners: Vec<Point> = corners.collect();
             let mut path = BezPath::new();
             for a in 0..corners.len() {
@@ -230,7 +232,8 @@ fn balloons_cover_no_face_and_no_other_balloon_and_hold_their_text() {
                 if let Some(before) = k.checked_sub(1).and_then(words_of) {
                     assert!(own.y1 > before.y0, "above, and read before the one it follows: {place}");
                 }
-                // The tip of a tail is the first point that two of its sides share; on the way through it lies a head.
+                // The tip of a tail is the end of its first curve. Seen from the balloon's centre, a head
+                // must lie behind the tip.
                 let tip = outline.elements().iter().find_map(|element| match element {
                     kurbo::PathEl::QuadTo(_, tip) => Some(*tip),
                     _ => None,
@@ -254,7 +257,7 @@ fn balloons_cover_no_face_and_no_other_balloon_and_hold_their_text() {
     let _ = fs::remove_dir_all(folder);
 }
 
-/// What is said of a page.
+/// Returns the error message of a page.
 fn refused(text: &str) -> String {
     let told = PageFile::from_text(text, "pages/a.toml").and_then(|file| file.compose());
     told.expect_err(text).to_string()
@@ -444,7 +447,8 @@ fn a_figure_breaks_its_border_and_nothing_else_does() {
     let panel = broken.items.iter().find(|item| item.name == "panel-2").unwrap();
     let (frame, over) = (panel.clip.as_ref().unwrap(), item.clip.as_ref().unwrap());
     let top = frame.bounding_box();
-    // The head reaches over the line; there the one clip begins where the other ends, but for the line and a lap.
+    // The head crosses the border line. Its clip begins where the panel's clip ends, with the width of the
+    // line and a small overlap shared.
     let head =
         marks(item).map(|mark| (item.place * mark.path.clone()).bounding_box()).reduce(|a, b| a.union(b));
     assert!(head.unwrap().y0 < top.y0 - 1.0);
@@ -452,7 +456,7 @@ fn a_figure_breaks_its_border_and_nothing_else_does() {
     assert_eq!([middle, line, above].map(|p| frame.contains(p)), [true, true, false]);
     assert_eq!([middle, line, above].map(|p| over.contains(p)), [false, true, true]);
     assert_eq!(items(&page(""), "-break").count(), 0);
-    // What is within the panel is the same picture, broken or not: the frame is larger, and the camera with it.
+    // The picture inside the panel does not change if the border is broken: frame and camera grow together.
     let plain = page("");
     let whole = plain.items.iter().find(|item| item.name == "panel-2").unwrap();
     let pixels = |item: &Item, composition: &Composition| -> Vec<u8> {

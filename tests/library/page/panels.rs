@@ -1,10 +1,12 @@
-//! Panels: they tile the page, gutters part them by their width, and shares are exact.
+//! Comic panels: they tile the page, gutters have their width, shares are exact, and reading directions
+//! mirror each other.
 
 use crate::support::scenes::random_dice::Dice;
 use ligne::kurbo::{Point, Rect};
 use ligne::page::layout::{Grid, Polygon, Reading, cells};
 
-/// A layout with brackets at most so deep; gutters lean by whole degrees up to `lean`.
+/// Returns a random layout with brackets nested up to `depth` levels. Gutters lean by whole degrees, at most
+/// `lean`.
 fn layout(dice: &mut Dice, depth: u64, lean: i64) -> String {
     let count = 1 + dice.below(3);
     let between = if dice.below(2) == 0 { "/" } else { "|" };
@@ -26,7 +28,7 @@ fn layout(dice: &mut Dice, depth: u64, lean: i64) -> String {
     text
 }
 
-/// The frame of all pages here.
+/// Returns a grid in the frame that all pages of these tests share.
 pub fn grid(gutter: f64, reading: Reading) -> Grid {
     Grid { frame: Rect::new(10.0, 12.0, 410.0, 612.0), gutter: [gutter; 2], reading }
 }
@@ -52,7 +54,8 @@ fn panels_tile_the_page() {
     assert!(panels > 900, "{panels}");
 }
 
-/// How far two polygons that do not meet are from each other: from the corners of the one to the sides of the other.
+/// Returns the distance between two disjoint polygons: the smallest distance from a corner of one to a side
+/// of the other.
 fn distance(a: &Polygon, b: &Polygon) -> f64 {
     let to_side = |p: Point, (from, to): (Point, Point)| {
         let share = ((p - from).dot(to - from) / (to - from).hypot2()).clamp(0.0, 1.0);
@@ -95,7 +98,7 @@ fn shares_are_exact() {
     assert!(
         (nominal(4).height() - rest / 4.0).abs() < 1e-9 && (nominal(5).height() - rest * 0.75).abs() < 1e-9
     );
-    // A gutter that leans between two sides takes from one corner what it gives the other.
+    // A leaning gutter between two sides takes from one corner the area that it gives the other.
     let leaning = cells("1 |12° 1", &grid).unwrap();
     let areas = leaning.iter().map(|cell| cell.outline(grid.frame).area());
     let gutter = 4.0 * 600.0 / ligne::geometry::numbers::portable_math::cos(f64::to_radians(12.0));

@@ -1,8 +1,9 @@
-//! Nothing that is written on a sheet touches what it does not belong to: generated sheets against a judge that reads the finished page.
+//! Texts, lines and balloons on technical sheets do not overlap: generated sheets are checked on the finished
+//! page.
 //!
-//! A sheet has 1 to 80 parts, any size from A4 to A1, either method of projection, and a random choice of sections, details, lengths,
-//! balloons, notes and long texts in its title block. A sheet that does not fit must be refused. `LIGNE_KEEP_SHEETS=FOLDER` keeps the
-//! page files and models.
+//! Each sheet has 1 to 80 parts, a size from A4 to A1, either projection method, and random sections,
+//! details, dimensions, balloons, notes and long title block texts. A sheet that does not fit must be
+//! rejected. `LIGNE_KEEP_SHEETS=FOLDER` keeps the page files and models.
 
 use std::fs;
 
@@ -13,11 +14,11 @@ use ligne::page::{Composed, PageFile};
 use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::sheet_models::{block, drilled, folder, marks, obj};
 
-/// Sheets that are judged in each run, and in the long one.
+/// Number of sheets in a normal run; the long run has `ALL_SHEETS`.
 const SHEETS: u64 = 12;
 const ALL_SHEETS: u64 = 100;
 
-/// A line of a mark, or a side of a filled one.
+/// A line of a mark, or a side of a filled mark.
 struct Stroke {
     item: String,
     ends: [Point; 2],
@@ -29,7 +30,7 @@ struct Text {
     words: String,
     path: BezPath,
     rect: Rect,
-    /// Turns the page so that it is written across it, and the box around it there.
+    /// Rotation of the page that makes the text horizontal, and the bounding box of the text after it.
     upright: Affine,
     turned: Rect,
 }
@@ -51,7 +52,7 @@ impl Text {
     }
 }
 
-/// What is on a page: texts, other lines, the middles of balloons.
+/// The contents of a page: texts, other lines, and centres of balloons.
 struct Found {
     texts: Vec<Text>,
     strokes: Vec<Stroke>,
@@ -96,14 +97,14 @@ fn found(composed: &Composed) -> Found {
     found
 }
 
-/// How far a segment is from a point.
+/// Returns the distance between a point and a segment.
 fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
     let way = b - a;
     let share = ((p - a).dot(way) / way.hypot2().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
     (a + way * share - p).hypot()
 }
 
-/// Whether a segment runs into a rectangle.
+/// Whether a segment enters a rectangle.
 fn enters(rect: Rect, [a, b]: [Point; 2]) -> bool {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for (p, d, low, high) in [(a.x, b.x - a.x, rect.x0, rect.x1), (a.y, b.y - a.y, rect.y0, rect.y1)] {
@@ -120,7 +121,7 @@ fn enters(rect: Rect, [a, b]: [Point; 2]) -> bool {
     from <= to
 }
 
-/// What is wrong on a page.
+/// Returns the faults of a page.
 fn faults(composed: &Composed) -> Vec<String> {
     let Found { texts, strokes, balloons } = found(composed);
     let page = composed.composition.page;
@@ -153,7 +154,7 @@ fn faults(composed: &Composed) -> Vec<String> {
             faults.push(format!("balloons overlap at {centre:?}"));
         }
         for stroke in strokes.iter().filter(|stroke| distance(*centre, stroke.ends) < 3.9 + stroke.half) {
-            // Its own circle is 4 mm away, and its leader begins there.
+            // Its own circle is 4 mm from its centre, and its leader starts there.
             let far = distance(*centre, stroke.ends);
             if stroke.item != "balloons" || far < 3.85 {
                 faults.push(format!("a line of {} runs through a balloon at {centre:?}", stroke.item));
@@ -171,7 +172,7 @@ fn faults(composed: &Composed) -> Vec<String> {
     faults
 }
 
-/// A sheet of a seed: its page file, and its model.
+/// Returns the page file and the model of a random sheet.
 fn generated(seed: u64) -> (String, String) {
     let mut dice = Dice::new(9000 + seed);
     let count = [1, 1, 2, 3, 5, 8, 12, 20, 40, 80][dice.below(10)];
@@ -258,7 +259,7 @@ fn generated(seed: u64) -> (String, String) {
     (text, obj(&parts))
 }
 
-/// Judges sheets; returns how many were drawn.
+/// Checks sheets. Returns the number of drawn sheets, and the faults.
 fn judge(seeds: std::ops::Range<u64>) -> (usize, Vec<String>) {
     let mut drawn = 0;
     let mut wrong = Vec::new();

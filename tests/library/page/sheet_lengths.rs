@@ -1,4 +1,5 @@
-//! Lengths on technical sheets: between places that are named, of holes by themselves, in rows that do not cross.
+//! Dimensions on technical sheets: automatic hole dimensions without overlaps, named points, rounding, and
+//! pictorial views.
 
 use std::fs;
 
@@ -8,13 +9,13 @@ use ligne::page::{Composed, PageFile};
 use crate::support::scenes::sheet_models::{block, bounds, folder, item, marks, obj, words};
 use crate::support::scenes::solids::Solid;
 
-/// A plate of 80 x 50 x 10 with two holes of 8 mm and one of 20 mm, as OBJ, z up.
+/// A plate of 80 x 50 x 10 as OBJ with z up, with two holes of diameter 8 mm and one of 20 mm.
 fn plate() -> String {
     use ligne::geometry::numbers::portable_math::{cos, sin};
     let mut plate = Solid::default();
     let holes = [([15.0, 10.0], 4.0), ([65.0, 10.0], 4.0), ([40.0, 30.0], 10.0)];
     let corner = |x: f64, y: f64, z: f64| glam::DVec3::new(x, y, z);
-    // Each hole in a box of its own; boxes side by side make up the plate.
+    // Each hole is in a separate box; the boxes side by side make up the plate.
     for ([x, y], radius, [x0, x1, y0, y1]) in [
         (holes[0].0, holes[0].1, [0.0, 27.5, 0.0, 20.0]),
         (holes[1].0, holes[1].1, [52.5, 80.0, 0.0, 20.0]),
@@ -39,13 +40,13 @@ fn plate() -> String {
         for k in 0..count {
             let [a, b] = [first + 4 * k, first + 4 * ((k + 1) % count)];
             let mut quad = |a: u32, b: u32, c: u32, d: u32| plate.triangles.extend([[a, b, c], [a, c, d]]);
-            // The wall of the hole, and the faces above and below.
+            // The wall of the hole, and the faces below and above.
             quad(b, a, a + 2, b + 2);
             quad(a + 2, a + 3, b + 3, b + 2);
             quad(b, b + 1, a + 1, a);
         }
     }
-    // The strip between the small holes, and walls all round.
+    // The strip between the small holes, and the outer walls.
     let mut quad = |points: [[f64; 3]; 4]| {
         let first = plate.positions.len() as u32;
         plate.positions.extend(points.map(glam::DVec3::from));
@@ -81,9 +82,9 @@ fn views_tell_their_holes_by_themselves() {
         sheet_of_plate("auto", "views = ['front', 'top']\ndimensions = 'auto'\n").expect("a sheet");
     let mut told = words(item(&composed, "notes"));
     told.sort();
-    // Length, height and depth; the holes and where they are from the left and from below.
+    // Length, height and depth; the hole diameters, and the hole positions from the left and from below.
     assert_eq!(told, ["10", "10", "15", "2× ⌀8", "30", "40", "50", "65", "80", "⌀20"]);
-    // No text lies on another one, nor on a view.
+    // Texts overlap neither each other nor a view.
     let views = ["front", "top"].map(|name| bounds(item(&composed, name)));
     let texts: Vec<Rect> = marks(item(&composed, "notes"))
         .filter(|(_, mark)| mark.provenance.text.is_some())
@@ -130,7 +131,7 @@ fn lengths_go_between_named_places_and_diameters_are_those_of_cylinders() {
     assert!(error.to_string().contains("no set of dimensions `all`"), "{error}");
 }
 
-/// A sheet of a box of three lengths at the origin, as OBJ or as STL in single precision.
+/// Composes a sheet of a box at the origin, read as OBJ or as STL in single precision.
 fn sheet_of_box(name: &str, size: [f64; 3], format: &str, keys: &str) -> Result<Composed, ligne::Error> {
     let folder = folder(name);
     let solid = block([0.0; 3], size);
@@ -156,7 +157,7 @@ fn sheet_of_box(name: &str, size: [f64; 3], format: &str, keys: &str) -> Result<
     Ok(composed?.into_iter().next().expect("a page"))
 }
 
-/// The values and the unit of such a sheet.
+/// Returns the dimension texts and the length unit of such a sheet.
 fn values_of_box(name: &str, size: [f64; 3], format: &str, keys: &str) -> (Vec<String>, String) {
     let composed = sheet_of_box(name, size, format, keys).expect("a sheet");
     let mut values = words(item(&composed, "notes"));
@@ -216,7 +217,7 @@ fn pictorial_views_show_true_lengths_or_refuse() {
             assert!(words(item(&composed, "notes")).contains(&value.to_owned()), "{view} {to}");
         }
     }
-    // Upright lengths stand upright in them.
+    // Vertical lengths are vertical in the isometric view.
     let upright = "[[page.dimension]]\nof = 'iso'\nfrom = [0, 0, 0]\nto = [0, 0, 40]\nmeasure = 'vertical'\n";
     assert!(words(item(&sheet("upright", upright).expect("a sheet"), "notes")).contains(&"40".to_owned()));
     let exploded = "[page.exploded]\n";

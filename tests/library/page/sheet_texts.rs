@@ -1,4 +1,5 @@
-//! Texts and marks of sheets: long titles, notes, parts lists, names in other scripts, centre lines of sections, details.
+//! Texts on technical sheets: long titles, notes, parts lists, other scripts, centre lines of sections, and
+//! details.
 
 use std::fs;
 
@@ -8,7 +9,7 @@ use ligne::page::{Composed, PageFile};
 use crate::support::scenes::sheet_models::{block, bounds, drilled, folder, item, marks, obj, words};
 use crate::support::scenes::solids::Solid;
 
-/// A sheet with these keys of parts with materials.
+/// Composes a sheet of these parts with these keys.
 fn sheet(name: &str, parts: &[(String, Solid)], keys: &str) -> Result<Composed, ligne::Error> {
     let folder = folder(name);
     fs::write(folder.join("model.obj"), obj(parts)).expect("written");
@@ -22,7 +23,7 @@ fn plate() -> Vec<(String, Solid)> {
     vec![("plate".into(), block([0.0; 3], [90.0, 50.0, 8.0]))]
 }
 
-/// Texts of an item with their boxes and the heights of their capitals.
+/// Returns the texts of an item with their bounding boxes and capital heights.
 fn texts(composed: &Composed, name: &str) -> Vec<(String, Rect, f64)> {
     let own = marks(item(composed, name)).filter_map(|(place, mark)| {
         let text = mark.provenance.text.as_ref()?;
@@ -53,7 +54,7 @@ fn long_texts_of_title_blocks_take_several_lines() {
         let composed = sheet(&format!("long-{size}"), &plate(), &keys).expect("a sheet");
         let texts = texts(&composed, "title-block");
         let whole: Vec<&str> = texts.iter().map(|(words, ..)| words.as_str()).collect();
-        // All of it is there.
+        // No text is cut off.
         assert!(whole.join(" ").matches("left-hand").count() >= 9, "{whole:?}");
         for (k, (words, rect, capitals)) in texts.iter().enumerate() {
             assert!(*capitals > 1.8 - 1e-9, "{words}: {capitals}");
@@ -111,7 +112,7 @@ fn parts_share_a_row_if_their_shapes_are_equal() {
     let keys = "views = ['front', 'iso']\nparts_list = true\n";
     let composed = sheet("bearings", &parts, keys).expect("a sheet");
     let told = words(item(&composed, "parts-list"));
-    // One row of two, and two of one.
+    // One row for two equal parts, and two rows for one part each.
     assert_eq!(told.iter().filter(|word| word.starts_with("bearing")).count(), 3, "{told:?}");
     assert!(told.contains(&"bearing.002".to_owned()) && told.contains(&"bearing.004".to_owned()), "{told:?}");
 }
@@ -210,7 +211,7 @@ fn sections_show_no_centre_lines_of_what_is_cut_away() {
         [0, 0, 8, 8]
     );
     assert_eq!(crosses("z=15", "uncut = ['post']\n"), 8);
-    // Seen from the side: what stands before the plane is gone with its axis.
+    // From the side: the part in front of the plane is removed together with its axis.
     assert_eq!(crosses("x=30", ""), 1);
 }
 

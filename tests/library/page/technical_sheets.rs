@@ -1,4 +1,5 @@
-//! Technical sheets: figures of the standards, views that stand in line, leaders, what is refused.
+//! Technical sheets: sizes from the standards, aligned views, leaders without crossings, parts lists and
+//! error messages.
 
 use std::fs;
 
@@ -11,7 +12,7 @@ use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::sheet_models::{block, bounds, folder, item, marks, obj, words};
 use crate::support::scenes::solids::{Solid, cuboid};
 
-/// A sheet with these keys of a step of 60 x 40 x 30.
+/// Composes a sheet with these keys, of a stepped block of 60 x 30 x 40.
 fn sheet(name: &str, keys: &str) -> Result<Composed, ligne::Error> {
     let folder = folder(name);
     let mut step = block([0.0, 0.0, 0.0], [60.0, 30.0, 20.0]);
@@ -34,7 +35,7 @@ fn near(a: Rect, b: Rect) -> bool {
     [a.x0 - b.x0, a.y0 - b.y0, a.x1 - b.x1, a.y1 - b.y1].into_iter().all(|d| d.abs() < 0.01)
 }
 
-/// Whether a stroke of that width has that box.
+/// Whether a stroke with this width has this bounding box.
 fn has(item: &Item, wide: f64, rect: Rect) -> bool {
     marks(item).any(|(_, mark)| width(mark) == wide && near(mark.path.bounding_box(), rect))
 }
@@ -52,16 +53,18 @@ fn frames_and_title_blocks_are_where_the_standards_say() {
         let page = composed.composition.page;
         assert_eq!([page.width, page.height], [w, h], "{name}");
         let frame = item(&composed, "frame");
-        // ISO 5457, 4.2 and 4.4: 20 mm on the left, 10 mm elsewhere, 0.7 mm wide; zones in a band of 5 mm.
+        // ISO 5457, 4.2 and 4.4: margins of 20 mm on the left and 10 mm elsewhere, a frame 0.7 mm wide, and
+        // zones in a band of 5 mm.
         assert!(has(frame, 0.7, Rect::new(20.0, 10.0, w - 10.0, h - 10.0)), "{name}");
         assert!(has(frame, 0.35, Rect::new(15.0, 5.0, w - 5.0, h - 5.0)), "{name}");
-        // Centring marks from the border of the zones to 10 mm within the frame, on both axes of the sheet.
+        // Centring marks on both axes of the sheet, from the outer border of the zones to 10 mm inside the
+        // frame.
         let (x, y) = (w / 2.0, h / 2.0);
         for mark in [
             Rect::new(15.0, y, 30.0, y),
             Rect::new(w - 20.0, y, w - 5.0, y),
             Rect::new(x, 5.0, x, 20.0),
-            // Not into the title block, which takes the width of an A4.
+            // They stop at the title block, which spans the full width of an A4 sheet.
             Rect::new(x, if name == "A4" { h - 10.0 } else { h - 20.0 }, x, h - 5.0),
         ] {
             assert!(has(frame, 0.7, mark), "{name}: {mark:?}");
@@ -75,12 +78,12 @@ fn frames_and_title_blocks_are_where_the_standards_say() {
                 assert!(marks(frame).any(|(_, m)| near(m.path.bounding_box(), own)), "{name}: {own:?}");
             }
         }
-        // Fields of 50 mm from the middle.
+        // Zones of 50 mm, starting at the middle.
         for k in 0..2 {
             let line = x + 50.0 * f64::from(k);
             assert!(has(frame, 0.35, Rect::new(line, 5.0, line, 10.0)), "{name}");
         }
-        // ISO 7200: 180 mm wide, in the lower right corner.
+        // ISO 7200: the title block is 180 mm wide, in the lower right corner.
         let title = bounds(item(&composed, "title-block"));
         assert!(near(title, Rect::new(w - 190.0, title.y0, w - 10.0, h - 10.0)), "{name}: {title:?}");
         let letters = words(frame);
@@ -111,7 +114,7 @@ fn views_stand_in_line_at_one_scale() {
         let scale = front.width() / 60.0;
         assert!([0.5, 1.0, 2.0].iter().any(|known| same(scale, *known)), "{scale}");
         assert!(same(front.height(), 40.0 * scale) && same(top.height(), 30.0 * scale));
-        // Nothing overlaps.
+        // No views overlap.
         let views = [front, top, left, right, bottom, back, of("iso"), of("title-block")];
         for (k, a) in views.iter().enumerate() {
             for b in &views[..k] {
@@ -168,7 +171,7 @@ fn sections_take_the_place_of_their_view_and_details_are_round() {
         .filter(|own| (own.width() - 10.0 * 5.0 * scale).abs() < 0.02)
         .max_by(|a, b| a.x0.total_cmp(&b.x0));
     let circle = circle.expect("a circle");
-    // Its lines end at the circle.
+    // The lines of the detail end at the circle.
     let mut reach = 0.0_f64;
     for (place, mark) in marks(detail) {
         for element in (place * mark.path.clone()).elements() {
@@ -184,7 +187,7 @@ fn sections_take_the_place_of_their_view_and_details_are_round() {
 fn axes_of_cylinders_are_crosses_and_lines() {
     let folder = folder("centre");
     let mut pin = Solid::default();
-    // A prism of 48 sides about the z axis, radius 10, from 0 to 30.
+    // A prism of 48 sides around the z axis: radius 10, from z = 0 to 30.
     for k in 0..48 {
         let angle = std::f64::consts::TAU * f64::from(k) / 48.0;
         let (x, y) = (
@@ -250,7 +253,7 @@ fn leaders_of_twenty_assemblies_do_not_cross() {
             for other in &lines[..k] {
                 assert!(!cross(*line, *other), "round {round}: {line:?} {other:?}");
             }
-            // It ends at its own circle, and runs through no other.
+            // Each leader ends at its own balloon and crosses no other.
             let near = |circle: &&Rect| {
                 let way = line[1] - line[0];
                 let share = ((circle.center() - line[0]).dot(way) / way.hypot2()).clamp(0.0, 1.0);
@@ -291,7 +294,7 @@ fn leaders_of_random_anchors_do_not_cross() {
                 assert!(!cross([anchors[a], slots[of[a]]], [anchors[b], slots[of[b]]]), "round {round}");
             }
         }
-        // Nor do they run through the circles of others, where there is room.
+        // Leaders cross no other balloons if there is enough room.
         for a in 0..count {
             let through =
                 (0..count).filter(|b| *b != a && runs_through([anchors[a], slots[of[a]]], slots[of[*b]]));
@@ -383,7 +386,8 @@ fn sheets_tell_how_single_parts_come_apart() {
     let (found, told) =
         (proportion(""), proportion("[[page.exploded.part]]\nname = 'l?d'\nalong = '-z'\ndistance = 60\n"));
     fs::remove_dir_all(&folder).expect("removed");
-    // The lid ends 60 below the upper side of the plate, which is 40 wide; the box is that of the middles of the lines.
+    // The lid ends 60 below the top of the plate, which is 40 wide. The box bounds the centre lines of
+    // strokes.
     assert!((told - 1.5).abs() < 0.07 && found < 0.5, "{found} {told}");
 }
 

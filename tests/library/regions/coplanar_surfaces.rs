@@ -1,4 +1,5 @@
-//! Surfaces of unlike materials in one plane: which of them is seen where they overlap, and what lines there are.
+//! Coplanar surfaces of different materials: visible areas and lines in the overlap, compared with closed
+//! forms.
 
 use glam::{DMat3, DVec3};
 use kurbo::{BezPath, Point, Shape};
@@ -14,7 +15,7 @@ use crate::support::scenes::random_dice::Dice;
 const COLOURS: &str =
     "newmtl grey\nKd 0.6 0.6 0.6\nnewmtl red\nKd 0.9 0.1 0.1\nnewmtl blue\nKd 0.1 0.1 0.9\n";
 
-/// A square of a material: its least corner, its side, and whether it is of an own part.
+/// A square with a material, its lowest corner, its side, and whether it is a separate part.
 struct Square {
     material: &'static str,
     at: [f64; 2],
@@ -34,7 +35,7 @@ impl Square {
     }
 }
 
-/// How the coordinates of a file are rounded.
+/// Rounding of the coordinates in a file.
 #[derive(Clone, Copy, PartialEq, Debug)]
 enum Rounding {
     Exact,
@@ -42,7 +43,7 @@ enum Rounding {
     Single,
 }
 
-/// The squares in a plane, turned, as a file has them.
+/// Writes the rotated squares as an OBJ file and reads it.
 fn file(squares: &[Square], turn: DMat3, rounding: Rounding) -> Scene {
     let mut text = String::from("mtllib colours.mtl\no first\n");
     for (k, square) in squares.iter().enumerate() {
@@ -63,13 +64,13 @@ fn file(squares: &[Square], turn: DMat3, rounding: Rounding) -> Scene {
     ligne::load::obj::read_bytes(text.as_bytes(), "squares", |_| Some(COLOURS.into())).expect("a model")
 }
 
-/// Flat colours without light, regions that end at their borders.
+/// Flat colours without light. Regions end at their borders.
 fn flat() -> Style {
     let sets = ["fills.seams='exact'".to_owned()];
     Style::load("flat", &sets).expect("a style")
 }
 
-/// The area that is painted in a material.
+/// Returns the area painted in a material.
 fn painted(drawing: &Drawing, material: &str) -> f64 {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     let own = marks.filter(|mark| {
@@ -78,7 +79,7 @@ fn painted(drawing: &Drawing, material: &str) -> f64 {
     own.map(|mark| mark.path.area().abs()).sum()
 }
 
-/// The lines of a class.
+/// Returns the lines of a class.
 fn lines(drawing: &Drawing, class: &str) -> Vec<[Point; 2]> {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     let own = marks.filter(|mark| mark.provenance.classes.first() == Some(&class));
@@ -89,7 +90,7 @@ fn length(lines: &[[Point; 2]]) -> f64 {
     lines.iter().map(|[a, b]| (*b - *a).hypot()).sum()
 }
 
-/// The image of a polygon.
+/// Returns the image of a polygon.
 fn image(eye: &Eye, turn: DMat3, corners: &[DVec3]) -> BezPath {
     let mut path = BezPath::new();
     for (k, corner) in corners.iter().enumerate() {
@@ -107,7 +108,7 @@ fn around(path: &BezPath) -> f64 {
         .sum()
 }
 
-/// Cameras all around, from behind as well, none within about three degrees of the plane.
+/// Cameras on both sides, at least about three degrees away from the plane.
 fn cameras(count: usize, turn: DMat3, middle: DVec3) -> Vec<Camera> {
     let mut dice = Dice::new(57);
     let mut cameras = Vec::new();
@@ -168,7 +169,7 @@ fn the_smaller_surface_is_seen_whatever_comes_first_and_of_equal_ones_the_later(
     };
     let first = [Square::new("red", [12.0, 8.0], 12.0), Square::new("grey", [0.0, 0.0], 40.0)];
     assert!((share(&first, "red", 0) - 1.0).abs() < 1e-3);
-    // Squares that overlap by a quarter of each.
+    // Squares that overlap by a quarter of their area.
     let equal =
         |first, second| [Square::new(first, [5.0, 5.0], 16.0), Square::new(second, [13.0, 13.0], 16.0)];
     for [a, b] in [["red", "blue"], ["blue", "red"]] {
@@ -205,7 +206,7 @@ fn what_juts_out_over_the_wall_has_a_border_there_and_the_wall_has_none_under_it
 
 #[test]
 fn borders_of_materials_on_a_flat_face_have_corners() {
-    // A square that is let into a plane, with its faces all around.
+    // A square inset into a plane, with faces all around it.
     let text = "mtllib colours.mtl\nusemtl grey\nv 0 0 0\nv 40 0 0\nv 40 40 0\nv 0 40 0\nv 12 8 0\nv 24 8 0\nv 24 20 0\nv 12 20 0\n\
                 f 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nusemtl red\nf 5 6 7 8\n";
     let scene =
@@ -232,14 +233,14 @@ fn borders_of_materials_on_a_flat_face_have_corners() {
     }
 }
 
-/// The point of a segment nearest to another one.
+/// Returns the point of a segment nearest to `p`.
 fn nearest_point(p: Point, segment: [Point; 2]) -> Point {
     segment[0].lerp(segment[1], nearest_on(p, segment))
 }
 
 #[test]
 fn a_block_let_into_another_has_a_thin_rim() {
-    // A red block inside a grey one, with its top in the plane of the other's.
+    // A red block inside a grey one, with both tops in one plane.
     let mut text = String::from("mtllib colours.mtl\n");
     for (name, low, high) in
         [("grey", [0.0, 0.0, 0.0], [40.0, 40.0, 10.0]), ("red", [10.0, 12.0, 4.0], [30.0, 22.0, 10.0])]

@@ -1,4 +1,5 @@
-//! Cut-outs: what pictures leave clear is not there for lines, visibility, regions and shadows.
+//! Transparent parts of textures cut holes for lines, visibility, regions and areas; closed-form circles are
+//! the reference.
 
 use glam::DVec3;
 use kurbo::{Point, Shape as _};
@@ -11,7 +12,7 @@ use crate::support::measures::line_picture::Ink;
 use crate::support::references::drawing_judge::{axis, ink_marks};
 use crate::support::references::textbook_camera::Eye;
 
-/// The vine before its panel of round holes, from `examples/models`.
+/// The vine in front of its panel with round holes, from `examples/models`.
 fn trellis() -> Scene {
     Scene::open(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/trellis.obj")).unwrap()
 }
@@ -21,14 +22,14 @@ fn only(mut scene: Scene, name: &str) -> Scene {
     scene
 }
 
-/// The middle of each hole; the panel is 1 wide from x = −0.5 and 1.4 high from y = 0.1, where z = −0.3.
+/// The centres of the holes. The panel is 1 wide from x = −0.5 and 1.4 high from y = 0.1, at z = −0.3.
 fn holes() -> impl Iterator<Item = DVec3> {
     (0..35).map(|k| DVec3::new(-0.4 + 0.2 * f64::from(k % 5), 0.2 + 0.2 * f64::from(k / 5), -0.3))
 }
 
 const RADIUS: f64 = 0.075;
 
-/// Round each hole, and round the panel.
+/// The outlines of the holes and of the panel.
 fn outlines() -> Vec<[DVec3; 2]> {
     let turn = |k: u32| std::f64::consts::TAU * f64::from(k) / 720.0;
     let round = |k: u32| {
@@ -50,7 +51,7 @@ fn draw(scene: &Scene, camera: &Camera, style: &str) -> Drawing {
     render(scene, camera, &Style::preset(style).unwrap()).unwrap()
 }
 
-/// Points along a mark, a px or less apart.
+/// Returns points along a mark, at most 1 px apart.
 fn points(mark: &Mark) -> Vec<Point> {
     let pieces = |[a, b]: [Point; 2]| {
         let count = (b - a).hypot().ceil().max(1.0) as usize;
@@ -87,7 +88,7 @@ fn what_is_behind_is_seen_through_holes_only() {
     let mut through = 0;
     for mark in ink_marks(&drawing).filter(|mark| mark.provenance.part.as_deref() != Some("panel")) {
         for p in points(mark) {
-            // Where the line of sight meets the plane of the panel.
+            // The point where the line of sight meets the plane of the panel.
             let (near, far) = (eye.world(p, 0.0), eye.world(p, 1.0));
             let part = (-0.3 - near.z) / (far.z - near.z);
             let at = near + (far - near) * part;

@@ -1,4 +1,5 @@
-//! Materials that one sees through: what is drawn thin is behind glass and nothing else, and all that is behind glass is drawn.
+//! Transparent materials: exactly the lines and fills behind glass are drawn thin or tinted; rays through
+//! every triangle are the reference.
 
 use std::path::Path;
 
@@ -28,7 +29,7 @@ fn drawn(scene: &Scene, camera: &Camera, style: &str, sets: &[&str]) -> Drawing 
 const GLASS: &str = "glass.draw=glass";
 const MESH: &str = "lines.contours=mesh";
 
-/// Lines that are seen, and those behind glass alone.
+/// Returns the lines behind glass if `veiled` is set, and all other lines otherwise.
 fn lines(drawing: &Drawing, veiled: bool) -> Vec<[Point; 2]> {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     let of = marks.filter(|mark| mark.provenance.tone.is_none());
@@ -37,7 +38,7 @@ fn lines(drawing: &Drawing, veiled: bool) -> Vec<[Point; 2]> {
         .collect()
 }
 
-/// What rays meet: each triangle, and whether it is glass.
+/// All triangles as ray targets, with a glass flag for each.
 struct World {
     mesh: Mesh,
     glass: Vec<bool>,
@@ -56,7 +57,7 @@ impl World {
         Self { mesh, glass, frame }
     }
 
-    /// The depth of each surface at a place of the picture along the ray through it, and whether that is glass.
+    /// Returns the depth of each surface along the ray through an image point, and whether it is glass.
     fn met(&self, p: Point) -> Vec<(f64, bool)> {
         let at = self.frame.local_from_image(DVec3::new(p.x, p.y, self.frame.nearness_of(1.0)));
         let way = at - self.frame.eye;
@@ -73,7 +74,7 @@ impl World {
         (0..self.mesh.triangles.len()).filter_map(hit).filter(|(depth, _)| *depth > 0.0).collect()
     }
 
-    /// What is before the nearest opaque surface beside a line: whether glass is, to its left and to its right.
+    /// Whether glass is the nearest surface to the left and to the right of a line.
     fn glass_beside(&self, [a, b]: [Point; 2], p: Point) -> [bool; 2] {
         let across = (b - a).normalize().turn_90() * 0.7;
         [p + across, p - across].map(|p| {
@@ -94,14 +95,14 @@ fn thin_lines_are_behind_glass_and_no_other_lines_are() {
     let mut asked = 0;
     for segment in &veiled {
         for (p, _) in samples(&[*segment], 7.0) {
-            // On both sides of a line behind glass, glass is what the eye meets first.
+            // Next to a line behind glass, the nearest surface is glass on at least one side.
             asked += 1;
             let beside = world.glass_beside(*segment, p);
             assert!(beside.iter().any(|glass| *glass), "{p:?} {beside:?}");
         }
     }
     assert!(asked > 100, "{asked}");
-    // What is there without the glass is drawn, thick where nothing was before it, or thin; and nothing else of those parts.
+    // All lines of the scene without glass are drawn, either thick or thin.
     let absent =
         drawn(&scene, &camera, "ink", &["glass.draw=absent", MESH, "chain.smooth=0", "chain.tidy=0"]);
     let all = [lines(&drawing, false), veiled.clone()].concat();
@@ -112,7 +113,7 @@ fn thin_lines_are_behind_glass_and_no_other_lines_are() {
         .map(|(_, l)| l)
         .sum();
     assert!(missing < 1.0, "{missing} px of what is behind the glass are not drawn");
-    // Where the eye meets something opaque first, nothing changes.
+    // Where the nearest surface is opaque, lines do not change.
     let opaque = drawn(&scene, &camera, "ink", &[MESH, "chain.smooth=0", "chain.tidy=0", "chain.fit=false"]);
     let opaque = Ink::new(lines(&opaque, false), 4.0);
     let lost: f64 = samples(&lines(&drawing, false), 0.5)
@@ -131,7 +132,7 @@ fn no_line_is_drawn_both_thick_and_thin() {
     let thin = samples(&lines(&drawing, true), 0.5);
     let whole: f64 = thin.iter().map(|(_, length)| length).sum();
     let twice: f64 = thin.iter().filter(|(p, _)| thick.distance(*p) < 0.3).map(|(_, length)| length).sum();
-    // Where a thin line crosses or meets a thick one they touch.
+    // Thin lines touch thick ones where they cross or meet.
     assert!(whole > 1500.0 && twice < 0.03 * whole, "{twice} of {whole}");
     let widths = |veiled: bool| -> Vec<f64> {
         let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
@@ -155,7 +156,7 @@ fn colours_behind_glass_are_mixed_and_others_as_they_were() {
         drawing.layers.into_iter().find(|layer| layer.kind == LayerKind::Fills).unwrap().marks
     };
     let (glass, absent, opaque) = (fills(&[GLASS]), fills(&["glass.draw=absent"]), fills(&[]));
-    // The colour on top at a place, and for panes what is under them.
+    // The top colour at a point, and the colour below it for panes.
     let at = |marks: &[ligne::drawing::Mark], p: Point| {
         use kurbo::Shape;
         let mut found =

@@ -1,4 +1,5 @@
-//! Gradients: many steps of light, of which no more are drawn than can be seen, in the colours that the light has.
+//! Stepped gradients: painted light agrees with closed-form Lambert light, with no more bands than can be
+//! seen.
 
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Shape};
@@ -16,7 +17,7 @@ use crate::support::scenes::solids::{Solid, cuboid};
 
 const STEPS: u16 = 128;
 
-/// Steps from black to white under the light from [`towards_light`].
+/// Steps from black to white under the light of [`towards_light`].
 fn steps(more: &str) -> Style {
     let sheet = format!(
         "extends = 'gradient'\n[fills]\nsteps = {STEPS}\npalette = ['#000', '#fff']\nseams = 'exact'\n{more}\n[light]\n\
@@ -35,7 +36,7 @@ fn fills(drawing: ligne::Drawing) -> Vec<Mark> {
     layers.flat_map(|layer| layer.marks).collect()
 }
 
-/// The light that the colour of a region stands for at a point.
+/// Returns the light value that the colour of a region encodes at a point.
 fn light_of(mark: &Mark, p: Point) -> f64 {
     let Colour { r, .. } = match &mark.paint {
         Paint::Fill(colour) => *colour,
@@ -60,7 +61,7 @@ fn a_ball_is_as_light_as_it_is() {
         let (mut sum, mut count) = (0.0, 0.0);
         while count < 600.0 {
             let (u, v) = (dice.between(-1.0, 1.0), dice.between(-1.0, 1.0));
-            // No nearer to the contour than 3 px, nor where the surface turns away.
+            // Only points at least 3 px from the contour, and not where the surface turns away.
             if (u * u + v * v).sqrt() > (1.0 - 3.0 / eye.scale).min(0.97) {
                 continue;
             }
@@ -73,8 +74,9 @@ fn a_ball_is_as_light_as_it_is() {
             let light = normal.dot(towards).max(0.0);
             let steep = DVec2::new(lu - lw * u / w, lv - lw * v / w).length() / eye.scale;
             let off = light_of(mark, p) - light;
-            // Half a step and what the ball's facets differ by; bands are wider than a step only where a px holds more than one. On
-            // the smallest ball nearly everywhere four do, and what is narrower than a px goes to its neighbours.
+            // The bound is half a step, plus the deviation of the facets. Bands are wider than a step only
+            // where a px holds several. On the smallest ball almost every px holds four, and bands narrower
+            // than a px are merged into neighbours.
             let reach = if eye.scale > 60.0 { 1.1 } else { 2.0 };
             let bound = 0.75 / f64::from(STEPS) + if light > 0.0 { reach * steep } else { 0.0 };
             assert!(off.abs() < bound, "at {p}: {off} off, {bound} at most");
@@ -82,7 +84,7 @@ fn a_ball_is_as_light_as_it_is() {
         }
         let mean = sum / count * f64::from(STEPS);
         assert!(mean.abs() < 0.2, "steps are {mean} too light in the mean");
-        // As small as it gets, a ball has no more bands than it has room for.
+        // Even the smallest ball has no more bands than it has room for.
         assert!(fills.len() < 60 + (2.0 * eye.scale) as usize, "{} for {} px", fills.len(), eye.scale);
     }
 }
@@ -96,14 +98,14 @@ fn what_is_hidden_changes_no_step() {
         drawn.iter().map(|mark| mark.path.to_svg()).collect()
     };
     let before = scene([icosphere(4), wall(2.0)]);
-    // A second ball, all of it behind the wall.
+    // A second ball that is completely behind the wall.
     let mut small = icosphere(4);
     small.positions.iter_mut().for_each(|p| *p = *p * 0.2 + DVec3::new(-0.3, -0.3, 1.5));
     assert_eq!(paths(&before), paths(&scene([icosphere(4), wall(2.0), small])));
     assert!(paths(&before).len() > 60);
 }
 
-/// A tube around the y axis, whose normals lean neither up nor down.
+/// A tube around the y axis. All normals are horizontal.
 fn tube(columns: u32) -> Solid {
     let mut tube = Solid { positions: Vec::new(), triangles: Vec::new() };
     for k in 0..columns {
@@ -143,7 +145,7 @@ fn a_tube_is_a_few_gradients() {
         let steep =
             (towards.dot(eye.right) + towards.dot(eye.forward) * u / (1.0 - u * u).sqrt()).abs() / eye.scale;
         let off = light_of(mark, p) - light;
-        // Two of the 128 steps: gradients run on straight from the middle of one merged step to that of the next.
+        // Two of the 128 steps. Gradients are linear between the middles of merged steps.
         let bound = 2.0 / f64::from(STEPS) + 1.1 * steep;
         assert!(off.abs() < bound, "at {p}: {off} off, {bound} at most");
     }

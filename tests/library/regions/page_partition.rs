@@ -1,4 +1,4 @@
-//! Regions: a partition of the page by what the eye sees, with borders where light says they are.
+//! Regions partition the visible page; rays at random points and closed-form tone borders are the reference.
 
 use crate::support::scenes::random_scenes;
 use crate::support::scenes::round_solids;
@@ -17,20 +17,20 @@ use ligne::regions::Seams;
 use ligne::scene::{Camera, Scene};
 use ligne::{Drawing, Style, SvgOptions, render};
 
-/// Two tones under the key light from [`towards_light`], regions that end at their borders.
+/// Two tones under the key light of [`towards_light`]. Regions end at their borders.
 fn two_tones() -> Style {
     let sheet = "extends = 'toon'\n[fills]\nthresholds = [0.5]\nseams = 'exact'\n[light]\n\
                  sources = [{ kind = 'directional', direction = [-0.4, 0.6, 0.7], space = 'camera' }]";
     Style::from_toml(sheet).expect("a style")
 }
 
-/// The direction towards that light, in the world.
+/// Returns the direction towards that light, in world coordinates.
 fn towards_light(camera: &Camera) -> DVec3 {
     let eye = Eye::new(camera);
     (eye.right * -0.4 + eye.up * 0.6 - eye.forward * 0.7).normalize()
 }
 
-/// The marks of a layer.
+/// Returns the marks of a layer.
 fn marks(drawing: &Drawing, kind: LayerKind) -> Vec<Mark> {
     drawing.layers.iter().filter(|layer| layer.kind == kind).flat_map(|layer| layer.marks.clone()).collect()
 }
@@ -39,12 +39,12 @@ fn fills(drawing: &Drawing) -> Vec<Mark> {
     marks(drawing, LayerKind::Fills)
 }
 
-/// The tones of the regions that hold a point.
+/// Returns the tones of the regions that contain a point.
 fn tones_at(fills: &[Mark], p: Point) -> Vec<u16> {
     fills.iter().filter(|mark| mark.path.winding(p) != 0).filter_map(|mark| mark.provenance.tone).collect()
 }
 
-/// Points along a path, no farther apart than `step`.
+/// Returns points along a path, at most `step` apart.
 fn samples(path: &BezPath, step: f64) -> Vec<Point> {
     let along = |segment: PathSeg| {
         let chord = (segment.end() - segment.start()).hypot();
@@ -58,7 +58,7 @@ fn samples(path: &BezPath, step: f64) -> Vec<Point> {
 fn a_cube_has_three_faces_and_three_paths() {
     let cube = scene([cuboid(DVec3::splat(-1.0), DVec3::ONE)]);
     let camera = perspective(DVec3::new(3.1, 2.3, 4.7), DVec3::ZERO, 40.0);
-    // Thresholds between the light that falls on each of the three sides.
+    // Thresholds between the light values of the three sides.
     let light = towards_light(&camera);
     let mut falls: Vec<f64> = [light.x, light.y, light.z].iter().map(|x| x.max(0.0)).collect();
     falls.sort_by(f64::total_cmp);
@@ -92,7 +92,7 @@ fn a_cube_has_three_faces_and_three_paths() {
     }
 }
 
-/// How far a point of the image lies from the image of a circle in space.
+/// Returns the distance of an image point from the image of a circle in space.
 fn off_circle(eye: &Eye, centre: DVec3, axis: DVec3, radius: f64, p: Point) -> f64 {
     let u = axis.any_orthonormal_vector();
     let v = axis.cross(u);
@@ -106,7 +106,7 @@ fn off_circle(eye: &Eye, centre: DVec3, axis: DVec3, radius: f64, p: Point) -> f
 
 #[test]
 fn the_tone_border_of_a_sphere_is_a_circle() {
-    // Flat faces lie inside of the sphere, so that few of them show a border that is off as well.
+    // Flat faces lie inside the sphere, so coarse meshes also have an inaccurate border.
     for (level, off) in [(4, 0.5), (5, 0.1)] {
         let ball = scene([round_solids::icosphere(level)]);
         for camera in [
@@ -117,7 +117,7 @@ fn the_tone_border_of_a_sphere_is_a_circle() {
             let fills = fills(&drawing);
             assert_eq!(fills.len(), 2);
             let (eye, light) = (Eye::new(&camera), towards_light(&camera));
-            // n·L = 1/2.
+            // The border is the circle n·L = 1/2.
             let (centre, radius) = (light * 0.5, 0.75_f64.sqrt());
             let dark = fills.iter().find(|fill| fill.provenance.tone == Some(0)).expect("a dark side");
             let lit = fills.iter().find(|fill| fill.provenance.tone == Some(1)).expect("a lit side");
@@ -134,8 +134,8 @@ fn the_tone_border_of_a_sphere_is_a_circle() {
     }
 }
 
-/// Each border is one curve in both regions beside it, and the outline stands once: painted areas
-/// fill the silhouette without gap or overlap.
+/// Each border is one curve shared by both regions, and the outline occurs once. The fills cover the
+/// silhouette without gaps or overlaps.
 #[test]
 fn neighbours_share_their_borders() {
     let mut dice = Dice::new(5);
@@ -156,27 +156,28 @@ fn neighbours_share_their_borders() {
                 *uses.entry(back).or_default() -= 1;
             }
         }
-        // What is left is the outline, run through one way.
+        // The remaining segments form the outline, in one direction.
         let outline: Vec<&String> = uses.iter().filter(|(_, count)| **count > 0).map(|(s, _)| s).collect();
         assert!(uses.values().all(|count| count.abs() <= 1), "{kind}: a border stands twice");
         let inner = fills.iter().map(|mark| mark.path.segments().count()).sum::<usize>() - outline.len();
         assert!(inner > 0 && inner.is_multiple_of(2), "{kind}: {inner} pieces have no counterpart");
         for mark in &fills {
-            // What is left between two curves fitted within 0.15 px may be thinner than that, and turn over.
+            // Between two curves fitted within 0.15 px, a sliver may be thinner than that and have negative
+            // area.
             let area = mark.path.area();
             assert!(area > -0.5, "{kind}: regions turn from x to y, {area}");
         }
     }
 }
 
-/// A point of a triangle in front: how far, which part, how much light falls on it.
+/// A point on the nearest triangle: its depth, part and light.
 struct Front {
     depth: f64,
     part: usize,
     light: f64,
 }
 
-/// The triangle in front at a point of the image by asking each of them, flat shaded.
+/// Returns the nearest triangle at an image point by testing all triangles, with flat shading.
 fn front(scene: &Scene, eye: &Eye, light: DVec3, p: Point) -> Option<Front> {
     let mut nearest: Option<Front> = None;
     for (index, part) in scene.parts.iter().enumerate() {
@@ -213,12 +214,12 @@ fn what_is_painted_is_what_the_eye_sees() {
     let mut dice = Dice::new(11);
     let mut style = two_tones();
     style.lines.contours = Contours::Mesh;
-    // Every edge parts two flat faces.
+    // Every edge separates two flat faces.
     style.lines.crease_deg = 0.01;
     for kind in ["tetrahedra", "boxes", "interpenetrating boxes", "mixtures"] {
         for _ in 0..4 {
             let model = random_scenes::random_scene(kind, &mut dice);
-            // From outside, so that nothing lies behind the eye.
+            // The camera is outside, so nothing lies behind it.
             let turn = dice.turn();
             let camera = Camera { up: turn * DVec3::Y, ..Camera::three_quarter() };
             let camera =
@@ -231,7 +232,7 @@ fn what_is_painted_is_what_the_eye_sees() {
             for _ in 0..400 {
                 let p =
                     Point::new(dice.between(5.0, camera.width - 5.0), dice.between(5.0, camera.height - 5.0));
-                // Crumbs are given to neighbours; points beside a border say nothing.
+                // Small regions are merged into neighbours, so points near a border are skipped.
                 if borders.iter().any(|border| (*border - p).hypot() < 3.0) {
                     continue;
                 }
@@ -288,7 +289,7 @@ fn regions_reach_under_those_painted_later() {
     style.region.seams = Seams::Underlap;
     let under = fills(&render(&ball, &camera, &style).unwrap());
     assert_eq!((exact.len(), under.len()), (2, 2));
-    // The first one grows along the shared border only; the other stays.
+    // The first region grows only along the shared border, and the other does not change.
     assert_eq!(exact[1].path, under[1].path);
     let grown = under[0].path.area() - exact[0].path.area();
     let border = samples(&exact[1].path, 1.0)

@@ -1,5 +1,5 @@
-//! Colours that pass into each other on a surface become regions and lines where mathematics says: those of vertices, of both
-//! vertices and pictures, of pictures of blocks, of pictures that run to the horizon, and of pictures that only lines know.
+//! Colours that vary on a surface (vertex colours, textures, and both) become regions and lines; closed-form
+//! interpolation is the reference.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ use crate::support::references::textbook_camera::Eye;
 
 const NONE: u32 = u32::MAX;
 
-/// Triangles of one material, seen from the front.
+/// A scene of triangles with one material.
 fn scene(geometry: Geometry, material: Material) -> Scene {
     let part = Part { name: "sheet".to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY };
     let geometry = Geometry { material: Some(0), ..geometry };
@@ -37,7 +37,7 @@ fn white() -> Material {
     Material { name: "sheet".to_owned(), colour: Colour::WHITE, ..Material::default() }
 }
 
-/// A square of side 1 whose corners have these colours, of linear light, in two triangles.
+/// A square of side 1 with linear-light corner colours, as two triangles.
 fn square(corners: [[f32; 3]; 4]) -> Geometry {
     Geometry {
         positions: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
@@ -49,7 +49,7 @@ fn square(corners: [[f32; 3]; 4]) -> Geometry {
     }
 }
 
-/// The colour that such a square has at a place of it.
+/// Returns the interpolated colour of such a square at a point.
 fn light([a, b, c, d]: [[f32; 3]; 4], x: f64, y: f64) -> [f32; 3] {
     let mix = |k: usize| {
         let [a, b, c, d] = [a, b, c, d].map(|own| f64::from(own[k]));
@@ -59,7 +59,7 @@ fn light([a, b, c, d]: [[f32; 3]; 4], x: f64, y: f64) -> [f32; 3] {
     [mix(0), mix(1), mix(2)]
 }
 
-/// A camera that sees the square of side `side` at the origin from the front, 400 px to a side of 1.
+/// An orthographic front view of a `width` by `height` area at the origin, 400 px per unit.
 fn front(width: f64, height: f64) -> Camera {
     let target = DVec3::new(width / 2.0, height / 2.0, 0.0);
     Camera {
@@ -84,7 +84,7 @@ fn palette(fills: &[(&Mark, Colour)]) -> Vec<Colour> {
     colours
 }
 
-/// That of some colours that looks most like light.
+/// Returns the palette colour that is perceptually nearest to a light.
 fn nearest(palette: &[Colour], light: [f32; 3]) -> Colour {
     let far = |a: Oklab, b: Oklab| oklab::distance2(a, b);
     let own = oklab::of_linear(light);
@@ -96,7 +96,8 @@ fn round(p: Point, radius: f64) -> impl Iterator<Item = Point> {
     (0..12).map(move |k| p + kurbo::Vec2::from_angle(turn(k)) * radius)
 }
 
-/// Asserts that all places further than `off` from where truth changes are painted as it says; gives how many were asked.
+/// Asserts that all points farther than `off` from a colour change have the true colour. Returns the number
+/// of tested points.
 fn assert_true(
     fills: &[(&Mark, Colour)],
     camera: &Camera,
@@ -128,7 +129,7 @@ fn colours_of_vertices_fall_into_a_few_with_exact_borders() {
         let fills = fills(&drawing);
         let palette = palette(&fills);
         assert_eq!(palette.len(), count, "{palette:?}");
-        // One region a colour, but where a cell has two parts.
+        // One region per colour, except where a colour has two separate areas.
         assert!(fills.len() <= count + 3, "{} regions", fills.len());
         let truth = |p: Point| {
             let at = eye.world(p, 5.0);
@@ -141,7 +142,7 @@ fn colours_of_vertices_fall_into_a_few_with_exact_borders() {
 
 #[test]
 fn faces_painted_in_one_colour_keep_it() {
-    // As many colours as the faces have, be the style content with fewer where they vary.
+    // All face colours are kept, although the style allows fewer for varying colours.
     let tints = [[0.30_f32, 0.1, 0.1], [0.5, 0.1, 0.1], [0.1, 0.5, 0.2]];
     let mut all = Geometry::default();
     for (k, tint) in tints.into_iter().enumerate() {
@@ -161,7 +162,7 @@ fn faces_painted_in_one_colour_keep_it() {
 
 #[test]
 fn artist_lines_run_where_colours_of_vertices_change_and_on_parts_of_seams() {
-    // Beside the square one that is white, and shares no colour with it.
+    // A white square next to it that shares no vertex colours with it.
     let mut all = square(CORNERS);
     let beside = square([[1.0; 3]; 4]);
     all.positions.extend(beside.positions.iter().map(|p| *p + DVec3::X));
@@ -197,7 +198,7 @@ fn artist_lines_run_where_colours_of_vertices_change_and_on_parts_of_seams() {
             }
         }
     }
-    // The shared side is parted in some places, and is one white in others.
+    // Along the shared side, colours differ at some points and are white on both sides at others.
     let along = |y: f64| [0.999, 1.001].map(|x| truth(eye.image(DVec3::new(x, y, 0.0))));
     let parted = (1..100)
         .filter(|k| {
@@ -208,7 +209,7 @@ fn artist_lines_run_where_colours_of_vertices_change_and_on_parts_of_seams() {
     assert!((10..90).contains(&parted), "{parted}");
 }
 
-/// A picture as a PNG file.
+/// Encodes a picture as PNG.
 fn png(width: u32, height: u32, of: impl Fn(u32, u32) -> [u8; 3]) -> Arc<[u8]> {
     let mut bytes = Vec::new();
     let mut encoder = png::Encoder::new(&mut bytes, width, height);
@@ -218,7 +219,7 @@ fn png(width: u32, height: u32, of: impl Fn(u32, u32) -> [u8; 3]) -> Arc<[u8]> {
     Arc::from(bytes)
 }
 
-/// A square that shows a picture as often as `times`.
+/// A square that repeats a picture `times` times.
 fn pictured(times: f32) -> Geometry {
     Geometry {
         uvs: vec![[0.0, times], [times, times], [times, 0.0], [0.0, 0.0]],
@@ -254,7 +255,7 @@ fn a_picture_and_colours_of_vertices_multiply() {
             assert_eq!(colour.r > colour.b, off < 0.0, "at {p}");
             seen[usize::from(off < 0.0)] += 1;
         }
-        // Both are darker to the right.
+        // Both colours get darker to the right.
         let same_left = top(&fills, Point::new(60.0, p.y)).map(|left| left.luma());
         assert!(at.x < 0.9 || off < 0.0 || same_left.is_none_or(|left| colour.luma() < left), "at {p}");
     }
@@ -296,7 +297,7 @@ fn a_floor_to_the_horizon_is_checked_near_and_even_far_away() {
     let picture = png(32, 32, |x, y| of(if (x / 16 + y / 16) % 2 == 1 { dark } else { pale }));
     let material = Material { picture: Some(picture), ..white() };
     let mut floor = pictured(20.0);
-    // 40 tiles wide and deep, from the eye on.
+    // 40 tiles wide and deep, starting at the camera.
     floor.positions = [[-20.0, 0.0], [20.0, 0.0], [20.0, -40.0], [-20.0, -40.0]]
         .map(|[x, z]| DVec3::new(x, 0.0, z))
         .to_vec();
@@ -321,10 +322,10 @@ fn a_floor_to_the_horizon_is_checked_near_and_even_far_away() {
         (way.y < 0.0 && at.z > -40.0 && at.z < 0.0 && at.x.abs() < 20.0).then_some(at)
     };
     let tile = |at: DVec3| if (at.x.floor() + at.z.floor()).rem_euclid(2.0) == 1.0 { dark } else { pale };
-    // Near the eye every tile is there; blurs of texels round its corners.
+    // Near the camera, every tile is drawn. Texel filtering rounds their corners.
     let near = |p: Point| on_floor(p).filter(|at| at.z > -9.0).map(tile);
     assert!(assert_true(&fills, &camera, 4.0, near) > 5000);
-    // Far from it all is what both are in the mean.
+    // Far away, the floor has the mean of both colours.
     let mean = *palette(&fills).iter().find(|own| ![dark, pale].contains(own)).unwrap();
     let far = |p: Point| on_floor(p).filter(|at| at.z < -32.0).map(|_| mean);
     assert!(assert_true(&fills, &camera, 1.0, far) > 20);
@@ -342,7 +343,7 @@ fn a_picture_that_the_style_names_gives_lines_and_no_paint() {
         std::fs::write(folder.join("sheet.toml"), text).unwrap();
         Style::load(folder.join("sheet.toml").to_str().unwrap(), &[]).unwrap()
     };
-    // What is painted is cut in halves, and has no line.
+    // The painted texture has two halves, and no line is drawn between them.
     let halves = png(8, 8, |x, _| if x < 4 { [200, 0, 0] } else { [0, 0, 200] });
     let material = Material { picture: Some(halves), ..white() };
     let model = scene(pictured(1.0), material);
@@ -356,11 +357,11 @@ fn a_picture_that_the_style_names_gives_lines_and_no_paint() {
     ] {
         let style = sheet(table);
         let drawing = render(&model, &camera, &style).unwrap();
-        // What is too fine for a smooth line is too fine for its paint.
+        // If the smoothing removes the line of the disc, it also removes the fills.
         let is_smooth = table.contains("smooth");
         assert!(is_smooth || palette(&fills(&drawing)).len().is_multiple_of(2), "both halves are painted");
         let drawn: Vec<[Point; 2]> = ink_marks(&drawing).flat_map(axis).collect();
-        // Its middle is that of a texel.
+        // The centre of the disc is the centre of a texel.
         let middle = glam::DVec2::new(32.5, 31.5) / 64.0;
         let off = |p: Point| ((eye.world(p, 5.0).truncate() - middle).length() - 20.0 / 64.0).abs();
         let on_disc = drawn.iter().filter(|[a, b]| off(a.midpoint(*b)) < 0.012).count();

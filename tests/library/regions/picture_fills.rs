@@ -1,4 +1,5 @@
-//! Pictures in the drawing itself: each point shows what the picture has there, once in the file, in the tones of the light.
+//! Textures embedded in the drawing: each point shows the texel that projection gives, each picture is stored
+//! once, and tones shade it.
 
 use std::sync::Arc;
 
@@ -18,10 +19,10 @@ use crate::support::references::textbook_camera::Eye;
 const DARK: [u8; 3] = [40, 70, 120];
 const LIGHT: [u8; 3] = [240, 220, 150];
 
-/// A texel of a checker, in cells.
+/// Size of a texel of the checker, in cells.
 const TEXEL: f64 = 1.0 / 16.0;
 
-/// Pictures themselves in one tone, and no ink.
+/// A style with embedded textures in one tone and without ink.
 fn plain(changes: &[&str]) -> Style {
     let mut all = vec![
         "lines.enabled=false",
@@ -43,7 +44,7 @@ fn png(side: u32, pixel: impl Fn(u32, u32) -> [u8; 3]) -> Arc<[u8]> {
     Arc::from(bytes)
 }
 
-/// Quads, each from (x0, y0) to (x1, y1) at a height z, with a picture between two corners of its coordinates.
+/// Quads from (x0, y0) to (x1, y1) at height z, each with the texture coordinates of two opposite corners.
 fn quads(quads: &[[f64; 5]], uvs: &[[f32; 4]], material: Material) -> Scene {
     let mut geometry = Geometry::default();
     for ([x0, y0, x1, y1, z], [u0, v0, u1, v1]) in quads.iter().zip(uvs) {
@@ -119,11 +120,11 @@ fn a_checker_in_perspective_is_where_projection_says() {
         let seen = pixels(&drawing, 800 * scale);
         let (mut asked, mut wrong) = (0, 0);
         for k in 0..4000_u32 {
-            // Points spread by the plastic number.
+            // A low-discrepancy sequence based on the plastic number.
             let spread = |step: f64| (f64::from(k) * step).fract();
             let p = Point::new(spread(0.754_877_666_246_693) * 800.0, spread(0.569_840_290_998_053) * 600.0);
             let p = Point::new(p.x.floor() + 0.5, p.y.floor() + 0.5);
-            // Well inside of a cell: within 1.2 px and a texel, all is of one colour.
+            // Only points well inside a cell: the colour is constant within 1.2 px and one texel.
             let around = [(1.2, 0.0), (-1.2, 0.0), (0.0, 1.2), (0.0, -1.2)];
             let Some(here) = cell(p).map(DVec2::floor) else { continue };
             if around.iter().any(|d| cell(p + *d).map(DVec2::floor) != Some(here)) {
@@ -170,7 +171,7 @@ fn pictures_go_on_as_their_samplers_say() {
             let p = eye.image(world);
             let uv = [-1.25 + 3.75 * share(k % 20), -1.0 + 2.5 * share(k / 20)];
             let truth = [0, 1].map(|axis| (at(uv[axis], wrap[axis]) * 252.0) as u8);
-            // Beside where a period ends, both ends are mixed.
+            // Near the end of a period, both ends are blended.
             let near_end = uv.iter().any(|t| (t - t.round()).abs() < 0.03);
             let off = far(seen.at(p.x as usize, p.y as usize), [truth[0], truth[1], 0]);
             wrong += u32::from(off > 12 && !near_end);
@@ -182,7 +183,7 @@ fn pictures_go_on_as_their_samplers_say() {
 #[test]
 fn the_nearer_of_two_surfaces_is_seen_and_tones_are_its_shade() {
     let material = painted(png(32, |x, _| if x < 16 { DARK } else { LIGHT }));
-    // The small plate hangs over the large one, of another half of the picture.
+    // The small plate hangs over the large one and shows the other half of the picture.
     let scene = quads(
         &[[0.0, 0.0, 4.0, 4.0, 0.0], [1.0, 1.0, 3.0, 3.0, 1.0]],
         &[[0.55, 0.1, 0.95, 0.9], [0.05, 0.1, 0.45, 0.9]],
@@ -206,7 +207,7 @@ fn the_nearer_of_two_surfaces_is_seen_and_tones_are_its_shade() {
     };
     assert!(far(colour(2.0, 2.0, 1.0), DARK) < 6);
     assert!(far(colour(0.4, 0.4, 0.0), LIGHT) < 6, "{:?}", colour(0.4, 0.4, 0.0));
-    // Under the edge of the small plate, seen below it from the side.
+    // The shadow of the small plate is visible below its edge.
     let shaded = (0..400)
         .map(|k| (f64::from(k % 20) * 0.2 + 0.1, f64::from(k / 20) * 0.2 + 0.1))
         .any(|(x, y)| far(colour(x, y, 0.0), LIGHT.map(|c| c / 2)) < 6);
@@ -233,13 +234,13 @@ fn a_file_holds_a_picture_once() {
     let pdf = drawing.to_pdf();
     let objects = pdf.windows(b"/Subtype /Image".len()).filter(|bytes| *bytes == b"/Subtype /Image").count();
     assert_eq!(objects, 2);
-    // Canonical, and equal to itself, whatever the groups.
+    // The SVG is canonical, and the drawing compares equal to itself with either grouping.
     assert_eq!(canonical_svg(&svg, None).unwrap(), svg);
     for options in [SvgOptions::default(), SvgOptions::default().grouped_by(Grouping::Part)] {
         let read = || Read::from_drawing(&drawing, &options).unwrap();
         assert!(compare(&read(), &read(), &DiffOptions::default()).is_same());
     }
-    // Paint of one colour stands below, for whatever shows no pictures.
+    // Plain fills lie below the pictures, for viewers that show no pictures.
     let without =
         render(&scene, &camera, &Style::load("toon", &["fills.texture='mean'".to_owned()]).unwrap());
     let fills = |drawing: &Drawing| {
@@ -279,14 +280,14 @@ fn a_thousand_small_triangles_are_few_pieces() {
     let Paint::Image(image) = &images(&drawing)[0].paint else { unreachable!() };
     assert!(image.pieces.len() < 2000, "{} pieces", image.pieces.len());
     let picture = &image.picture;
-    // Never finer than its file, and no farther than a piece reaches into where it comes again.
+    // The picture is not much finer than its file: it adds at most the overlap where it repeats.
     assert!(picture.width < 512 && picture.height < 512, "{} x {}", picture.width, picture.height);
     assert!(image.pieces.iter().any(|piece| matches!(piece.shows, Shows::Pixels(_))));
 }
 
 #[test]
 fn of_faces_that_pass_through_each_other_each_shows_where_it_is_in_front() {
-    // Blades of one part through one axis, each with a texel of its own, and a plate across them all.
+    // Blades of one part around a common axis, each with a separate texel, and a plate across all of them.
     const BLADES: u32 = 4;
     use ligne::geometry::numbers::portable_math::{cos, sin};
     let mut geometry = Geometry::default();
@@ -308,7 +309,7 @@ fn of_faces_that_pass_through_each_other_each_shows_where_it_is_in_front() {
     add(across.map(|[x, y]| DVec3::new(x, y, 0.9 + 0.3 * x)), BLADES);
     geometry.triangle_material = vec![0; geometry.triangles.len()];
     let shade = |texel: u32| [30 + 30 * texel as u8, 220 - 30 * texel as u8, 90];
-    // Each texel is wide enough for its middle to be of one colour, however it is sampled.
+    // The texels are wide, so their middle has one colour under any sampling.
     let mut scene = quads(&[], &[], painted(png(64, |x, _| shade(x / 8))));
     let faces: Vec<([DVec3; 3], u32)> = geometry
         .triangles
@@ -333,7 +334,7 @@ fn of_faces_that_pass_through_each_other_each_shows_where_it_is_in_front() {
         for k in 0..6000_u32 {
             let spread = |step: f64| (f64::from(k) * step).fract() * 400.0;
             let p = Point::new(spread(0.754_877_666_246_693), spread(0.569_840_290_998_053));
-            // Pieces reach half a px beside themselves, at corners a whole one.
+            // Pieces overlap by half a px, and by one px at corners.
             let around = [(1.1, 0.0), (-1.1, 0.0), (0.0, 1.1), (0.0, -1.1)];
             let Some(texel) = front(p) else { continue };
             if around.iter().any(|d| front(p + *d) != Some(texel)) {
@@ -346,7 +347,7 @@ fn of_faces_that_pass_through_each_other_each_shows_where_it_is_in_front() {
     }
 }
 
-/// Where along a ray a triangle is hit.
+/// Returns the parameter along a ray where it hits a triangle.
 fn crossed(from: DVec3, way: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
     let normal = (b - a).cross(c - a);
     let at = normal.dot(a - from) / normal.dot(way);

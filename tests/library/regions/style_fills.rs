@@ -1,4 +1,4 @@
-//! The keys of light and fills: what they stand for, what replaces what, and pictures of tones.
+//! Style keys of light and fills: parsed values, keys that replace others, tone pictures, and error messages.
 
 use std::path::PathBuf;
 
@@ -10,7 +10,7 @@ use ligne::light::{SourceKind, Space};
 use ligne::regions::Seams;
 use ligne::style::Style;
 
-/// A folder that is removed at the end of the test.
+/// A temporary folder, removed at the end of the test.
 struct Folder(PathBuf);
 
 impl Folder {

@@ -1,4 +1,5 @@
-//! Pictures become regions of a few colours: point by point what the picture shows there, whatever the view.
+//! Textures are drawn as regions of a few colours; the reference is the closed-form colour along the line of
+//! sight at each point.
 
 use glam::{DVec2, DVec3};
 use kurbo::{Point, Shape as _};
@@ -24,7 +25,8 @@ fn picnic() -> Scene {
     Scene::open(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/picnic.obj")).unwrap()
 }
 
-/// What a line of sight meets of a ball of radius 1/4 on a square cloth of side 1: the colour that its picture has there.
+/// Returns the texture colour that a line of sight meets: a ball of radius 1/4 on a square cloth of side 1.
+/// `None` if it meets neither.
 fn truth(eye: &Eye, p: Point) -> Option<[u8; 3]> {
     let (near, far) = (eye.world(p, 0.0), eye.world(p, 1.0));
     let way = (far - near).normalize();
@@ -43,7 +45,7 @@ fn truth(eye: &Eye, p: Point) -> Option<[u8; 3]> {
     if place.min_element() < 0.0 || place.max_element() > 1.0 {
         return None;
     }
-    // The first row of the picture is that of the greatest v.
+    // The first row of the picture has the largest v.
     let checks = place * 5.0 - (place * 5.0).floor();
     let stripes = usize::from(checks.x < 0.5) + usize::from(checks.y > 0.5);
     Some(CLOTH[2 - stripes])
@@ -62,7 +64,7 @@ fn every_point_is_painted_as_its_picture_is_there() {
         for k in 0..200 * 200 {
             let p = Point::new((k % 200) as f64 + 0.5, (k / 200) as f64 + 0.5);
             let p = Point::new(p.x * camera.width / 200.0, p.y * camera.height / 200.0);
-            // Not beside a border: the ball is a polyhedron, and borders have round corners.
+            // Skips points near a border, because the ball is a polyhedron and borders have round corners.
             let round = (0..8).map(|k| std::f64::consts::TAU * f64::from(k) / 8.0);
             let mut near = round.map(|t| p + kurbo::Vec2::from_angle(t) * 2.0);
             let Some(own) = truth(&eye, p).filter(|own| near.all(|q| truth(&eye, q) == Some(*own))) else {
@@ -96,7 +98,7 @@ fn a_picture_can_count_as_its_mean_or_not_at_all() {
     assert_eq!(colours(&["fills.texture='off'"]), [Colour::WHITE]);
     assert_eq!(colours(&["fills.texture='mean'"]).len(), 2);
     assert_eq!(colours(&[]).len(), 6);
-    // The ball's picture is a palette, and keeps its colours.
+    // The ball's texture is a palette, so its colours are kept.
     assert_eq!(colours(&["fills.texture_colours=2"]).len(), 5);
 }
 
@@ -144,7 +146,7 @@ fn artist_lines_run_where_painted_colours_change() {
             }
         }
     }
-    // Colours that are near to each other have no line between them.
+    // With a tolerance of 1, no two colours are far enough apart for a line.
     let far =
         Style::load("ink", &["lines.kinds=['artist']".to_owned(), "lines.artist_tolerance=1".to_owned()])
             .unwrap();

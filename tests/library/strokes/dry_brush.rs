@@ -1,4 +1,5 @@
-//! Brushes made of pictures: their inside is traced, bends with the line, and leaves no border of paint bare.
+//! Picture brushes: holes are traced, follow bends with the known shares of ink, and leave no fill border
+//! uncovered.
 
 use std::path::PathBuf;
 
@@ -14,7 +15,7 @@ use ligne::style::Style;
 use crate::support::pipeline::{self, orthographic};
 use crate::support::scenes::solids::{cuboid, sphere};
 
-/// A picture of a stroke in a folder of its own.
+/// A brush picture in the temporary folder, deleted on drop.
 struct Picture(PathBuf);
 
 impl Picture {
@@ -43,7 +44,7 @@ impl Drop for Picture {
     }
 }
 
-/// Dark, with a hole that is half as long and a fifth as high as it, above its middle.
+/// A dark picture with a hole above its middle, half its length and a fifth of its height.
 fn holed(name: &str) -> Picture {
     Picture::new(name, [80, 20], |x, y| if (20..60).contains(&x) && (4..8).contains(&y) { 255 } else { 0 })
 }
@@ -57,7 +58,7 @@ fn lines(drawing: &Drawing) -> Vec<&Mark> {
         .collect()
 }
 
-/// A ball whose outline is a circle of 250 px around the middle of the page.
+/// A ball whose outline is a circle of radius 250 px around the centre of the page.
 fn ball() -> (Scene, Camera) {
     (pipeline::scene([sphere(90, 1.0)]), orthographic(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO, 4.0))
 }
@@ -71,7 +72,7 @@ fn the_inside_of_a_picture_is_laid_round_a_bend() {
         let [mark] = lines(&drawing)[..] else { panic!("one line") };
         let path = mark.path.clone();
         let middle = Point::new(500.0, 500.0);
-        // How much of the circle so far from the middle is inked.
+        // Share of the circle of a given radius that is inked.
         let inked = |radius: f64| {
             let at = |k: u32| {
                 let angle = f64::from(k) / 720.0 * std::f64::consts::TAU;
@@ -85,13 +86,13 @@ fn the_inside_of_a_picture_is_laid_round_a_bend() {
     let (solid, whole) = drawn(", inside = 'solid'");
     assert!(solid.iter().all(|part| *part > 0.99), "{solid:?}");
     let (traced, less) = drawn("");
-    // The hole is from 2 to 6 px on one side of the line, and half as long as it.
+    // The hole lies 2 to 6 px to one side of the line and covers half its length.
     let away: Vec<usize> = (0..7).filter(|k| (traced[*k] - 0.5).abs() < 0.02).collect();
     assert!(away == [1] || away == [5], "{traced:?}");
     assert!([0, 2, 3, 4, 6].iter().all(|k| traced[*k] > 0.5), "{traced:?}");
     let hole = 0.5 * 0.2 * whole;
     assert!(((whole - less) / hole - 1.0).abs() < 0.03, "{whole} {less}");
-    // Again and again: as many holes as copies.
+    // In repeat mode, every copy has its hole.
     let (repeated, _) = drawn(", mode = 'repeat'");
     assert!((repeated[away[0]] - 0.5).abs() < 0.02, "{repeated:?}");
 }
@@ -99,7 +100,7 @@ fn the_inside_of_a_picture_is_laid_round_a_bend() {
 #[test]
 fn a_picture_itself_is_laid_round_a_bend_and_is_once_in_the_file() {
     let (scene, camera) = ball();
-    // Half as dark below the middle as above it, and a hole in the upper half.
+    // Below the middle half as dark as above it, with a hole in the upper half.
     let picture = Picture::new("itself", [80, 20], |x, y| match (x, y) {
         (20..60, 4..8) => 255,
         (_, 10..) => 128,
@@ -110,7 +111,7 @@ fn a_picture_itself_is_laid_round_a_bend_and_is_once_in_the_file() {
     let [mark] = lines(&drawing)[..] else { panic!("one line") };
     assert!(matches!(mark.paint, Paint::Image(_)));
     let seen = Pixels::decode(&drawing.to_png(&PngOptions::default()).unwrap()).unwrap();
-    // The mean darkness of the circle so far from the middle.
+    // Mean darkness of the circle at a given distance from the line.
     let dark = |way: f64| {
         let at = |k: u32| {
             let angle = f64::from(k) / 720.0 * std::f64::consts::TAU;
@@ -120,13 +121,13 @@ fn a_picture_itself_is_laid_round_a_bend_and_is_once_in_the_file() {
         (0..720).map(at).sum::<f64>() / 720.0
     };
     let mut of = [-8.5, -4.0, 4.0, 8.5].map(dark);
-    // The line may run round either way.
+    // The line may run in either direction.
     if of[0] > of[3] {
         of.reverse();
     }
     let expected = [0.5, 0.5, 0.5, 1.0];
     assert!(of.iter().zip(expected).all(|(own, right)| (own - right).abs() < 0.03), "{of:?}");
-    // Many lines of few widths and one ink share it.
+    // Many lines with few widths and one ink share the image.
     let box_scene = pipeline::scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0))]);
     let camera = orthographic(DVec3::new(3.0, -5.0, 4.0), DVec3::ZERO, 4.0);
     let drawing = render(&box_scene, &camera, &style).unwrap();
@@ -136,14 +137,14 @@ fn a_picture_itself_is_laid_round_a_bend_and_is_once_in_the_file() {
 
 #[test]
 fn paint_ends_under_ink_however_dry_the_brush_is() {
-    // Bristles at both edges of the stroke and nothing between them.
+    // Bristles at both edges of the stroke, nothing between them.
     let picture = Picture::new("bare", [64, 32], |_, y| if (6..26).contains(&y) { 255 } else { 0 });
     let scene = pipeline::scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0))]);
     let camera = orthographic(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO, 4.0);
     let bare = |sets: &[&str]| {
         let drawing = render(&scene, &camera, &picture.style("", sets)).unwrap();
         let inked = |p: Point| lines(&drawing).iter().any(|mark| mark.path.winding(p) != 0);
-        // Along the upper edge of the face, which is 500 px long, not near its corners.
+        // Along the 500 px upper edge of the face, away from its corners.
         let at = |k: i32, y: f64| Point::new(500.0 + f64::from(k), 250.0 + y);
         let count = |y: f64| (-200..200).filter(|k| !inked(at(*k, y))).count();
         [count(0.0), count(0.2), count(-0.2), count(3.0), count(-3.0), count(8.5), count(-8.5)]
@@ -151,7 +152,7 @@ fn paint_ends_under_ink_however_dry_the_brush_is() {
     assert!(bare(&[])[0] > 390, "the measure sees paper");
     let painted = bare(&["fills.enabled=true"]);
     assert_eq!(painted[..3], [0; 3], "{painted:?}");
-    // Beside the border the paper between bristles stays, and bristles are where they were.
+    // Away from the border, paper shows between the bristles and the bristles stay in place.
     assert!(painted[3] > 390 && painted[4] > 390 && painted[5] == 0 && painted[6] == 0, "{painted:?}");
 }
 
@@ -165,6 +166,6 @@ fn large_and_ragged_pictures_are_as_fine_as_the_page_can_show() {
     let picture = Picture::new("ragged", [2048, 256], dice);
     let drawing = render(&scene, &camera, &picture.style("", &["pen.silhouette.width=6"])).unwrap();
     let count: usize = lines(&drawing).iter().map(|mark| mark.path.elements().len()).sum();
-    // 1571 px by 6: nine pixels of the picture each, of which a speck has at least three.
+    // The stroke covers 1571 by 6 px. With nine picture samples a pixel, and at least three samples a speck.
     assert!(count > 100 && count < 60_000, "{count}");
 }

@@ -1,4 +1,5 @@
-//! Lines that leave the frame: full ink up to its border, and none beyond.
+//! Lines that leave the frame keep their full width up to the border and have no ink outside it; tested
+//! against computed widths and bounds.
 
 use glam::DVec3;
 use kurbo::{BezPath, Point, Rect, Shape};
@@ -27,18 +28,19 @@ fn tapers_lie_past_the_border() {
     let style = style(&["pen.swell.taper=40"]);
     let marks = framed(&[chain(&[(0.0, 50.0), (120.0, 50.0)], [1.0; 2])], &style);
     let mark = &marks[0];
-    // At the border it has its width; at the other end it tapers as ever.
+    // The line has its full width at the border and tapers as usual at the other end.
     for x in [0.3, 5.0, 40.0, 79.0] {
         assert!((width_at(mark, x, 50.0) - 4.0).abs() < 0.15, "{x}: {}", width_at(mark, x, 50.0));
     }
-    // 5 px from that end, an eighth of the taper: it goes from a fifth of the width at the end to all of it, eased.
+    // 5 px from that end is an eighth of the taper. The width eases from a fifth at the end to the full
+    // width.
     let eased = 4.0 * (0.2 + 0.8 * 0.125 * (2.0 - 0.125));
     assert!((width_at(mark, 115.0, 50.0) - eased).abs() < 0.15, "{}", width_at(mark, 115.0, 50.0));
     assert!(is_inside(&mark.path) && is_inside(axis(mark)));
     assert!((length(axis(mark)) - 120.0).abs() < 0.01);
     let mean = mark.path.area().abs() / 120.0;
     assert!((outline(mark).width - mean).abs() < 0.05, "{} {mean}", outline(mark).width);
-    // A line that ends inside, however near, is none that leaves.
+    // A line that ends inside the frame tapers, even close to the border.
     let near = framed(&[chain(&[(0.5, 50.0), (120.0, 50.0)], [1.0; 2])], &style);
     assert!(width_at(&near[0], 1.5, 50.0) < 1.0);
 }
@@ -46,11 +48,12 @@ fn tapers_lie_past_the_border() {
 #[test]
 fn the_border_cuts_slanted_lines_straight() {
     let style = style(&["pen.swell.taper=30", "pen.width=8"]);
-    // From the left border to the lower one.
+    // From the left border to the lower border.
     let marks = framed(&[chain(&[(0.0, 40.0), (90.0, 100.0)], [1.0; 2])], &style);
     let mark = &marks[0];
     assert!(is_inside(&mark.path));
-    // Ink meets both borders all over the width of the line: 8 px over the cosine of its angle to them.
+    // Ink meets both borders over the full width of the line: 8 px divided by the cosine of its angle to
+    // them.
     let long = (90.0_f64 * 90.0 + 60.0 * 60.0).sqrt();
     let dark = |from: Point, to: Point| {
         (0..2000).filter(|k| mark.path.winding(from.lerp(to, f64::from(*k) / 2000.0)) != 0).count() as f64
@@ -97,7 +100,7 @@ fn tips_of_brushes_lie_past_the_border() {
 
 #[test]
 fn motion_lines_that_run_out_end_at_the_border() {
-    // The picture is 10 units wide; the way began 12 units to the left.
+    // The picture is 10 units wide; the motion began 12 units to the left.
     let model = rigged(vec![unit_box()], vec![going(0, DVec3::X * 12.0)]);
     let changes = ["motion.taper=1", "motion.width=9", "motion.segments=100", "motion.speed=1"];
     let own = crate::support::scenes::moving_boxes::style(&changes);

@@ -1,5 +1,5 @@
-//! Lines with a hand: widths that swell and taper, tremor, overshoot, breaks, passes and brushes, against what geometry says of
-//! single lines.
+//! Hand-drawn effects on single lines, tested against closed forms: swell, taper, tremor, overshoot, breaks,
+//! passes and brushes.
 
 use crate::support::measures::stroke_marks::{
     axis, chain, circle, distance, length, marks, outline, places, style, width_at,
@@ -20,9 +20,9 @@ fn tapered_ends_fall_as_they_should() {
         let width = width_at(&drawn[0], x, 50.0);
         assert!((width - wanted).abs() < 0.12, "{x}: {width}, not {wanted}");
     }
-    // A mean of 1/3 is lost of the 3/4 at 2 times 40 of 200.
+    // The mean loss is 1/3 of the 3/4, over 2 times 40 px of 200 px.
     assert!((outline(&drawn[0]).width - 4.0 * (1.0 - 0.75 / 3.0 * 0.4)).abs() < 0.02);
-    // Lines that are too short taper over their half; closed ones do not.
+    // Lines that are too short taper over half their length; closed lines do not taper.
     let short = marks(&[chain(&[(0.0, 50.0), (40.0, 50.0)], [1.0; 2])], &style);
     assert!((width_at(&short[0], 20.0, 50.0) - 4.0).abs() < 0.1);
     assert!((width_at(&short[0], 10.0, 50.0) - 4.0 * (0.25 + 0.75 * 0.75)).abs() < 0.15);
@@ -35,13 +35,13 @@ fn lines_that_go_on_do_not_taper_where_they_are_joined() {
     let first = chain(&[(0.0, 50.0), (100.0, 50.0)], [1.0; 2]);
     let mut second = chain(&[(100.0, 50.0), (200.0, 52.0)], [1.0; 2]);
     second.kind = LineKind::Border;
-    // One that leaves at a right angle is not the same line.
+    // A line that leaves at a right angle does not continue the first.
     let third = chain(&[(100.0, 50.0), (100.0, 150.0)], [1.0; 2]);
     let drawn = marks(&[first, second, third], &style);
     let level = drawn.iter().find(|mark| mark.path.winding(Point::new(50.0, 50.0)) != 0).unwrap();
     assert!((width_at(level, 95.0, 50.0) - 4.0).abs() < 0.1);
     assert!(width_at(level, 5.0, 50.0) < 3.0);
-    // Lines of unlike width meet half-way.
+    // Continuing lines of different widths meet at the mean width.
     let thin = self::style(&["pen.swell.taper=30", "pen.border.width=2"]);
     let [first, mut second] =
         [(0.0, 100.0), (100.0, 200.0)].map(|(a, b)| chain(&[(a, 50.0), (b, 50.0)], [1.0; 2]));
@@ -74,14 +74,15 @@ fn widths_follow_depth_light_gap_and_bends() {
     for (x, light) in [(50.0, 0.25), (100.0, 0.5), (150.0, 0.75)] {
         let darker = width_at(&marks(std::slice::from_ref(&lit), &style(&["pen.swell.lit=0.6"]))[0], x, 50.0);
         assert!((darker - 4.0 * (1.0 - 0.6 * light)).abs() < 0.1, "{x}: {darker}");
-        // By light and distance together it is the product.
+        // Light and depth multiply.
         let sets = style(&["pen.swell.lit=0.6", "pen.swell.near=0.5"]);
         let both = width_at(&marks(std::slice::from_ref(&lit), &sets)[0], x, 50.0);
         assert!((both - 4.0 * (1.0 - 0.6 * light) * (1.0 - 0.5 * x / 200.0)).abs() < 0.1, "{x}: {both}");
         let deeper = width_at(&marks(std::slice::from_ref(&lit), &style(&["pen.swell.gap=0.6"]))[0], x, 50.0);
         assert!((deeper - 4.0 * (1.0 - 0.6 * (1.0 - light))).abs() < 0.1, "{x}: {deeper}");
     }
-    // A circle bends out all round: x/(1 + x) with x the radius of half effect over its own.
+    // A circle is convex everywhere. The factor grows with x/(1 + x), where x is `bend_radius` divided by the
+    // radius.
     let bend = style(&["pen.swell.bend=0.6", "pen.swell.bend_radius=50"]);
     for radius in [25.0, 50.0, 100.0] {
         let mark = &marks(&[circle(radius)], &bend)[0];
@@ -92,7 +93,7 @@ fn widths_follow_depth_light_gap_and_bends() {
         let area = TAU * radius * wanted;
         assert!((mark.path.area().abs() - area).abs() < 0.01 * area, "{}", mark.path.area());
     }
-    // With the shape outside of it, it bends in.
+    // With the shape on the outer side, the circle is concave.
     let mut hole = circle(50.0);
     hole.samples.iter_mut().for_each(|sample| sample.side = 1.0);
     let Paint::Outline(OutlinePaint { width, .. }) = marks(&[hole], &bend)[0].paint else { panic!() };
@@ -119,7 +120,7 @@ fn tremor_stays_within_its_amplitude_and_seeds_change_nothing_else() {
                 assert!(away < 3.0 + 0.1, "{away}");
                 greatest = greatest.max(away);
             }
-            // Ends and corners stay.
+            // Ends and corners do not move.
             for p in chain.points.iter().filter(|_| !chain.closed) {
                 assert!(distance(axis(mark), *p) < 0.15, "{p:?}");
             }
@@ -152,12 +153,12 @@ fn ends_run_on_and_passes_stray_no_farther_than_told() {
         }
         assert_ne!(sketched[1].path, sketched[2].path);
     }
-    // Where a surface covers the end, the line does not run on over it.
+    // Where a surface covers the end, the line does not overshoot.
     let mut covered = line.clone();
     covered.covered = [true, false];
     let drawn = marks(&[covered], &style(&["pen.hand.overshoot=12"]));
     assert!((axis(&drawn[0]).bounding_box().x0 - 100.0).abs() < 1e-6);
-    // At a corner the pen is lifted.
+    // The pen is lifted at corners.
     let corner = chain(&[(0.0, 0.0), (100.0, 0.0), (100.0, 100.0)], [1.0; 2]);
     let drawn = marks(&[corner], &style(&["pen.hand.overshoot=12"]));
     assert_eq!(drawn.len(), 2);
@@ -172,7 +173,7 @@ fn breaks_are_as_many_as_their_mean_distance_says() {
             marks(std::slice::from_ref(&line), &style(&["pen.hand.breaks=100", &format!("seed={seed}")]));
         assert_eq!(drawn.len(), 11);
         let inked: f64 = drawn.iter().map(|mark| length(axis(mark))).sum();
-        // Gaps of 3 px, give or take 40 percent.
+        // Gaps of 3 px, plus or minus 40 percent.
         assert!((1000.0 - 10.0 * 3.0 * 1.4..=1000.0 - 10.0 * 3.0 * 0.6).contains(&inked), "{inked}");
     }
     let ring = marks(&[circle(100.0)], &style(&["pen.hand.breaks=100"]));
@@ -190,16 +191,17 @@ fn farther_lines_break_off_before_nearer_ones() {
         let drawn = marks(&[near.clone(), far], &style);
         assert_eq!(drawn.len(), 3, "{degrees}");
         let inked: f64 = drawn.iter().map(|mark| length(axis(mark))).sum();
-        // Half the width and the halo, to both sides, along the line.
+        // Half the line width plus the halo on both sides, measured along the crossing line.
         let gap = 2.0 * (2.0 + 5.0) / s;
         assert!((inked - (200.0 + 180.0 - gap)).abs() < 0.01, "{degrees}: {inked}");
     }
-    // Hidden lines break off as well.
+    // Hidden lines are interrupted as well.
     let mut hidden = chain(&[(100.0, 10.0), (100.0, 190.0)], [2.0; 2]);
     hidden.invisibility = 1;
     let drawn = marks(&[near.clone(), hidden], &self::style(&["pen.halo=5", "lines.hidden=solid"]));
     assert_eq!(drawn.len(), 3);
-    // A T-junction backs off; a line that meets the other one in space does not, however steeply it recedes.
+    // A line that ends at a T-junction leaves a gap. A line that meets the other in space leaves none,
+    // however steeply it recedes.
     let below = chain(&[(100.0, 100.0), (100.0, 180.0)], [2.0; 2]);
     let inked: f64 = marks(&[near.clone(), below], &style).iter().map(|mark| length(axis(mark))).sum();
     assert!((inked - (280.0 - 7.0)).abs() < 0.01, "{inked}");
@@ -214,7 +216,7 @@ fn farther_lines_break_off_before_nearer_ones() {
 
 #[test]
 fn brushes_are_laid_along_lines() {
-    // A lozenge, twice as long as wide, once over the line and again and again.
+    // A rhombus twice as long as wide: stretched once over the line, then repeated along it.
     let lozenge = "path=\"M0 5L10 0L20 5L10 10Z\"";
     let line = chain(&[(0.0, 50.0), (200.0, 50.0)], [1.0; 2]);
     let stretched = marks(std::slice::from_ref(&line), &style(&[&format!("pen.brush={{{lozenge}}}")]));
@@ -227,7 +229,7 @@ fn brushes_are_laid_along_lines() {
     for k in 0..10 {
         assert!((width_at(&repeated[0], 20.0 * f64::from(k) + 10.0, 50.0) - 4.0).abs() < 0.1);
     }
-    // Round a circle a whole number of copies, the last of which ends where the first begins.
+    // A circle takes a whole number of copies, and the last ends where the first begins.
     let around =
         marks(&[circle(50.0)], &style(&[&format!("pen.brush={{{lozenge}, mode=\"repeat\", length=20}}")]));
     let path = &around[0].path;
@@ -242,7 +244,7 @@ fn brushes_are_laid_along_lines() {
 
 #[test]
 fn pictures_of_strokes_are_brushes() {
-    // 8 by 8 pixels: four columns dark over the whole height, four only in the upper half.
+    // An image of 8 by 8 pixels: four columns dark over the full height, four only in the upper half.
     let dark = |x: u32, y: u32| x < 4 || y < 4;
     let pixels: Vec<u8> = (0..64).map(|k| if dark(k % 8, k / 8) { 0 } else { 255 }).collect();
     let folder = std::env::temp_dir().join(format!("ligne-brush-{}", std::process::id()));

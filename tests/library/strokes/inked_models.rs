@@ -1,4 +1,5 @@
-//! Lines with a hand as models have them: light, background, a moving eye, units, seeds, and paint that they cover.
+//! Hand-drawn lines on models: light, depth gaps, camera moves, page units, seeds and covered fill borders,
+//! against closed forms and plain drawings.
 
 use crate::support::measures::stroke_marks::{
     axis, chain, circle, context, distance, length, marks, outline, places, style,
@@ -30,7 +31,7 @@ fn the_outline_of_a_ball_is_thick_away_from_the_light() {
     let [mark] = lines(&drawing) else { panic!("{} lines", lines(&drawing).len()) };
     let outline = outline(mark);
     assert!(outline.pen_width == 4.0 && outline.width < 4.0);
-    // The frame is 1000 px wide, the ball 2000/3.
+    // The frame is 1000 px wide and the ball 2000/3 px.
     let at = |x: f64| {
         let dark = |k: i32| mark.path.winding(Point::new(x + f64::from(k) * 0.05, 500.0)) != 0;
         f64::from((-120..120).filter(|k| dark(*k)).count() as i32) * 0.05
@@ -42,7 +43,7 @@ fn the_outline_of_a_ball_is_thick_away_from_the_light() {
 
 #[test]
 fn outlines_before_background_are_thicker_than_those_before_what_is_near() {
-    // A small ball a little above a plate that is larger than it.
+    // A small ball slightly above a larger plate.
     let solids = [sphere(48, 0.5), cuboid(DVec3::new(-2.0, -2.0, -0.8), DVec3::new(2.0, 2.0, -0.6))];
     let camera = orthographic(DVec3::new(0.0, 0.0, 5.0), DVec3::ZERO, 5.0);
     let drawing = render(&scene(solids), &camera, &style(&["pen.swell.gap=0.7"])).unwrap();
@@ -54,7 +55,7 @@ fn outlines_before_background_are_thicker_than_those_before_what_is_near() {
         Paint::Fill(_) | Paint::Gradient(_) | Paint::Image(_) => 0.0,
     };
     assert!(!inner.is_empty() && !outer.is_empty());
-    // The frame is 5 across, and 0.6 lie between.
+    // The frame is 5 units wide and the depth gap is 0.6.
     let wanted = 4.0 * (1.0 - 0.7 * (1.0 - 0.6 / (0.2 * 5.0)));
     assert!(inner.iter().all(|mark| (width(mark) - wanted).abs() < 0.1), "{} {wanted}", width(inner[0]));
     assert!(outer.iter().all(|mark| (width(mark) - 4.0).abs() < 0.1));
@@ -85,7 +86,7 @@ fn the_hand_lasts_while_the_eye_moves() {
 #[test]
 fn closed_lines_are_cut_as_open_ones_are() {
     let square = chain(&[(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0), (0.0, 0.0)], [2.0; 2]);
-    // The pen is lifted at each corner, also at the seam.
+    // The pen is lifted at each corner, including the start of the closed line.
     let lifted = marks(std::slice::from_ref(&square), &style(&["pen.hand.overshoot=10"]));
     assert_eq!(lifted.len(), 4);
     for mark in &lifted {
@@ -93,7 +94,7 @@ fn closed_lines_are_cut_as_open_ones_are() {
     }
     let broken = marks(std::slice::from_ref(&square), &style(&["pen.hand.breaks=100", "pen.hand.tremor=1"]));
     assert_eq!(broken.len(), 4);
-    // A halo over the seam, and one elsewhere.
+    // A halo over the start of the closed line, and one elsewhere.
     for x in [0.0, 50.0] {
         let near = chain(&[(x - 30.0, -30.0), (x + 30.0, 30.0)], [1.0; 2]);
         let drawn = marks(&[square.clone(), near], &style(&["pen.halo=5"]));
@@ -102,14 +103,14 @@ fn closed_lines_are_cut_as_open_ones_are() {
         let gap = 2.0 * 7.0 * 2.0_f64.sqrt();
         assert!((inked - (400.0 + 60.0 * 2.0_f64.sqrt() - gap)).abs() < 0.02, "{x}: {inked}");
     }
-    // With a hand and a swell its corners stay where they are.
+    // With tremor and swell, its corners do not move.
     let mut lit = square;
     lit.samples.iter_mut().for_each(|sample| sample.light = 0.5);
     let drawn = marks(&[lit], &style(&["pen.hand.tremor=2", "pen.swell.lit=0.5"]));
     let [mark] = &drawn[..] else { panic!() };
     for corner in [(0.0, 0.0), (100.0, 0.0), (100.0, 100.0), (0.0, 100.0)] {
         assert!(distance(axis(mark), corner.into()) < 0.01);
-        // Round joints of a line of 3.
+        // Round joins of a line 3 px wide.
         let out = |c: f64| c + if c > 50.0 { 1.4 } else { -1.4 } * std::f64::consts::FRAC_1_SQRT_2;
         assert_ne!(mark.path.winding(Point::new(out(corner.0), out(corner.1))), 0);
     }
@@ -180,13 +181,14 @@ fn another_seed_changes_the_hand_and_nothing_else() {
             assert_ne!(a.marks, b.marks);
         }
     }
-    // Without a hand it changes nothing at all.
+    // Without hand-drawn effects, the seed changes nothing.
     let plain = ["seed=0", "seed=5"]
         .map(|seed| render(&model, &camera, &style(&["pen.swell.taper=20", seed])).unwrap());
     assert_eq!(plain[0].layers, plain[1].layers);
 }
 
-/// How many places on borders of paint have a line on them, and those that lines with a hand leave bare.
+/// Returns the number of samples on fill borders that carry a line, and the samples that hand-drawn lines
+/// leave uncovered.
 fn bare(model: &Scene, camera: &Camera) -> (usize, Vec<Point>) {
     let sets = [
         "fills.enabled=true",
@@ -233,7 +235,7 @@ fn lines_cover_the_borders_of_painted_models() {
         let model = Scene::open(format!("{}/examples/models/{name}", env!("CARGO_MANIFEST_DIR"))).unwrap();
         let (asked, bare) = bare(&model, &camera(&model));
         assert!(asked > 500, "{name}: {asked}");
-        // Where a contour ends, what is painted goes on along edges of the mesh.
+        // Where a contour ends, the fill border continues along mesh edges.
         assert!(
             100 * bare.len() <= asked,
             "{name}: {} of {asked}: {:?}",
@@ -245,7 +247,7 @@ fn lines_cover_the_borders_of_painted_models() {
 
 #[test]
 fn no_paper_shows_between_paint_and_a_brush_that_strays() {
-    // A bow beside the axis, and a leaf that is thin at its ends.
+    // A bow next to the axis, and a leaf with thin ends.
     let bow = "path=\"M0 0C30 2 60 2 100 0C60 6 30 6 0 0M50 9L51 10L50 10Z\"";
     let leaf = "path=\"M0 5C30 -1 60 -1 100 5C60 9 30 9 0 5Z\"";
     let line = chain(&[(0.0, 50.0), (200.0, 50.0)], [1.0; 2]);
@@ -255,7 +257,7 @@ fn no_paper_shows_between_paint_and_a_brush_that_strays() {
             marks(std::slice::from_ref(&line), &style(&[&[brush.as_str(), "pen.width=10"], more].concat()));
         let path = &drawn[0].path;
         let inked = |x: f64, y: f64| path.winding(Point::new(x, y)) != 0;
-        // Paint ends at 50: whatever ink there is on one side has none of it between.
+        // The fill ends at y = 50. Ink on either side must leave no gap to it.
         let is_open = |x: f64| {
             let ys: Vec<f64> = (-120..=120).map(|k| 50.0 + f64::from(k) * 0.05).collect();
             let own = |y: &f64| inked(x, *y);
@@ -296,7 +298,7 @@ fn shades_follow_what_is_beside_the_line() {
         .collect();
     let [(red, from, border), (blue, again, to)] = found[..] else { panic!("{found:?}") };
     assert_eq!((red, blue), (Colour::rgb(100, 0, 0), Colour::rgb(0, 0, 50)));
-    // Round at its ends, straight where its ink changes.
+    // Round at its ends, cut straight where the ink changes colour.
     assert!((from + 2.0).abs() < 0.2 && (to - 202.0).abs() < 0.2, "{found:?}");
     assert!((border - 95.0).abs() < 1.0 && (again - border).abs() < 0.01, "{found:?}");
 }

@@ -1,11 +1,11 @@
-//! Widths by chance: each line has its own, within what the style says, and the seed decides.
+//! Random line widths: each line has its own width within the range of the style, and the seed decides it.
 
 use ligne::drawing::{LayerKind, Paint};
 use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 
-/// The mean width of each line of a drawing with pens of 2 px and no taper.
+/// Returns the mean width of each line of a drawing with 2 px pens and no taper.
 fn widths(sets: &[&str]) -> Vec<f64> {
     let scene = Scene::open("examples/models/gear.obj").unwrap();
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
@@ -29,7 +29,7 @@ fn each_line_loses_some_of_its_width_by_chance() {
     assert!(even.len() > 30 && even.iter().all(|width| (width - 2.0).abs() < 1e-9));
     let uneven = widths(&["pen.swell.chance=0.6"]);
     assert_eq!(uneven.len(), even.len());
-    // Lines that go on in each other meet in one width, so ends may be a little thinner or thicker than the line.
+    // Lines that continue each other meet in one width, so their ends may be slightly thinner or thicker.
     assert!(uneven.iter().all(|width| (0.79..=2.001).contains(width)), "{uneven:?}");
     let (thin, thick) = uneven.iter().partition::<Vec<f64>, _>(|width| **width < 1.4);
     assert!(thin.len() > even.len() / 5 && thick.len() > even.len() / 5, "{uneven:?}");

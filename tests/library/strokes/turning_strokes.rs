@@ -1,4 +1,5 @@
-//! Strokes chosen by the turn to the next: straight, leftward, rightward (Lake et al. 2000, equation 3).
+//! Brush shapes chosen by the turn to the next segment: straight, left or right (Lake et al. 2000, equation
+//! 3). Inked areas are the reference.
 
 use glam::DVec3;
 use kurbo::Shape;
@@ -12,7 +13,8 @@ use crate::support::scenes::solids::{cuboid, sphere};
 const BOX: &str = "M0 0H10V10H0Z";
 const WEDGE: &str = "M0 0L10 5L0 10Z";
 
-/// The area of all that is drawn, with a brush of boxes but where lines turn.
+/// Returns the inked area of a drawing with a box brush for straight pieces, and the given shapes for left
+/// and right turns.
 fn inked(scene: &Scene, camera: &Camera, left: &str, right: &str, turn: f64) -> f64 {
     let brush = format!(
         "pen.brush={{ path = '{BOX}', left = '{left}', right = '{right}', turn = {turn}, mode = 'repeat', length = 20 }}"
@@ -34,18 +36,18 @@ fn a_ring_turns_one_way_all_round_and_straight_lines_do_not_turn() {
     let camera = orthographic(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO, 20.0);
     let plain = inked(&ball, &camera, BOX, BOX, 5.0);
     let (left, right) = (inked(&ball, &camera, WEDGE, BOX, 5.0), inked(&ball, &camera, BOX, WEDGE, 5.0));
-    // A circle of radius 50 px: pieces of 20 px turn by 23 degrees each.
+    // On a circle of radius 50 px, consecutive pieces of 20 px turn by 23 degrees.
     let (turned, other) = (left.min(right), left.max(right));
     assert!(
         (other / plain - 1.0).abs() < 1e-9 && (turned / plain - 0.5).abs() < 0.03,
         "{plain} {left} {right}"
     );
-    // Turns of less than asked for are none.
+    // Turns below the threshold count as straight.
     assert!((inked(&ball, &camera, WEDGE, WEDGE, 40.0) / plain - 1.0).abs() < 1e-9);
     let solid = pipeline::scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0))]);
     let front = orthographic(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO, 4.0);
     let straight = inked(&solid, &front, WEDGE, WEDGE, 5.0) / inked(&solid, &front, BOX, BOX, 5.0);
-    // Four corners, at which one piece each turns to the next.
+    // At each of the four corners, one piece turns to the next.
     assert!(straight > 0.9 && straight < 1.0, "{straight}");
 }
 
@@ -55,7 +57,7 @@ fn turns_may_be_files_and_pictures() {
     let camera = orthographic(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO, 20.0);
     let folder = std::env::temp_dir().join(format!("ligne-turns-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
-    // The wedge as a file; a picture of which the upper half is ink, and one with a hole.
+    // The wedge as an SVG file, a picture with ink in its upper half, and a picture with a hole.
     std::fs::write(
         folder.join("wedge.svg"),
         format!("<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 10 10'><path d='{WEDGE}'/></svg>"),

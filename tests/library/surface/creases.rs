@@ -1,4 +1,5 @@
-//! Creases: chains of sharp edges that stand out from the noise around them.
+//! Creases are chains of sharp edges that stand out from the noise around them; tested on solids with known
+//! edges, with and without noise.
 
 use crate::support::readers::shared_folder;
 use crate::support::scenes::random_dice::Dice;
@@ -19,20 +20,20 @@ fn find(mesh: &Mesh) -> HardEdges {
     HardEdges::find(mesh, CREASE_DEG)
 }
 
-/// The ends of the hard edges.
+/// Returns the ends of the hard edges.
 fn ends(mesh: &Mesh, hard: &HardEdges) -> Vec<[DVec3; 2]> {
     let of = |e: usize| mesh.edges.vertices[e].map(|v| mesh.positions[v as usize] + mesh.origin);
     (0..mesh.edges.len()).filter(|e| hard.is_hard(*e)).map(of).collect()
 }
 
-/// A number from −1 to 1 that belongs to a place.
+/// A pseudo-random number from −1 to 1 that depends only on the position.
 fn chance(p: DVec3) -> f64 {
     let bits = p.to_array().map(|x| ((x * 4096.0).round() as i64) as u64);
     let seed = bits.iter().fold(7u64, |h, b| (h ^ b).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29));
     Dice::new(seed).between(-1.0, 1.0)
 }
 
-/// A box from −1 to 1 whose sides are grids of `n` by `n` squares.
+/// A box from −1 to 1 with sides of `n` by `n` squares.
 fn fine_box(n: i32) -> Solid {
     let mut solid = Solid::default();
     let step = |i: i32| 2.0 * f64::from(i) / f64::from(n) - 1.0;
@@ -55,7 +56,7 @@ fn fine_box(n: i32) -> Solid {
     solid
 }
 
-/// A sphere of radius 1: an octahedron each of whose triangles is cut in four, `cuts` times.
+/// A sphere of radius 1: an octahedron whose triangles are split into four, `cuts` times.
 fn octasphere(cuts: u32) -> Solid {
     let mut corners: Vec<[DVec3; 3]> = Vec::new();
     for i in 0..8 {
@@ -76,8 +77,7 @@ fn octasphere(cuts: u32) -> Solid {
     }
 }
 
-/// A roof of `n` bays whose ridge is the x axis; the surface turns by `turn_deg(i)` degrees at
-/// post `i`.
+/// A roof of `n` bays with its ridge on the x axis. At post `i`, the surface turns by `turn_deg(i)` degrees.
 fn roof(n: u32, turn_deg: impl Fn(u32) -> f64) -> Solid {
     let mut solid = Solid::default();
     for i in 0..=n {
@@ -96,7 +96,7 @@ fn roof(n: u32, turn_deg: impl Fn(u32) -> f64) -> Solid {
     solid
 }
 
-/// Numbers of the bays of a roof whose ridge is hard; asserts that no other edge is.
+/// Returns the bays of a roof with a hard ridge, sorted. Panics if any other edge is hard.
 fn hard_bays(mesh: &Mesh) -> Vec<usize> {
     let ridge = |p: &DVec3| p.y.abs() < 1e-9 && p.z.abs() < 1e-9;
     let mut bays = Vec::new();
@@ -112,7 +112,7 @@ fn hard_bays(mesh: &Mesh) -> Vec<usize> {
 fn solids_of_flat_faces_keep_every_edge() {
     let cube = mesh(cuboid(DVec3::NEG_ONE, DVec3::ONE));
     assert_eq!(find(&cube).count(), 12);
-    // Not by more than a right angle, and nothing that turns by less is sharp enough to begin with.
+    // All edges turn by exactly a right angle, so none exceeds it.
     assert!(HardEdges::find(&cube, 90.0).is_empty());
 
     let tetrahedron = Solid {
@@ -121,7 +121,7 @@ fn solids_of_flat_faces_keep_every_edge() {
     };
     assert_eq!(find(&mesh(tetrahedron)).count(), 6);
 
-    // Two pyramids of twelve sides, base to base: only the rim is sharp.
+    // Two pyramids of twelve sides, base to base. Only the rim is sharp.
     let mut bicone = tube(12, 1, 1.0, 0.0);
     bicone.positions.truncate(24);
     let rim = |i: u32| 2 * (i % 12);
@@ -171,14 +171,14 @@ fn a_cylinder_of_twelve_sides_has_two_rims() {
 #[test]
 fn noise_is_no_crease() {
     for (cuts, height) in [(3, 0.3), (4, 0.25), (5, 0.22), (6, 0.22), (5, 0.3), (6, 0.3)] {
-        // Heights are told as parts of the length of an edge.
+        // Heights are relative to the edge length.
         let edge = 1.4 / f64::from(1 << cuts);
         let bumpy = mesh(octasphere(cuts).moved(|p| p * (1.0 + height * edge * chance(p))));
         let sharp = HardEdges::above(&bumpy, CREASE_DEG).count();
         let hard = find(&bumpy).count();
         println!("{sharp} of {} edges are sharp, {hard} hard", bumpy.edges.len());
         assert!(sharp > 0);
-        // Where one edge in forty is sharp, chance alone makes a few long lines.
+        // If one edge in forty is sharp, noise alone makes a few long lines.
         let most = if height < 0.3 { 0 } else { sharp / 20 };
         assert!(hard <= most, "{hard} of {sharp} sharp edges");
     }
@@ -187,7 +187,7 @@ fn noise_is_no_crease() {
 #[test]
 fn the_edges_of_a_noisy_box_hold_together() {
     let n = 24;
-    // Turns of about seven degrees on its sides, and some of more than forty.
+    // Turns of about seven degrees on the sides, and some of more than forty.
     let noise = |p: DVec3| DVec3::new(chance(p), chance(p * 2.0), chance(p * 3.0)) * 0.012;
     let rough = fine_box(n).moved(|p| p + noise(p));
     let rough = mesh(rough);
@@ -200,17 +200,17 @@ fn the_edges_of_a_noisy_box_hold_together() {
 
 #[test]
 fn a_crease_that_dips_below_the_threshold_is_one_chain() {
-    // Turns of `high` degrees that go down to `low` in the middle.
+    // Turns of `high` degrees that fall to `low` in the middle.
     let dip = |low: f64, high: f64| {
         mesh(roof(40, move |i| low + (high - low) * (f64::from(i.abs_diff(20)) / 10.0).min(1.0)))
     };
     let dips = dip(25.0, 60.0);
     assert!(HardEdges::above(&dips, CREASE_DEG).count() < 35);
     assert_eq!(hard_bays(&dips), (0..40).collect::<Vec<_>>());
-    // Below the low threshold it ends.
+    // Below the low threshold, the crease ends.
     let bays = hard_bays(&dip(5.0, 60.0));
     assert!(bays.len() > 28 && bays.len() < 37, "{bays:?}");
-    // And without one sharp edge there is none.
+    // Without any sharp edge, there is no crease.
     assert!(hard_bays(&mesh(roof(30, |_| 35.0))).is_empty());
 }
 
@@ -223,7 +223,7 @@ fn a_crease_that_fades_ends_once() {
     assert!(bays.len() >= sharp + 5 && bays.len() <= 35, "{} of 40 bays, {sharp} sharp", bays.len());
 }
 
-/// A house under such a roof, whose walls and gables are flat: as programs make it, and not a scan.
+/// A house under such a roof, with flat walls and gables as in a CAD model.
 fn house(n: u32, turn_deg: impl Fn(u32) -> f64) -> Mesh {
     let mut solid = roof(n, turn_deg);
     let eaves = |i: u32| [3 * i + 1, 3 * i + 2];
@@ -246,7 +246,7 @@ fn house(n: u32, turn_deg: impl Fn(u32) -> f64) -> Mesh {
     mesh(solid)
 }
 
-/// Numbers of the bays whose ridge is drawn, and of those whose ridge turns by more than a crease.
+/// Returns the bays with a drawn ridge, and the bays with a ridge above the crease angle.
 fn drawn_and_sharp(mesh: &Mesh) -> [Vec<usize>; 2] {
     let patches = Patches::new(mesh, CREASE_DEG, false);
     assert!(patches.figure.iter().all(|figure| !figure), "a house is no figure");
@@ -262,7 +262,7 @@ fn drawn_and_sharp(mesh: &Mesh) -> [Vec<usize>; 2] {
 #[test]
 fn a_crease_of_a_machined_part_goes_on_to_the_next_line() {
     let all: Vec<usize> = (0..24).collect();
-    // As far as the gable, and from dash to dash.
+    // The crease extends to the gable, and from dash to dash.
     let fading = house(24, |i| 60.0 - f64::from(i) * 1.1);
     let dashed = house(24, |i| if i % 4 < 2 { 48.0 } else { 34.0 });
     for mesh in [fading, dashed] {
@@ -270,7 +270,7 @@ fn a_crease_of_a_machined_part_goes_on_to_the_next_line() {
         assert!(sharp.len() < 20 && !sharp.is_empty(), "{sharp:?}");
         assert_eq!(drawn, all);
     }
-    // Where it fades away before it comes to another line it ends as it did.
+    // If it fades before it reaches another line, it is not extended.
     let [drawn, sharp] = drawn_and_sharp(&house(24, |i| 60.0 - f64::from(i) * 1.6));
     assert!(sharp.len() > 8 && sharp.len() < 16, "{sharp:?}");
     assert_eq!(drawn, sharp);
@@ -280,7 +280,7 @@ fn a_crease_of_a_machined_part_goes_on_to_the_next_line() {
 
 #[test]
 fn one_sharp_edge_counts_on_flat_ground_only() {
-    // A sheet of triangles with one ridge of a single edge, raised by a right angle.
+    // A sheet of triangles with one raised edge, which turns by a right angle.
     let sheet = |noise: f64| {
         let mut solid = Solid::default();
         for (i, j) in (0..20).flat_map(|i| (0..20).map(move |j| (i, j))) {
@@ -304,7 +304,7 @@ fn one_sharp_edge_counts_on_flat_ground_only() {
 fn marks_of_the_file_go_first() {
     let solid = cuboid(DVec3::NEG_ONE, DVec3::ONE);
     let mut edge_marks = vec![[EdgeMark::Unmarked; 3]; 12];
-    // The first face's sides are 0-2 and 2-3, edges of the cube, and 3-0, a diagonal.
+    // The sides of the first face are 0-2 and 2-3, edges of the cube, and 3-0, a diagonal.
     assert_eq!(solid.triangles[0], [0, 2, 3]);
     edge_marks[0] = [EdgeMark::Hidden, EdgeMark::Contour, EdgeMark::Hard];
     let soup = Soup { positions: solid.positions, triangles: solid.triangles, edge_marks, ..Soup::default() };
@@ -342,7 +342,7 @@ fn order_and_winding_do_not_matter() {
             let [a, b, c] = t.map(|v| place[v as usize]);
             if flip { [a, c, b] } else { [b, c, a] }
         };
-        // In the last round faces are wound at random.
+        // In the last round, faces are wound at random.
         let triangles: Vec<[u32; 3]> =
             rough.triangles.iter().map(|t| turned(t, seed == 3 && dice.below(2) == 0)).collect();
         let positions = order.iter().map(|i| rough.positions[*i]).collect();
@@ -351,7 +351,7 @@ fn order_and_winding_do_not_matter() {
     }
 }
 
-/// Hard edges at neither end of which another one goes on.
+/// Returns the number of hard edges that no other hard edge continues.
 fn loose(mesh: &Mesh, hard: &HardEdges) -> usize {
     let of = |e: &usize| hard.is_hard(*e);
     let mut degrees = vec![0u8; mesh.positions.len()];
@@ -364,7 +364,7 @@ fn loose(mesh: &Mesh, hard: &HardEdges) -> usize {
     (0..mesh.edges.len()).filter(of).filter(alone).count()
 }
 
-/// The mesh of a shared model with all sharp edges and those that are creases.
+/// Returns the mesh of a shared model, all its sharp edges, and its creases.
 fn shared(name: &str) -> Option<(Mesh, HardEdges, HardEdges)> {
     let scene = Scene::open(shared_folder::find(name)?).unwrap();
     let mesh = Mesh::build(scene.to_soup());

@@ -1,4 +1,5 @@
-//! Cylinders found in meshes: solids of known axes, what is none, and the surfaces that CAD sources name.
+//! Cylinders detected in meshes, compared with solids of known axes and with the cylindrical surfaces of STEP
+//! sources.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -15,7 +16,7 @@ use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::round_solids::icosphere;
 use crate::support::scenes::solids::{Solid, cuboid, sphere, torus};
 
-/// A pipe about the z axis from 0 to `height`; `inner` is its hole.
+/// A pipe around the z axis, from z = 0 to `height`. `inner` is the radius of its hole.
 fn pipe(corners: u32, outer: f64, inner: f64, height: f64) -> Solid {
     let mut solid = Solid::default();
     for k in 0..corners {
@@ -70,7 +71,7 @@ fn balls_rings_and_boxes_have_none() {
     }
 }
 
-/// The statements of a STEP file by number: name and arguments.
+/// Returns the statements of a STEP file by number, as name and arguments.
 fn statements(text: &str) -> BTreeMap<u32, (String, String)> {
     let of = |statement: &str| {
         let (number, rest) = statement.trim().strip_prefix('#')?.split_once('=')?;
@@ -81,7 +82,8 @@ fn statements(text: &str) -> BTreeMap<u32, (String, String)> {
     text.replace(['\n', '\r'], "").split(';').filter_map(of).collect()
 }
 
-/// The cylindrical surfaces of a STEP file of one part: a point of the axis, its direction, the radius; each once.
+/// Returns the distinct cylindrical surfaces of a single-part STEP file: axis point, axis direction and
+/// radius.
 fn told(text: &str) -> Vec<(DVec3, DVec3, f64)> {
     let all = statements(text);
     let references = |arguments: &str| -> Vec<u32> {
@@ -112,7 +114,8 @@ fn told(text: &str) -> Vec<(DVec3, DVec3, f64)> {
     found
 }
 
-/// The cylinders of a model: in the world where it is one part, else of each shape in its own frame, as STEP files have them.
+/// Returns the cylinders of a model. In assemblies, each shape is searched in its local frame, as in STEP
+/// files.
 fn of_model(path: &std::path::Path, is_assembly: bool) -> Vec<Cylinder> {
     let scene = Scene::open(path).expect("a model");
     if !is_assembly {

@@ -1,4 +1,5 @@
-//! Roundings of few steps that are narrow beside what they join: drawn as one edge, the line in their middle.
+//! Narrow fillets in few steps are drawn as one line along their middle; solids with known fillets are the
+//! reference.
 
 use std::f64::consts::TAU;
 
@@ -21,14 +22,14 @@ fn patches(solid: Solid) -> (Mesh, Patches) {
     (mesh, patches)
 }
 
-/// The ends of the middle edges of narrow roundings.
+/// Returns the ends of the middle edges of narrow fillets.
 fn middles(solid: Solid) -> Vec<[DVec3; 2]> {
     let (mesh, patches) = patches(solid);
     let ends = |edge: usize| mesh.edges.vertices[edge].map(|v| mesh.positions[v as usize] + mesh.origin);
     patches.roundings.iter().map(ends).collect()
 }
 
-/// A plate, one of whose corners is rounded in so many steps: its profile begins with the rounding.
+/// A plate with one corner rounded in `steps` steps. The profile begins with the fillet.
 fn plate(steps: u32, radius: f64) -> Vec<[f64; 2]> {
     let mut profile: Vec<[f64; 2]> = (0..=steps)
         .map(|k| TAU / 4.0 * f64::from(k) / f64::from(steps))
@@ -38,7 +39,7 @@ fn plate(steps: u32, radius: f64) -> Vec<[f64; 2]> {
     profile
 }
 
-/// The corners of its profile, by number, along which a bar has the middle of a narrow rounding.
+/// Returns the profile corners (by index) along which a bar has the middle line of a narrow fillet.
 fn drawn(profile: &[[f64; 2]]) -> Vec<usize> {
     let found = middles(bar(profile));
     let is_at = |p: DVec3, [x, y]: [f64; 2]| (p.x - x).abs().max((p.y - y).abs()) < 1e-9;
@@ -48,7 +49,8 @@ fn drawn(profile: &[[f64; 2]]) -> Vec<usize> {
 
 #[test]
 fn a_narrow_rounding_is_one_line_in_its_middle() {
-    // Of two steps the middle is a crease anyway; an odd number has none in the middle, and one beside the wider surface.
+    // With two steps the middle is a crease anyway. Odd numbers have no middle edge, so the edge nearer to
+    // the wider surface is used.
     assert_eq!([2, 3, 4, 5].map(|steps| drawn(&plate(steps, 0.3))), [vec![], vec![2], vec![2], vec![3]]);
 }
 
@@ -84,7 +86,8 @@ fn steps_of_other_widths_are_no_rounding() {
     assert!(drawn(&profile).is_empty());
 }
 
-/// A plate with a rounding in four steps, whose second corner lies farther along the arc by so much, but for one stretch of the plate.
+/// A plate with a fillet in four steps. The second corner is shifted by `by` along the arc, except between
+/// `from` and `to`.
 fn uneven(from: f64, to: f64, by: f64) -> Solid {
     const CHANGE: f64 = 0.6;
     let profile = plate(4, 0.3);
@@ -117,13 +120,13 @@ fn a_piece_of_a_middle_line_is_not_drawn() {
     assert!(length(uneven(2.0, 3.6, 0.0)) > 5.9, "a rounding that is the same all along");
 }
 
-/// A tube along a way of so many straight pieces, each turned by 30 degrees from the one before; the first and the last are long.
+/// A tube of straight pieces, each turned by 30 degrees. The first and last pieces are long.
 fn bent_tube(pieces: u32) -> Solid {
     const AROUND: u32 = 12;
     let (mut at, mut heading) = (DVec3::ZERO, 0.0f64);
     let mut solid = Solid::default();
     for k in 0..=pieces {
-        // Rings halve the turn between the pieces that they join.
+        // Each ring halves the turn between its two pieces.
         let across = heading - if k == 0 || k == pieces { 0.0 } else { TAU / 24.0 };
         let side = DVec3::new(-sin(across), cos(across), 0.0);
         let wider = if k == 0 || k == pieces { 1.0 } else { 1.0 / cos(TAU / 24.0) };
@@ -153,10 +156,11 @@ fn a_bend_of_a_tube_is_no_rounding() {
     assert!(middles(bent_tube(4)).is_empty());
 }
 
-/// A box all of whose edges are rounded in so many steps.
+/// A box with all edges rounded in `steps` steps.
 fn rounded_box(steps: u32) -> Solid {
     let quarter = |k: u32| TAU / 4.0 * f64::from(k) / f64::from(steps);
-    // Rings of latitude twice at the equator, and meridians twice at each quarter: apart by as much as the box is longer than a ball.
+    // Latitude rings are doubled at the equator and meridians at each quarter turn. The pairs are apart by
+    // the straight lengths of the box.
     let around: Vec<[f64; 3]> = (0..4)
         .flat_map(|q| {
             let [x, y] = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]][q];
@@ -186,12 +190,12 @@ fn rounded_box(steps: u32) -> Solid {
     solid
 }
 
-/// From above a corner, so that all that is in sight of a box are three sides.
+/// A view from above a corner that shows three sides of a box.
 fn from_a_corner() -> Camera {
     orthographic(DVec3::new(6.0, 8.0, 7.0), DVec3::ZERO, 4.5)
 }
 
-/// Where that camera has the corner.
+/// The image of that corner.
 fn next_corner() -> Point {
     let camera = from_a_corner();
     let forward = (camera.target - camera.eye).normalize();
@@ -212,7 +216,7 @@ fn a_rounded_box_has_edges_and_the_same_outline() {
         assert_eq!((patches.hard.count(), patches.roundings.iter().count()), (0, 12), "{steps} steps");
         let model = scene([rounded_box(steps)]);
         let drawn = stages(&model, &from_a_corner(), &LineOptions::default());
-        // Three meet at the corner next to the eye; what is beside the outline may be in sight as well.
+        // Three meet at the corner nearest to the camera. Others near the outline may be visible as well.
         let meets = |ends: &&[Point; 2]| ends.iter().any(|end| end.distance(next_corner()) < 60.0);
         let edges = drawn.visible_of(LineKind::Crease);
         assert_eq!(edges.iter().filter(meets).count(), 3, "{steps} steps: {edges:?}");
@@ -223,7 +227,7 @@ fn a_rounded_box_has_edges_and_the_same_outline() {
     }
 }
 
-/// A drum of so many sides, whose upper rim is rounded in four steps.
+/// A drum with an upper rim rounded in four steps.
 fn drum(sides: u32) -> Solid {
     let mut profile = vec![[0.0, -1.0], [1.0, -1.0]];
     profile

@@ -1,4 +1,5 @@
-//! A surface whose faces are parts of their own is drawn as one part is.
+//! A surface with every face in its own part is drawn like the surface in one part; the drawing of the one
+//! part is the reference.
 
 use crate::support::measures::segment_sets::{length, uncovered};
 use crate::support::pipeline::scene;
@@ -14,7 +15,7 @@ use ligne::pipeline::render;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 
-/// Every face as a solid of its own, with corners of its own.
+/// Returns every face as a separate solid with its own vertices.
 fn faces(solid: &Solid) -> Vec<Solid> {
     let face = |triangle: &[u32; 3]| Solid {
         positions: triangle.map(|v| solid.positions[v as usize]).to_vec(),
@@ -27,13 +28,13 @@ fn draw(scene: &Scene, camera: &Camera, style: &str) -> Drawing {
     render(scene, camera, &Style::preset(style).unwrap()).unwrap()
 }
 
-/// The lines of one pen: those of the outline, or the others.
+/// Returns the lines of one pen: silhouettes or all others.
 fn strokes(drawing: &Drawing, outline: bool) -> Vec<[Point; 2]> {
     let marks = ink_marks(drawing).filter(|mark| mark.provenance.classes.contains(&"silhouette") == outline);
     marks.flat_map(axis).collect()
 }
 
-/// Asserts that two scenes are drawn alike, pen by pen, within so many px.
+/// Asserts that two scenes have the same lines per pen, within a distance in px.
 fn assert_alike(name: &str, one: &Scene, other: &Scene, within: f64) {
     let dice = &mut Dice::new(7);
     for style in ["ink", "technical"] {
@@ -43,7 +44,7 @@ fn assert_alike(name: &str, one: &Scene, other: &Scene, within: f64) {
             for outline in [true, false] {
                 let [one, other] = [&one, &other].map(|drawing| strokes(drawing, outline));
                 let (missing, extra) = (uncovered(&one, &other, within), uncovered(&other, &one, within));
-                // What the ends of short pieces differ in direction.
+                // Tolerance for the directions of short end pieces.
                 let slack = 1.0 + 0.002 * length(&one);
                 assert!(
                     missing <= slack && extra <= slack,
@@ -80,7 +81,7 @@ fn a_box_of_single_faces_has_the_lines_of_one_part() {
 
 #[test]
 fn bodies_of_single_faces_beside_each_other_have_the_lines_of_two_parts() {
-    // A ball before a box that it does not touch, and two boxes that share an edge.
+    // A ball in front of a box that it does not touch, and two boxes that share an edge.
     let ball = sphere(16, 0.6).moved(|p| p + DVec3::new(0.0, 0.0, 1.5));
     let boxes = [DVec3::splat(-1.0), DVec3::new(0.0, 0.0, -1.0)].map(|low| cuboid(low, low + 1.0));
     let [first, second] = boxes;

@@ -1,4 +1,5 @@
-//! Models whose vertices compression rounded to a lattice are drawn as what was rounded, not as the noise that rounding made.
+//! Vertices that Draco compression rounded to a lattice: the model is drawn as the original surface, without
+//! the rounding noise. Closed-form torus contours are the reference.
 
 use draco_core::{
     DataType, EncoderBuffer, EncoderOptions, FaceIndex, GeometryAttributeType, MeshEncoder, PointAttribute,
@@ -16,7 +17,7 @@ use crate::support::readers::glb_writer::glb;
 use crate::support::references::torus_contour::{self, Piece, visible_pieces};
 use crate::support::scenes::solids::{Solid, torus};
 
-/// The Draco stream of a solid, its positions in so many bits.
+/// Returns the Draco stream of a solid with positions of `bits` bits.
 fn stream(solid: &Solid, bits: i32) -> Vec<u8> {
     let mut position = PointAttribute::new();
     position.init(GeometryAttributeType::Position, 3, DataType::Float32, false, solid.positions.len());
@@ -39,7 +40,7 @@ fn stream(solid: &Solid, bits: i32) -> Vec<u8> {
     out.data().to_vec()
 }
 
-/// A GLB of one solid, compressed.
+/// Returns a GLB file of one compressed solid.
 fn compressed(solid: &Solid, bits: i32) -> Vec<u8> {
     let mut bin = stream(solid, bits);
     let length = bin.len();
@@ -64,7 +65,8 @@ fn cameras() -> impl Iterator<Item = Camera> {
     eyes.into_iter().map(|eye| orthographic(DVec3::from_array(eye) * 2.0, DVec3::ZERO, 3.0))
 }
 
-/// What is drawn of a torus beside its contours, and what of these is not, px of length over all views; and the creases.
+/// Returns over all views the drawn length away from the true contours, the true length not drawn (px), and
+/// the number of visible creases.
 fn off(scene: &Scene) -> ([f64; 2], usize) {
     let mut sums = [0.0; 2];
     let mut creases = 0;
@@ -87,7 +89,7 @@ fn a_torus_of_fine_faces_in_eight_bits_has_its_contours_and_no_creases() {
     let found = &scene.geometries[0];
     assert_eq!(found.triangles.len(), solid.triangles.len());
     let ([extra, missing], creases) = off(&scene);
-    // The same places on the lattice, as a file without compression has them.
+    // The same positions on the lattice, as an uncompressed file would have them.
     let step = 2.5 / 255.0;
     let mut rounded = found.clone();
     let low = -DVec3::new(1.25, 1.25, 0.25);

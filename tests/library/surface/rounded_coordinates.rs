@@ -1,6 +1,7 @@
-//! Coordinates that a file rounded: the drawing is that of the exact model.
+//! Models with rounded coordinates are drawn like the exact models.
 //!
-//! Scenes whose exact form is known are turned in space and written with all their digits, in single precision, and with six decimals.
+//! Scenes of known exact form are rotated and written at full precision, in single precision, and with six
+//! decimals.
 
 use std::fmt::Write;
 
@@ -13,16 +14,16 @@ use ligne::pipeline::render;
 use ligne::scene::{Camera, NamedView, Projection, Scene, UpAxis};
 use ligne::style::Style;
 
-/// Lines may move by this much, px.
+/// Largest distance that lines may move, px.
 const TOLERANCE_PX: f64 = 0.06;
-/// Lengths that may differ in all: the round ends of lines.
+/// Largest total length that may differ, px: the round ends of lines.
 const SLACK_PX: f64 = 1.0;
 const TURNS: u64 = 12;
 
 /// A part: its corners, and its faces as polygons.
 type Body = (Vec<DVec3>, Vec<Vec<usize>>);
 
-/// A flat outline drawn out upwards.
+/// A flat outline extruded upwards.
 fn prism(outline: &[[f64; 2]], height: f64) -> Body {
     let count = outline.len();
     let corners =
@@ -92,7 +93,7 @@ fn scenes() -> Vec<(&'static str, Vec<Body>)> {
     ]
 }
 
-/// An OBJ file of bodies, each of its numbers as `write` has it.
+/// An OBJ file of bodies, with each number formatted by `write`.
 fn written(bodies: &[Body], turn: DQuat, move_by: DVec3, write: impl Fn(f64) -> String) -> Scene {
     let mut text = String::new();
     let mut first = 1;
@@ -124,7 +125,7 @@ fn rounded_scenes_are_drawn_as_exact_ones() {
             let away = 5.0 * DVec3::new(number(), number(), number());
             let exact = written(&bodies, turned, away, |x| format!("{x:?}"));
             let camera = Camera::named(NamedView::Iso, UpAxis::Z).with_frame(800.0, 800.0);
-            // Every other view is along the faces of the scene: turned with it.
+            // Every second view is along the faces of the scene, rotated with it.
             let camera = if turn % 2 == 0 {
                 camera.fit(&exact)
             } else {
@@ -135,7 +136,8 @@ fn rounded_scenes_are_drawn_as_exact_ones() {
             };
             for style in ["ink", "technical"] {
                 let style = Style::preset(style).unwrap();
-                // Of lines that coincide in the image, such as edges of a sheet seen edge-on, any may be drawn, with the same pen.
+                // Where lines coincide in the image, such as edges of a sheet seen edge-on, any of them may
+                // be drawn with the same pen.
                 let pens = |scene: &Scene| Pens::by_width(&render(scene, &camera, &style).unwrap());
                 let reference = pens(&exact);
                 let single = written(&bodies, turned, away, |x| (x as f32).to_string());
@@ -150,7 +152,8 @@ fn rounded_scenes_are_drawn_as_exact_ones() {
             }
         }
     }
-    // One inner contour along a plane that is seen edge-on is thin: a plus in six decimals, in both styles.
+    // Allowance for one thin inner contour along a plane seen edge-on: a plus in six decimals, in both
+    // styles.
     assert!(wrong.len() <= 2, "{} of {drawn} differ\n{}", wrong.len(), wrong.join("\n"));
 }
 
@@ -179,7 +182,7 @@ fn angles_at_the_limit_are_no_creases() {
     }
 }
 
-/// A bumpy ball of uneven triangles, none of which lies in the plane of a neighbour.
+/// A bumpy ball of irregular triangles. No two neighbours are coplanar.
 fn bumpy_ball() -> Body {
     let mut dice = Dice::new(5);
     let mut corners: Vec<DVec3> = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|p| [p, -p]).collect();
@@ -205,7 +208,8 @@ fn bumpy_ball() -> Body {
     (corners.into_iter().map(bumps).collect(), faces.into_iter().map(|face| face.to_vec()).collect())
 }
 
-/// On a bent surface any plane near the contour is known to turn one way or the other only within rounding: that moves no line.
+/// On a curved surface, rounding decides whether a face near the contour is front-facing. That must not move
+/// lines.
 #[test]
 fn contours_of_bent_surfaces_are_those_of_exact_ones() {
     let body = [bumpy_ball()];
@@ -222,6 +226,6 @@ fn contours_of_bent_surfaces_are_those_of_exact_ones() {
         let exact = pens(|x| format!("{x:?}"));
         moved += exact.difference(&pens(|x| format!("{x:.5}")), 0.5).length();
     }
-    // The ends of two lines: 4.8 px.
+    // The ends of two lines differ, by 4.8 px.
     assert!(moved < 6.0, "{moved} px of lines differ in twelve drawings");
 }

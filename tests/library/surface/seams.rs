@@ -1,4 +1,5 @@
-//! Seams between surfaces that were each turned into triangles by itself are no lines; gaps and steps that are meant stay.
+//! Seams between surfaces that were triangulated separately are not drawn, while intended gaps and steps
+//! stay; drawings of the solid without seams are the reference.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -20,7 +21,7 @@ fn mesh(solid: &Solid) -> Mesh {
     })
 }
 
-/// How many edges have one face, and how many turn by more than so many degrees.
+/// Returns the number of edges with one face, and of edges that turn by more than the given angle.
 fn open_and_sharp(mesh: &Mesh, degrees: f64) -> [usize; 2] {
     let turns = Turns::of(mesh);
     let count = |holds: &dyn Fn(usize) -> bool| (0..mesh.edges.len()).filter(|edge| holds(*edge)).count();
@@ -30,7 +31,7 @@ fn open_and_sharp(mesh: &Mesh, degrees: f64) -> [usize; 2] {
     ]
 }
 
-/// A rectangle with corners of its own.
+/// Adds a rectangle with its own vertices.
 fn tile(solid: &mut Solid, corner: DVec3, u: DVec3, v: DVec3) {
     solid.add(Solid {
         positions: vec![corner, corner + u, corner + u + v, corner + v],
@@ -38,7 +39,7 @@ fn tile(solid: &mut Solid, corner: DVec3, u: DVec3, v: DVec3) {
     });
 }
 
-/// A unit box of two tiles a side, that are parted somewhere else on each.
+/// A unit box with two tiles on each side. Each side is divided at a different place.
 fn box_of_tiles() -> Solid {
     let mut solid = Solid::default();
     let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
@@ -52,8 +53,8 @@ fn box_of_tiles() -> Solid {
     solid
 }
 
-/// A unit box of which each side is parted in its own places along its edges, and triangles without area that stitch sides to
-/// each other there: two along each edge, next to each other or one upon the other.
+/// A unit box whose sides divide each edge at different points, joined there by degenerate triangles: two
+/// along each edge. They overlap if `upon` is set, and are adjacent otherwise.
 fn stitched_box(upon: bool) -> Solid {
     let mut solid = Solid { triangles: Vec::new(), ..cuboid(DVec3::ZERO, DVec3::ONE) };
     let sides = [[0u32, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
@@ -87,7 +88,7 @@ fn stitched_box(upon: bool) -> Solid {
     solid
 }
 
-/// A tube about the z axis with its own number of sides.
+/// A tube around the z axis with a given number of sides.
 fn tube(around: u32, from: f64, to: f64) -> Solid {
     let at = |k: u32, z: f64| {
         let turn = TAU * f64::from(k) / f64::from(around);
@@ -105,7 +106,7 @@ fn tube(around: u32, from: f64, to: f64) -> Solid {
 }
 
 fn key(lines: &[[Point; 2]]) -> Vec<[i64; 2]> {
-    // The places where lines end, to a hundredth of a px.
+    // The end points of lines, rounded to a hundredth of a px.
     let mut ends: Vec<[i64; 2]> =
         lines.iter().flatten().map(|p| [p.x, p.y].map(|c| (c * 100.0).round() as i64)).collect();
     ends.sort_unstable();
@@ -113,7 +114,7 @@ fn key(lines: &[[Point; 2]]) -> Vec<[i64; 2]> {
     ends
 }
 
-/// Asserts that a solid is drawn as the unit box, from wherever one looks.
+/// Asserts that a solid is drawn as the unit box from random directions.
 fn assert_drawn_as_a_box(solid: &Solid) {
     let mut dice = Dice::new(5);
     for k in 0..12 {
@@ -171,15 +172,15 @@ fn a_seam_of_a_curve_is_no_line_though_its_chords_differ() {
     assert!(!across.is_empty() && across.iter().flatten().all(|p| (p.x - middle).abs() > 100.0));
 }
 
-/// A square plate with a round hole of so many chords, four times a number, whose corners are joined to the four of the plate; and
-/// the wall of the hole with a number of chords of its own, that is wider by what chords stand off a circle.
+/// A square plate with a polygonal hole of `chords` sides (a multiple of four), and a hole wall with `wall`
+/// sides. The wall is wider by the sagitta of a chord. Hole corners are joined to the four plate corners.
 fn plate_with_a_hole(chords: u32, wall: u32, turned: f64) -> Solid {
     let at = |count: u32, k: u32, from: f64| {
         let angle = from + f64::from(k % count) / f64::from(count) * TAU;
         DVec3::new(cos(angle), sin(angle), 0.0)
     };
     let mut solid = Solid::default();
-    // The last chords of each quarter are seen from its corner at a low angle.
+    // The last chords of each quarter make thin triangles with its plate corner.
     let corner = |quarter: u32| at(4, quarter, 0.05) * 20.0;
     let quarter = |k: u32| k * 4 / chords;
     for k in 0..chords {
@@ -217,7 +218,7 @@ fn what_is_sewn_neither_turns_over_nor_leans() {
 
 #[test]
 fn a_straight_side_beside_a_rounded_corner_is_no_curve() {
-    // A plate whose long side ends in the rounding of a corner.
+    // A plate with a long side that ends in a rounded corner.
     let mut plate = Solid { positions: vec![DVec3::new(0.0, 9.0, 0.0), DVec3::ZERO], ..Solid::default() };
     plate.positions.extend((0..=4).map(|k| {
         let turn = TAU / 4.0 * f64::from(k) / 4.0;
@@ -226,7 +227,7 @@ fn a_straight_side_beside_a_rounded_corner_is_no_curve() {
     plate.positions.push(DVec3::new(10.0, 9.0, 0.0));
     plate.triangles = (1..plate.positions.len() as u32 - 1).map(|k| [0, k, k + 1]).collect();
     let faces = plate.triangles.len();
-    // What has a side of its own near it, one that runs the other way.
+    // A separate triangle with a side near the plate's, running in the opposite direction.
     plate.add(Solid {
         positions: [[5.0, -0.3, 0.1], [4.0, -0.3, 0.1], [4.5, -1.0, 0.1]].map(DVec3::from).to_vec(),
         triangles: vec![[0, 1, 2]],
@@ -236,7 +237,7 @@ fn a_straight_side_beside_a_rounded_corner_is_no_curve() {
 
 #[test]
 fn corners_on_both_sides_of_a_seam_are_one() {
-    // As far apart as programs put them that turn each surface into triangles by itself.
+    // Offsets as large as those of programs that triangulate each surface separately.
     let mut dice = Dice::new(11);
     let mut two = tube(24, -1.0, 0.0);
     two.add(
@@ -244,7 +245,7 @@ fn corners_on_both_sides_of_a_seam_are_one() {
     );
     two.add(tube(24, 1.0, 1.5).moved(|p| DVec3::new(p.x, p.y + 5e-5, p.z - 3e-5)));
     assert_eq!(open_and_sharp(&mesh(&two), 45.0), [2 * 24, 0]);
-    // A strip that is narrower than that is no seam.
+    // A strip narrower than the tolerance is not a seam.
     let narrow = tube(24, 0.0, 5e-5);
     let turned = dice.direction();
     assert_eq!(open_and_sharp(&mesh(&narrow.moved(|p| p + turned)), 45.0)[0], 2 * 24);
@@ -270,7 +271,8 @@ fn what_is_painted_apart_is_not_sewn() {
     tile(&mut tiles, DVec3::new(0.0, 1.0, 0.0), DVec3::X * 0.25, DVec3::Y);
     tile(&mut tiles, DVec3::new(0.25, 1.0, 0.0), DVec3::X * 0.75, DVec3::Y);
     for shift in [0.0, 0.25] {
-        // The second and the third tile have their colours from elsewhere in the picture.
+        // In the second round, the second and third tiles take their colours from another place in the
+        // picture.
         let uv = |(k, p): (usize, &DVec3)| [p.x as f32, p.y as f32 + if k < 4 { 0.0 } else { shift }];
         let mesh = Mesh::build(Soup {
             positions: tiles.positions.clone(),
@@ -289,7 +291,7 @@ fn what_is_painted_apart_is_not_sewn() {
     }
 }
 
-/// A wedge of an angle along x, with corners in its sharp edge on both sides.
+/// A wedge of a given angle along x, with extra vertices on its sharp edge on both sides.
 fn wedge(degrees: f64, corners: [&[f64]; 2]) -> Solid {
     let (half, long) = (degrees.to_radians() / 2.0, 3.0);
     let far = [-half, half].map(|turn| DVec3::new(0.0, cos(turn), sin(turn)) * 2.0);
@@ -299,7 +301,7 @@ fn wedge(degrees: f64, corners: [&[f64]; 2]) -> Solid {
         solid.add(Solid { positions: points.to_vec(), triangles });
     };
     let at = |p: DVec3, x: f64| p + DVec3::X * x;
-    // A fan round a far corner, so that no triangle has all its corners on the sharp edge.
+    // A fan around a far corner, so that no triangle has all its corners on the sharp edge.
     for (k, own) in corners.into_iter().enumerate() {
         let mut points = vec![at(far[k], 0.0), DVec3::ZERO];
         points.extend(own.iter().map(|x| at(DVec3::ZERO, *x)));
@@ -323,7 +325,7 @@ fn a_corner_in_an_edge_is_sewn_however_sharp_the_edge_is() {
             [[&[1.0][..], &[]], [&[], &[0.4, 2.2]], [&[1.0], &[2.0]], [&[0.5, 1.0, 2.9], &[0.7, 0.8]]]
         {
             let turn = dice.turn();
-            // As written with six decimals, and as it is.
+            // At full precision and rounded to six decimals.
             for rounded in [false, true] {
                 let round = |p: DVec3| if rounded { (p * 1e6).round() / 1e6 } else { p };
                 let [own, plain] = [corners, [&[][..], &[][..]]]
@@ -349,7 +351,7 @@ fn a_corner_in_an_edge_is_sewn_however_sharp_the_edge_is() {
 
 #[test]
 fn the_sides_of_a_card_that_share_no_corner_stay_apart() {
-    // Front and back, nearer to each other than the sides of seams are, each parted in a place of its own.
+    // Front and back are closer than the seam tolerance. Each is divided at a different place.
     let mut card = Solid::default();
     for (z, part) in [(0.0, 0.3), (5e-5, 0.6)] {
         let mut side = Solid::default();
@@ -382,7 +384,7 @@ fn surfaces_of_different_parts_are_not_sewn() {
 #[test]
 fn steps_stay_steps_however_low() {
     let mut plate = cuboid(DVec3::ZERO, DVec3::new(1.0, 1.0, 0.2));
-    // A tile as high as half a pixel, on the plate and without a floor.
+    // A tile half a pixel high on the plate, without a bottom.
     let mut tile = cuboid(DVec3::new(0.3, 0.3, 0.2), DVec3::new(0.7, 0.7, 0.2005));
     tile.triangles.drain(0..2);
     plate.add(tile);

@@ -1,4 +1,5 @@
-//! Shallow creases: edges of machined parts that turn by less than a crease, between surfaces that end there.
+//! Shallow creases: edges of machined parts that turn by less than the crease angle between surfaces that end
+//! there. Bars with known profiles are the reference.
 
 use std::f64::consts::TAU;
 
@@ -16,7 +17,7 @@ fn mesh(solid: Solid) -> Mesh {
     Mesh::build(Soup { positions: solid.positions, triangles: solid.triangles, ..Soup::default() })
 }
 
-/// The corners of its profile, by number, at which a bar is creased along.
+/// Returns the profile corners (by index) along which a bar has a crease.
 fn creased(profile: &[[f64; 2]], crease_deg: f64) -> Vec<usize> {
     let mesh = mesh(bar(profile));
     let hard = Patches::new(&mesh, crease_deg, false).hard;
@@ -33,7 +34,7 @@ fn creased(profile: &[[f64; 2]], crease_deg: f64) -> Vec<usize> {
     found
 }
 
-/// A plate whose upper corners are cut at 30 degrees.
+/// A plate with upper corners cut at 30 degrees.
 fn chamfered() -> Vec<[f64; 2]> {
     let low = 1.0 - 0.5 / 3f64.sqrt();
     vec![[-3.0, -1.0], [3.0, -1.0], [3.0, low], [2.5, 1.0], [-2.5, 1.0], [-3.0, low]]
@@ -41,7 +42,7 @@ fn chamfered() -> Vec<[f64; 2]> {
 
 #[test]
 fn both_edges_of_a_chamfer_are_creases() {
-    // The plate turns by 30 degrees at both its ends: it is far too wide for a facet.
+    // The chamfer turns by 30 degrees at both ends and is far too wide to be a facet.
     assert_eq!(creased(&chamfered(), 40.0), [0, 1, 2, 3, 4, 5]);
 }
 
@@ -76,7 +77,7 @@ fn roundings_in_few_steps_have_no_creases_beside_them() {
         let sharp = if count == 2 { vec![0, 1, 3, 5] } else { vec![0, 1, 6] };
         assert_eq!(creased(&profile, 40.0), sharp, "{count} steps");
     }
-    // Half a turn in four steps of 45 degrees, of which the first and the last turn by half as much.
+    // Half a turn in four facets: 45 degrees between the facets and 22.5 degrees at both ends.
     let turns = [22.5, 45.0, 45.0, 45.0, 22.5];
     let mut profile = steps(
         [-3.0, -1.0],
@@ -96,7 +97,7 @@ fn a_ramp_has_a_crease_at_both_its_ends() {
 
 #[test]
 fn a_groove_that_is_round_at_its_bottom_may_be_round_at_its_sides() {
-    // Down by 30 degrees, up by as much twice, and down again.
+    // The profile turns down by 30 degrees, up by 30 twice, and down by 30 again.
     let groove = [[2.0, 1.5], [1.134, 1.0], [0.134, 1.0], [-0.732, 1.5]];
     let mut profile = vec![[-4.0, -1.0], [4.0, -1.0], [4.0, 1.5]];
     profile.extend(groove);
@@ -104,8 +105,8 @@ fn a_groove_that_is_round_at_its_bottom_may_be_round_at_its_sides() {
     assert_eq!(creased(&profile, 40.0), [0, 1, 2, 7]);
 }
 
-/// A disc of ten sides whose rim is a cone: its facets are so wide for their height that the way square to one of their sides
-/// leaves them by the top or the bottom.
+/// A disc of ten sides with a conical rim. The facets are very wide: the direction perpendicular to one of
+/// their lateral sides leaves the facet at the top or bottom.
 fn bevelled() -> Solid {
     const SIDES: u32 = 10;
     let mut solid = Solid::default();
@@ -134,14 +135,14 @@ fn a_bevel_has_both_its_rims_and_nothing_between() {
     assert_eq!([all.len(), all.iter().filter(|edge| level(edge)).count()], [20, 20]);
 }
 
-/// A roof of so high a ridge that begins over one side of a box and ends inside. What lies below its end is a triangle,
-/// of which nobody knows whether it is meant.
+/// A roof on a box. The ridge begins above one side of the box and ends inside it. The triangle below its end
+/// leaves open whether the ridge is intended as a crease.
 fn hipped(ridge: f64) -> Solid {
     let mut solid = Solid::default();
     let corners = [[-1.0, 0.0], [1.0, 0.0], [1.0, 2.5], [-1.0, 2.5]];
     solid.positions.extend(corners.map(|[x, y]| DVec3::new(x, y, 0.0)));
     solid.positions.extend(corners.map(|[x, y]| DVec3::new(x, y, -1.0)));
-    // The beginning of the ridge, its end, and the middles of the far eaves and of the sides.
+    // The start of the ridge, its end, and the middles of the far eaves and of the sides.
     let places = [[0.0, 0.0, ridge], [0.0, 2.0, ridge], [0.0, 2.5, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]];
     solid.positions.extend(places.map(DVec3::from_array));
     let [begin, end, far, right, left] = [8, 9, 10, 11, 12];
@@ -193,7 +194,7 @@ fn the_drawing_of_a_chamfered_plate_has_all_its_edges() {
         &orthographic(DVec3::new(2.0, 9.0, 12.0), DVec3::new(0.0, 0.0, 3.0), 10.0),
         &LineOptions::default(),
     );
-    // Along it the plate has six, two of them on the outline.
+    // The plate has six edges along its length, two of them on the outline.
     let along = |kind: LineKind| {
         let is_along = |s: &&FeatureSegment| {
             let [a, b] = s.ends.map(|v| drawn.mesh.positions[v as usize]);
@@ -202,6 +203,6 @@ fn the_drawing_of_a_chamfered_plate_has_all_its_edges() {
         drawn.lines.segments.iter().filter(is_along).count()
     };
     assert_eq!(along(LineKind::Crease), 4);
-    // One of them is below; in sight are four more at an end of the plate.
+    // One of them faces down. Four more are visible at one end of the plate.
     assert_eq!(drawn.visible_of(LineKind::Crease).len(), 3 + 4);
 }

@@ -1,4 +1,5 @@
-//! Wrinkles: slivers of machined parts where two ways to cut one circle differ.
+//! Slivers between two different subdivisions of one circle on machined parts make no creases; solids with
+//! known edges are the reference.
 
 use std::f64::consts::TAU;
 
@@ -13,8 +14,8 @@ use crate::support::scenes::solids::Solid;
 
 const CORNERS: usize = 24;
 
-/// A shaft of 24 sides that narrows at its end, by so much over a fifth of its radius. Where `halved` says so of a side, the
-/// shaft was cut in two there and its end was not: a sliver lies between the chord and the corner out of it.
+/// A shaft of 24 sides with a tapered end: `narrowing` over a fifth of its radius. At sides where `halved`
+/// returns true, only the shaft is divided, which leaves a sliver between chord and extra corner.
 fn shaft(narrowing: f64, halved: impl Fn(usize) -> bool) -> Solid {
     let mut solid = Solid::default();
     let mut put = |turn: f64, radius: f64, height: f64| {
@@ -49,7 +50,7 @@ fn mesh(solid: Solid) -> Mesh {
     Mesh::build(Soup { positions: solid.positions, triangles: solid.triangles, ..Soup::default() })
 }
 
-/// How many edges of creases there are where the end of the shaft begins.
+/// Returns the number of crease edges where the tapered end begins.
 fn creases(solid: Solid) -> usize {
     let mesh = mesh(solid);
     let hard = Patches::new(&mesh, 40.0, false).hard;
@@ -62,13 +63,13 @@ fn creases(solid: Solid) -> usize {
 
 #[test]
 fn slivers_where_two_ways_to_cut_one_circle_differ_are_no_creases() {
-    // The end turns in by 20 degrees.
+    // The end tapers by 20 degrees.
     let wrinkled = mesh(shaft(0.073, |side| side % 4 == 0));
     let turns = Turns::of(&wrinkled);
     let sharp = (0..wrinkled.edges.len()).filter(|edge| turns.of_two(*edge) < 0.76).count();
     assert_eq!(sharp, 12 + 30 + CORNERS, "two sides of each of six slivers, and both rims");
     assert_eq!(creases(shaft(0.073, |side| side % 4 == 0)), 0);
-    // Without slivers the end is told from the shaft, which it meets at an angle.
+    // Without slivers, the end meets the shaft at a crease.
     assert_eq!(creases(shaft(0.073, |_| false)), CORNERS);
 }
 
@@ -79,14 +80,14 @@ fn creases_beside_slivers_stay_and_so_do_lines_that_go_on() {
     assert_eq!(creases(shaft(0.073, |_| true)), 2 * CORNERS);
 }
 
-/// A mound like a roof with round ends on a plate, steep on both sides; its ridge is a sliver.
+/// A mound on a plate, shaped like a roof with round ends and steep on both sides. Its ridge is a sliver.
 fn mound() -> Solid {
     const ROUND: usize = 12;
     let tips = [DVec3::new(-3.0, 0.0, 2.0), DVec3::new(3.0, 0.0, 2.0)];
     let mut solid = Solid::default();
     solid.positions.extend(tips);
     solid.positions.extend([DVec3::new(0.0, -0.05, 2.0), DVec3::new(0.0, 0.05, 2.0)]);
-    // Around both ends at its foot, and the rim of the plate.
+    // The foot around both ends, and the rim of the plate.
     let foot: Vec<DVec3> = (0..2 * (ROUND + 1))
         .map(|k| {
             let (end, step) = (k / (ROUND + 1), k % (ROUND + 1));
@@ -105,7 +106,7 @@ fn mound() -> Solid {
             solid.triangles.push([k / (round + 1), at(k), at(k + 1)]);
         }
     }
-    // The two sides from the foot to the ridge, and the ridge.
+    // Both sides from the foot to the ridge, and the ridge.
     for [from, near, to, far] in [[round, 0, 1, 2], [2 * round + 1, 1, 0, 3]] {
         solid.triangles.extend([
             [near, at(from), far],
@@ -119,13 +120,13 @@ fn mound() -> Solid {
 
 #[test]
 fn a_ridge_is_a_crease_however_thin() {
-    // Around it the surface turns by a hundred degrees.
+    // Around it, the surface turns by a hundred degrees.
     assert_eq!(creases(mound()), 4);
 }
 
 #[test]
 fn an_outline_along_a_sliver_has_its_corners() {
-    // From above and from one side: of the slivers those of the far side have their lower edges on the outline.
+    // From above and from one side. The slivers on the far side have their lower edges on the outline.
     let eye = DVec3::new(10.0 * cos(1.3), 0.0, 10.0 * sin(1.3));
     let wrinkled = scene([shaft(0.073, |side| side % 4 == 0)]);
     let drawn = stages(&wrinkled, &orthographic(eye, DVec3::Z, 4.0), &LineOptions::default());

@@ -1,5 +1,5 @@
-//! Bodies that touch along an edge, or lie in one plane, have the same lines however their files cut them: whether they share the vertices
-//! of the edge, which of their faces come first, and where faces without area lie.
+//! Bodies that touch along an edge or lie in one plane: the lines do not depend on how the file stores them.
+//! Rewritten files are compared on shared vertices, face order and the position of zero-area faces.
 
 use glam::{DAffine3, DVec3};
 use ligne::scene::Camera;
@@ -10,7 +10,7 @@ use crate::support::rewriting::relations::Relation;
 use crate::support::rewriting::shapes::cuboid;
 use crate::support::rewriting::trial::Trial;
 
-/// Views in which faces are seen from above, from below, edge-on, and in perspective.
+/// Views from above, from below, edge-on, and in perspective.
 fn sights() -> [Sight; 6] {
     [
         Sight::Angles(30.0, 35.0),
@@ -22,7 +22,7 @@ fn sights() -> [Sight; 6] {
     ]
 }
 
-/// A box with its least corner at a place.
+/// A box, given by its lowest corner and its size.
 fn box_at(low: [f64; 3], size: [f64; 3], colour: u8) -> Body {
     cuboid(DVec3::from(size)).moved(|p| p + DVec3::from(low)).coloured(colour)
 }
@@ -34,7 +34,7 @@ fn sheet(corners: &[[f64; 3]], colour: u8) -> Body {
     Body { points, faces: vec![face], ..Body::default() }
 }
 
-/// Draws the bodies from all sides and compares each drawing with that of the same bodies written in other ways.
+/// Draws the bodies in all views and compares each drawing with those of the rewritten files.
 fn assert_alike(bodies: &[Body], relations: &[Relation], seeds: std::ops::Range<u64>) {
     let (mut made, mut faults) = (0, Vec::new());
     for sight in sights() {
@@ -59,7 +59,7 @@ fn assert_alike(bodies: &[Body], relations: &[Relation], seeds: std::ops::Range<
     assert!(faults.is_empty(), "{} of {made} differ\n{}", faults.len(), faults.join("\n"));
 }
 
-/// Ways to write edges that change which bodies share their vertices, and which of their faces come first.
+/// Rewrites that change shared vertices and the order of faces.
 const OF_EDGES: [Relation; 5] = [
     Relation::VertexInEdge,
     Relation::VertexInEdgeOneSided,
@@ -71,7 +71,8 @@ const OF_EDGES: [Relation; 5] = [
 #[test]
 fn boxes_that_touch_along_an_edge_are_drawn_alike_with_and_without_common_vertices() {
     let ground = box_at([0.0; 3], [4.0, 1.0, 2.0], 0);
-    // On its whole top, on half of it so that a corner lies in the middle of its edge, beside it, and on an edge alone.
+    // In order: over the whole top, over half of it (a corner lies in the middle of the edge), side by side,
+    // and along an edge only.
     for (low, size, colour) in [
         ([0.0, 1.0, 0.0], [4.0, 2.0, 2.0], 0),
         ([0.0, 1.0, 0.0], [2.0, 2.0, 2.0], 1),
@@ -95,7 +96,7 @@ fn a_sheet_along_the_edge_of_a_box_is_drawn_alike_with_and_without_common_vertic
 
 #[test]
 fn an_edge_in_two_planes_in_which_surfaces_overlap_parts_materials_in_either() {
-    // Blocks of other colours are let into the top and into a side, and jut out beyond the edge between these.
+    // Blocks of other colours, sunk into the top and into a side. Both reach past the edge between them.
     let bodies = [
         box_at([0.0; 3], [2.0, 2.0, 2.0], 0),
         box_at([1.0, 1.0, 0.5], [2.0, 1.0, 0.5], 1),

@@ -1,4 +1,4 @@
-//! Cast shadows: known shapes, and rays through every triangle as a reference.
+//! Cast shadows, tested against closed forms and rays through every triangle.
 
 use crate::support::pipeline;
 use crate::support::pipeline::scene;
@@ -17,7 +17,7 @@ fn mesh(solids: impl IntoIterator<Item = Solid>) -> Mesh {
     Mesh::build(scene(solids).to_soup())
 }
 
-/// An upright rectangle of two triangles at a height.
+/// A horizontal rectangle of two triangles at height `z`.
 fn sheet(low: [f64; 2], high: [f64; 2], z: f64) -> Solid {
     let corner = |x: f64, y: f64| DVec3::new(x, y, z);
     Solid {
@@ -31,8 +31,8 @@ fn sheet(low: [f64; 2], high: [f64; 2], z: f64) -> Solid {
     }
 }
 
-/// The lines of one light on the faces of one part: number of closed loops, length, points (world).
-/// Fails where a point does not join two segments.
+/// Returns the shadow lines on the faces of one part: the number of closed loops, their length, and their
+/// points in world coordinates. Panics if a point does not join two segments.
 fn loops(mesh: &Mesh, shadows: &Shadows, part: usize) -> (usize, f64, Vec<DVec3>) {
     let lines = &shadows.lines;
     let on_part = |face: u32| mesh.face_part[face as usize].index() == part;
@@ -85,7 +85,7 @@ fn a_box_casts_the_hexagon_that_it_must() {
         let shadows = Shadows::new(&mesh, &[Caster::Directional { towards }]);
         let (count, length, points) = loops(&mesh, &shadows, 0);
         let fall = |p: DVec3| p - towards * (p.z / towards.z);
-        // Contour: all corners but the one nearest to the light and the one farthest from it.
+        // The contour has all corners except the ones nearest to the light and farthest from it.
         let s = DVec3::new(towards.x.signum(), towards.y.signum(), 0.0);
         let (low, high) = (0.5, 2.0);
         let corner = |x: f64, y: f64, z: f64| fall(DVec3::new(x * s.x, y * s.y, z));
@@ -112,7 +112,7 @@ fn a_box_on_the_ground_casts_no_line_along_its_foot() {
         mesh([sheet([-10.0, -10.0], [10.0, 10.0], 0.0), cuboid(DVec3::ZERO, DVec3::new(1.0, 1.0, 2.0))]);
     let shadows = Shadows::new(&mesh, &[Caster::Directional { towards }]);
     let fall = |p: DVec3| p - towards * (p.z / towards.z);
-    // From the foot of one upright edge round the top to that of the other.
+    // From the foot of one vertical edge around the top to the foot of the other.
     let path = [
         DVec3::new(1.0, 0.0, 0.0),
         fall(DVec3::new(1.0, 0.0, 2.0)),
@@ -206,14 +206,14 @@ fn faces_of_solids_that_are_turned_away_are_not_in_a_cast_shadow_but_sheets_are(
     let shadows = Shadows::new(&mesh, &[Caster::Directional { towards: DVec3::Z }]);
     let asked: Vec<(u32, DVec3)> = (0..mesh.triangles.len() as u32).map(|f| (f, middle(&mesh, f))).collect();
     for ((face, p), mask) in asked.iter().zip(shadows.shadowed(&mesh, &asked)) {
-        // Both sheets lie in the shadow of the box, whichever way they are wound.
+        // Both sheets lie in the shadow of the box, for either winding.
         assert_eq!(mask, u32::from((p + mesh.origin).z < 0.5), "{face}");
     }
 }
 
 #[test]
 fn sheets_side_by_side_cast_no_seam() {
-    // Two sheets that touch along x = 0 without sharing a vertex, over a ground.
+    // Two sheets that touch along x = 0 without a common vertex, above a ground.
     let mesh = mesh([
         sheet([-10.0, -10.0], [10.0, 10.0], 0.0),
         sheet([-1.0, -1.0], [0.0, 1.0], 2.0),
@@ -278,7 +278,7 @@ fn nothing_is_missing_between_separate_boxes() {
         }
         let mesh = mesh(solids);
         let mut casters = lights(&mesh, &mut dice);
-        // Inside, but in none of the boxes.
+        // Between the boxes, but inside none of them.
         casters[2] = Caster::Point { position: DVec3::new(0.5, dice.between(-1.0, 1.0), 0.5) - mesh.origin };
         let shadows = Shadows::new(&mesh, &casters);
         check_points(&mesh, &shadows, 400, &mut dice);

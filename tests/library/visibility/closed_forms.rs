@@ -1,4 +1,4 @@
-//! Scenes whose drawing is known by geometry: what is seen of them and where it ends.
+//! Scenes with drawings in closed form: visible lines and their end points.
 
 use crate::support::measures::segment_sets::{cover_alike, distance, doubled, length};
 use crate::support::pipeline::{
@@ -15,7 +15,7 @@ use ligne::mesh::EdgeMark;
 use ligne::scene::{Camera, Geometry, Material, Scene};
 use ligne::visibility::ViewVertexKind;
 
-/// How near a computed end is to the known one, px.
+/// Largest distance of a computed end point from the known one, px.
 const EXACT_PX: f64 = 1e-6;
 
 fn at(x: f64, y: f64, z: f64) -> DVec3 {
@@ -36,18 +36,18 @@ fn from_front(height: f64) -> Camera {
     orthographic(at(0.0, 0.0, 10.0), DVec3::ZERO, height)
 }
 
-/// A polygon in space, fanned.
+/// A polygon in space, triangulated as a fan.
 fn polygon(corners: &[DVec3]) -> Solid {
     let triangles = (1..corners.len() as u32 - 1).map(|k| [0, k, k + 1]).collect();
     Solid { positions: corners.to_vec(), triangles }
 }
 
-/// An upright rectangle in the plane of that z.
+/// An axis-aligned rectangle in the plane at height `z`.
 fn rectangle(x: [f64; 2], y: [f64; 2], z: f64) -> Solid {
     polygon(&[at(x[0], y[0], z), at(x[1], y[0], z), at(x[1], y[1], z), at(x[0], y[1], z)])
 }
 
-/// Polygons joined to one solid; equal corners are one by the weld.
+/// Merges polygons into one solid. The mesh later welds equal corners.
 fn joined(solids: impl IntoIterator<Item = Solid>) -> Solid {
     let mut sum = Solid::default();
     solids.into_iter().for_each(|solid| sum.add(solid));
@@ -58,7 +58,7 @@ fn outline(corners: &[DVec3]) -> Vec<[DVec3; 2]> {
     (0..corners.len()).map(|i| [corners[i], corners[(i + 1) % corners.len()]]).collect()
 }
 
-/// Checks that the visible lines cover just the given segments of the world, each once.
+/// Asserts that the visible lines cover exactly the given world segments, each once.
 fn shows(stages: &Stages, camera: &Camera, wanted: &[[DVec3; 2]]) {
     let wanted = Eye::new(camera).images(wanted);
     let visible = stages.visible();
@@ -66,7 +66,7 @@ fn shows(stages: &Stages, camera: &Camera, wanted: &[[DVec3; 2]]) {
     assert!(doubled(&visible, 1e-3) < 1e-2, "ink twice: {visible:?}");
 }
 
-/// Visible view edges, but for points (lines seen end-on) and crumbs far below a hundredth px.
+/// Counts visible view edges longer than a hundredth of a px. This skips lines seen end-on.
 fn count_visible(stages: &Stages) -> usize {
     stages.visible().iter().filter(|[a, b]| distance(*a, *b) > 0.01).count()
 }
@@ -97,7 +97,7 @@ fn a_cube_from_the_front_is_a_square() {
 #[test]
 fn the_contour_of_a_sphere_is_a_circle() {
     let around = 24;
-    // The longest edge spans this angle of the sphere.
+    // The angle on the sphere that the longest edge spans.
     let span = std::f64::consts::PI / around as f64 * std::f64::consts::SQRT_2;
     let (eye, distance_of_eye) = (at(1.0, 2.0, 5.0), 30.0_f64.sqrt());
     let perspective_view = perspective(eye, DVec3::ZERO, 40.0);
@@ -136,7 +136,7 @@ fn a_post_before_a_plate_ends_its_lines_at_computed_points() {
     let camera = perspective(eye_point, at(0.7, 0.4, 0.0), 40.0);
     let drawn = stages(&scene([plate, post]), &camera, &counting());
     let eye = Eye::new(&camera);
-    // The post's contours as the eye projects them onto the plane z = 0.
+    // The post's contours, projected from the camera onto the plane z = 0.
     let shadow = |x: f64, z: f64| 0.7 + (x - 0.7) * 10.0 / (10.0 - z);
     let mut wanted = Vec::new();
     for x in [shadow(-0.3, 3.0), shadow(0.5, 2.0)] {
@@ -176,9 +176,9 @@ fn a_bar_is_seen_through_a_hole() {
 
 #[test]
 fn a_torus_has_cusps_when_its_tube_is_thick_enough() {
-    // Seen at an elevation, the contours are offsets of an ellipse with axes 1 and s by the tube's
-    // radius; the inner one has four cusps, of which two are seen, if the tube is thicker than
-    // the ellipse is curved at its ends, s * s.
+    // Seen at an elevation, the contours are offset curves of an ellipse with axes 1 and s, at the tube's
+    // radius. If the tube is thicker than s * s, the curvature radius at the ends of the ellipse, the inner
+    // curve has four cusps. Two of them are visible.
     use ligne::geometry::numbers::portable_math::{cos, pow, sin};
     for (elevation, tube) in [(60.0_f64, 0.3), (80.0, 0.4), (25.0, 0.3), (20.0, 0.25)] {
         let (s, c) = (sin(elevation.to_radians()), cos(elevation.to_radians()));
@@ -191,7 +191,7 @@ fn a_torus_has_cusps_when_its_tube_is_thick_enough() {
             open.iter().flat_map(|c| [c.points[0], c.points[c.points.len() - 1]]).collect();
 
         if thick {
-            // The cusps lie where the ellipse's radius of curvature is the tube's.
+            // The cusps lie where the radius of curvature of the ellipse equals that of the tube.
             let sin2 = (pow(tube * s, 2.0 / 3.0) - s * s) / (1.0 - s * s);
             let (x, y) = ((1.0 - sin2).sqrt(), sin2.sqrt());
             let normal = kurbo::Vec2::new(s * x, y) / (s * s * x * x + y * y).sqrt();
@@ -205,7 +205,7 @@ fn a_torus_has_cusps_when_its_tube_is_thick_enough() {
             let closed = chains.iter().filter(|c| c.closed && c.invisibility == 0).count();
             assert_eq!((closed, open.len()), (2, 0), "elevation {elevation}, tube {tube}");
         }
-        // The outermost points of the picture.
+        // The outermost points of the image.
         let reach = drawn.visible().iter().flatten().map(|p| (p.x - 500.0).abs()).fold(0.0, f64::max);
         let known = 250.0 * (1.0 + tube);
         assert!(reach <= known + 1e-6 && reach > known * 0.998, "{reach} of {known}");
@@ -240,7 +240,7 @@ fn squares_that_overlap_in_one_plane_are_both_drawn_once() {
     assert!((length(&drawn.visible()) - 16.0 * 125.0).abs() < 1e-6);
     assert!(drawn.hidden().is_empty());
 
-    // Two sides run on top of each other along one unit each.
+    // Two sides coincide over one unit each.
     let squares = [rectangle([0.0, 2.0], [0.0, 2.0], 0.0), rectangle([1.0, 3.0], [0.0, 2.0], 0.0)];
     let drawn = stages(&scene(squares), &camera, &counting());
     assert!((length(&drawn.visible()) - 14.0 * 125.0).abs() < 0.1, "{}", length(&drawn.visible()));
@@ -260,7 +260,7 @@ fn faces_hardly_apart_are_drawn_as_one() {
 
 #[test]
 fn nothing_shines_through_the_cracks_at_t_vertices() {
-    // The plate's left half knows nothing of the vertex in the middle of its right side.
+    // The left half of the plate has no vertex at the middle of its right side.
     let plate = joined([
         rectangle([-2.0, 0.1], [-2.0, 2.0], 0.0),
         rectangle([0.1, 2.0], [-2.0, 0.3], 0.0),
@@ -303,7 +303,7 @@ fn cubes_that_share_an_edge_or_a_vertex_show_all_their_lines() {
 
 #[test]
 fn an_inner_wall_is_not_seen() {
-    // A box of two chambers: the outer sides are cut where the wall meets them.
+    // A box of two chambers. The outer sides are split where the wall meets them.
     let halves = joined([
         cuboid(at(-1.0, -0.5, -0.5), at(0.0, 0.5, 0.5)),
         cuboid(at(0.0, -0.5, -0.5), at(1.0, 0.5, 0.5)),
@@ -335,7 +335,7 @@ fn moebius(around: usize) -> Solid {
             let r = 1.0 + w * cos(u / 2.0);
             strip.positions.push(at(r * cos(u), r * sin(u), w * sin(u / 2.0)));
         }
-        // The last quad joins the first one's sides crosswise.
+        // The last quad joins the sides of the first one crosswise.
         let [a, b] = [2 * i as u32, 2 * i as u32 + 1];
         let [c, d] = if i + 1 == around { [1, 0] } else { [a + 2, b + 2] };
         strip.triangles.extend([[a, c, d], [a, d, b]]);
@@ -359,11 +359,11 @@ fn a_moebius_strip_has_one_border_and_no_crease() {
 
 #[test]
 fn the_near_plane_cuts_at_known_places() {
-    // A rail from the eye's side into the distance; the plane lies 2 before the eye.
+    // A rail from the side of the camera into the distance. The near plane lies 2 in front of the camera.
     let rail = rectangle([-1.0, 1.0], [-0.1, 0.1], 0.0).moved(|p| at(p.x, -0.5, 5.0 * p.y * 2.0));
     let camera = Camera { near: Some(2.0), ..perspective(at(0.0, 0.0, 2.0), at(0.0, 0.0, 0.0), 90.0) };
     let drawn = stages(&scene([rail]), &camera, &counting());
-    // The rail reaches from z = −1 to 1; what is nearer than z = 0 goes.
+    // The rail reaches from z = −1 to 1. The part nearer than z = 0 is clipped.
     let wanted = [
         [at(-1.0, -0.5, -1.0), at(1.0, -0.5, -1.0)],
         [at(-1.0, -0.5, -1.0), at(-1.0, -0.5, 0.0)],
@@ -380,7 +380,7 @@ fn the_near_plane_cuts_at_known_places() {
 fn an_eye_inside_a_cube_sees_its_edges_from_within() {
     let camera = perspective(DVec3::ZERO, at(0.0, 0.0, -1.0), 120.0);
     let drawn = stages(&scene([cube()]), &camera, &counting());
-    // Beyond the frame's border the edges towards the eye go on.
+    // The edges towards the camera continue outside the frame.
     let tan = ligne::geometry::numbers::portable_math::tan(60.0_f64.to_radians());
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
     let far: Vec<DVec3> = corners.iter().map(|(x, y)| at(*x, *y, -1.0)).collect();
@@ -433,7 +433,7 @@ fn parts_of_two_materials_that_lie_on_each_other_have_no_border_inside() {
     let drawn = stages(&both, &from_front(4.0), &counting());
     assert_eq!((count_visible(&drawn), drawn.visible_of(LineKind::Material).len()), (4, 0));
 
-    // Where one of them ends inside the other, there is one.
+    // If one of them ends inside the other, there is a border.
     let half = Geometry { triangles: vec![[0, 1, 2]], triangle_material: vec![1], ..sheet(1) };
     let both = Scene { materials: vec![Material::default(); 2], ..scene_of_geometries(vec![sheet(0), half]) };
     let drawn = stages(&both, &from_front(4.0), &counting());

@@ -1,8 +1,8 @@
-//! Visible contours of rounded models stop only where something explains it, and lie where the contour of
-//! the polyhedron does.
+//! Visible contours of rounded models stop only at explained places, and lie on the contour of the
+//! polyhedron.
 //!
-//! The levels below are what holds today, a little rounded: they may only get better. A stop counts as explained
-//! within 0.75 px; gaps of up to 1 px, which chains sew, are not.
+//! The levels below are measured values, slightly rounded; they may only improve. A stop needs an explanation
+//! within 0.75 px. Wider gaps count as unexplained, even those of up to 1 px that chains close.
 
 use crate::support::readers::shared_folder;
 use std::path::PathBuf;
@@ -13,14 +13,14 @@ use ligne::lines::{LineOptions, Surface};
 use ligne::mesh::Mesh;
 use ligne::scene::{Camera, Scene};
 
-/// A model, how many pieces of its polyhedron's contour are drawn a view at most, and the least part of its
-/// stops that is explained, percent.
+/// A model, the largest number of polyhedron contour pieces drawn per view, and the smallest share of
+/// explained stops in percent.
 type Level = (&'static str, f64, f64);
 
-/// From every third view.
+/// Levels for every third view.
 const QUICK: [Level; 1] = [("examples/models/knot.ply", 3.9, 97.3)];
 
-/// From all views; `examples/…` belongs to the project, the others are shared models.
+/// Levels for all views. `examples/…` is in the repository; the others are shared models.
 const ALL: [Level; 8] = [
     ("examples/models/knot.ply", 4.0, 98.2),
     ("organic/spot.obj", 8.0, 85.0),
@@ -40,7 +40,7 @@ fn open(name: &str) -> Option<Scene> {
     path.map(|path| Scene::open(&path).unwrap())
 }
 
-/// Looks at models from every so many of all sides, and compares with their levels.
+/// Checks models against their levels, in every `step`-th view.
 fn hold(levels: &[Level], step: usize) {
     let options = LineOptions::default();
     let mut faults = Vec::new();
@@ -77,7 +77,8 @@ fn contours_of_all_models_stop_where_something_explains_it() {
     hold(&ALL, 1);
 }
 
-/// A model, and the least part of its smooth contours within half a px of the polyhedron's, percent.
+/// Checks the smallest share (percent) of the smooth contours within half a px of the polyhedron's contour,
+/// per model.
 fn lie_near(models: &[(&str, f64)], views: &[[f64; 2]]) {
     let mut faults = Vec::new();
     for (name, least) in models {

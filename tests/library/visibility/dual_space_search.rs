@@ -1,4 +1,4 @@
-//! The search in the dual space finds exactly the lines of asking every edge, and asks few edges.
+//! The contour search in dual space finds exactly the lines of testing every edge, and tests few edges.
 
 use crate::support::long_run::{is_long, some};
 use crate::support::pipeline::{exact, orthographic, perspective, scene};
@@ -14,8 +14,8 @@ use ligne::mesh::{EdgeFaces, FaceId, MaterialId, Mesh};
 use ligne::scene::{Camera, Projection, Scene};
 use ligne::view::View;
 
-/// Checks that both ways find the same lines and that no pair was left out that the eye parts;
-/// returns how many edges were asked for contours alone, and how many are contours.
+/// Asserts that both searches find the same lines and that the candidates are sorted and unique. Returns the
+/// number of edges tested for contours and the number of contour segments.
 fn check(surface: &Surface, search: &EdgeSearch, camera: &Camera, options: &LineOptions) -> (usize, usize) {
     let view = View::new(&surface.mesh, camera);
     let plain = lines::extract(surface, &view, options);
@@ -26,7 +26,7 @@ fn check(surface: &Surface, search: &EdgeSearch, camera: &Camera, options: &Line
     let with_fixed = search.candidates(&surface.mesh, &view).items;
     assert!(with_fixed.is_sorted() && with_fixed.windows(2).all(|w| w[0] != w[1]));
     let of_both = found.len() + search.fixed().len();
-    // Edges of faces that turn to the eye as their plane does come on top.
+    // Edges of faces whose facing is uncertain are added.
     assert!((of_both..=of_both + 3 * view.unsure.len()).contains(&with_fixed.len()));
     let contours = plain.segments.iter().filter(|s| s.kind == LineKind::Contour).count();
     (found.len(), contours)
@@ -47,7 +47,7 @@ fn around() -> Vec<DVec3> {
     all.flat_map(|(x, y)| steps.map(|z| DVec3::new(x, y, z))).filter(|d| *d != DVec3::ZERO).collect()
 }
 
-/// Parallel and perspective views from all around, along the axes too.
+/// Orthographic and perspective views from all these directions, including the axes.
 fn views(distance: f64) -> Vec<Camera> {
     let both = |d: DVec3| {
         let eye = d.normalize() * distance;
@@ -81,7 +81,7 @@ fn mixed_winding_materials_and_stitches_change_nothing() {
     for round in 0..6 {
         let mut solid = sphere(9, 0.8);
         solid.add(cuboid(DVec3::splat(-0.5), DVec3::splat(0.9)));
-        // Three faces at an edge, and triangles without area.
+        // Three faces at one edge, and zero-area triangles.
         let first = solid.triangles[40];
         solid.triangles.push([first[1], first[0], 0]);
         let middle = (solid.positions[first[0] as usize] + solid.positions[first[1] as usize]) / 2.0;
@@ -142,7 +142,7 @@ fn a_box_has_the_contours_it_must_have() {
     let search = EdgeSearch::new(&surface);
     assert_eq!((search.tree().len(), search.fixed().len()), (18, 0));
     for direction in around() {
-        // One, two or three sides are seen.
+        // One, two or three sides are visible.
         let contours = [4, 6, 6][direction.abs().element_sum() as usize - 1];
         for camera in
             [perspective(direction * 9.0, DVec3::ZERO, 40.0), orthographic(direction * 9.0, DVec3::ZERO, 3.0)]
@@ -170,7 +170,7 @@ fn few_edges_of_a_round_solid_are_asked() {
         shares.push(asked as f64 / (count * search.tree().len()) as f64);
     }
     println!("shares of the edges asked: {shares:?}");
-    // Contours are as many as the square root of the edges: a finer level halves their share.
+    // The number of contours grows with the square root of the edges, so a finer level halves their share.
     assert!(shares.windows(2).all(|w| w[1] < 0.65 * w[0]), "{shares:?}");
     assert!(shares[3] < 0.05, "{shares:?}");
 }
@@ -227,10 +227,10 @@ fn triangles_that_hold_the_border_of_a_tone_are_found() {
                 assert!(found.binary_search(&(id as u32)).is_ok(), "triangle {id} at {level}");
             }
         }
-        // The border is a circle; its triangles are a band one triangle wide.
+        // The border is a circle, and its triangles form a band one triangle wide.
         assert!(holding > 80 && found.len() < 8 * holding, "{} for {holding}", found.len());
     }
-    // Normals that point to all sides or nowhere are proposed for every light.
+    // Normals in all directions, or zero normals, are candidates for every light.
     let wild = [[DVec3::X, DVec3::NEG_X, DVec3::Y], [DVec3::ZERO; 3]];
     let wild = ToneTree::new(&wild);
     assert_eq!(wild.candidates(DVec3::Z, 0.9).items, [0, 1]);
@@ -255,7 +255,7 @@ fn models_have_the_same_lines() {
                 let parallel = camera.with_projection(Projection::Orthographic { height: 1.0 }).fit(&scene);
                 for camera in [camera.fit(&scene), parallel] {
                     check(&surface, &search, &camera, &options);
-                    // A refined mesh does not fit, and is asked edge by edge.
+                    // A refined mesh does not fit the search, so every edge is tested.
                     let finer = surface.clone().finer_for(&camera);
                     if finer.mesh.edges.len() != surface.mesh.edges.len() {
                         assert!(!search.fits(&finer.mesh));
@@ -273,7 +273,7 @@ fn an_empty_surface_is_searched_too() {
     assert_eq!(check(&surface, &search, &perspective(DVec3::Z, DVec3::ZERO, 30.0), &exact()), (0, 0));
 }
 
-/// A scene of many views makes the trees on its way; no view shows which.
+/// Repeated views build the search trees. They must not change any drawing.
 #[test]
 fn views_with_and_without_the_search_are_alike() {
     let ball = scene([round_solids::icosphere(5)]);
@@ -286,7 +286,7 @@ fn views_with_and_without_the_search_are_alike() {
     };
     let prepared = ligne::pipeline::Prepared::new(&ball, &style);
     assert!(prepared_edges(&ball) > 20_000);
-    // The trees are made for the hundredth view.
+    // The trees are built for the hundredth view.
     let small = Camera { width: 40.0, height: 40.0, ..views(4.0)[0] };
     (0..100).for_each(|_| drop(prepared.draw(&small, page(&small), None).unwrap()));
     for camera in views(4.0).into_iter().take(12) {
@@ -297,7 +297,7 @@ fn views_with_and_without_the_search_are_alike() {
     }
 }
 
-/// The number of edges of a scene's mesh.
+/// Returns the number of edges of a scene's mesh.
 fn prepared_edges(scene: &Scene) -> usize {
     Mesh::build(scene.to_soup()).edges.len()
 }

@@ -1,4 +1,5 @@
-//! Hidden lines do not lie in the ink of others: closed forms, and point by point against every line there is.
+//! Hidden lines do not overlap the ink of visible lines; tested against closed forms and point by point
+//! against every line.
 
 use glam::DVec3;
 use kurbo::{Point, Vec2};
@@ -32,11 +33,11 @@ fn a_box_seen_square_on_has_no_hidden_line() {
         assert_eq!(marks(&drawing, LayerKind::HiddenLines), 0, "{view:?}");
         assert!(marks(&drawing, LayerKind::Lines) > 0);
     }
-    // From a corner three edges meet behind it.
+    // From a corner, three edges meet behind the box.
     assert!(marks(&technical(&scene, NamedView::Iso), LayerKind::HiddenLines) > 0);
 }
 
-/// The map without what hidden lines have in the ink of lines that are hardly wider than nothing.
+/// Returns the map without hidden lines inside the ink of visible lines, for lines of zero width.
 fn apart(map: &ViewMap, extents: &Extents, perspective: bool) -> Option<ViewMap> {
     hidden_line_precedence::apart(
         map,
@@ -44,14 +45,14 @@ fn apart(map: &ViewMap, extents: &Extents, perspective: bool) -> Option<ViewMap>
     )
 }
 
-/// The length of all hidden lines of a drawing, px.
+/// Returns the length of all hidden lines of a drawing, px.
 fn hidden_length(drawing: &Drawing) -> f64 {
     let hidden = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::HiddenLines);
     let paths = hidden.flat_map(|layer| &layer.marks).flat_map(|mark| mark.path.segments());
     paths.map(|segment| kurbo::ParamCurveArclen::arclen(&segment, 1e-6)).sum()
 }
 
-/// A drawing in the style `technical`, 100 px a unit, seen along -z onto the origin.
+/// Draws in the style `technical` at 100 px per unit, seen along −z towards the origin.
 fn from_above(solids: Vec<Solid>) -> Drawing {
     let camera = orthographic(DVec3::Z * 20.0, DVec3::ZERO, 10.0).with_frame(1000.0, 1000.0);
     render(&scene(solids), &camera, &Style::preset("technical").unwrap()).unwrap()
@@ -61,7 +62,8 @@ fn from_above(solids: Vec<Solid>) -> Drawing {
 fn hidden_lines_that_coincide_are_drawn_once() {
     let mut dice = Dice::new(571);
     for round in 0..20 {
-        // Blocks under a plate: their upper and lower edges coincide in the picture, those of the lower block with those of the upper.
+        // Blocks under a plate. The upper and lower edges of each block coincide in the image, and so do the
+        // edges of both blocks.
         let mut number = |low: f64, high: f64| (dice.between(low, high) * 100.0).round() / 100.0;
         let (low, high) = ([number(-3.0, -1.0), number(-3.0, -1.0)], [number(0.5, 3.0), number(0.5, 3.0)]);
         let at = |[x, y]: [f64; 2], z: f64| DVec3::new(x, y, z);
@@ -93,7 +95,7 @@ fn hidden_lines_in_the_ink_of_visible_ones_are_left_out() {
 
 #[test]
 fn hidden_lines_that_cross_or_touch_visible_ones_stay() {
-    // A plate with a long edge along x, and below it a bar turned by some degrees, whose sides cross that edge.
+    // A plate with a long edge along x, above a bar rotated so that its sides cross that edge.
     let plate = || cuboid(DVec3::new(-4.5, -4.0, 0.0), DVec3::new(4.5, 0.0, 1.0));
     for degrees in [2.0_f64, 5.0, 30.0, 90.0] {
         let (sin, cos) = (
@@ -103,7 +105,7 @@ fn hidden_lines_that_cross_or_touch_visible_ones_stay() {
         let turn = move |p: DVec3| DVec3::new(p.x * cos - p.y * sin, p.x * sin + p.y * cos, p.z);
         let bar = cuboid(DVec3::new(-3.0, -0.4, -2.0), DVec3::new(3.0, 0.4, -1.0)).moved(turn);
         let hidden = hidden_length(&from_above(vec![plate(), bar]));
-        // Half of the bar is under the plate, or all but what its ends show.
+        // Only the part of the bar under the plate is hidden.
         let corners =
             [(-3.0, -0.4), (3.0, -0.4), (3.0, 0.4), (-3.0, 0.4)].map(|(x, y)| turn(DVec3::new(x, y, 0.0)));
         let under = |k: usize| {
@@ -123,7 +125,7 @@ fn hidden_lines_that_cross_or_touch_visible_ones_stay() {
     assert!(hidden > whole - 25.0 && hidden < whole + 1.0, "{hidden} px of {whole}");
 }
 
-/// Boxes that stand straight, with edges behind edges as seen along an axis.
+/// Axis-aligned boxes, with edges behind edges in views along an axis.
 fn straight_boxes(dice: &mut Dice) -> Scene {
     let boxes: Vec<Solid> = (0..7)
         .map(|_| {
@@ -135,18 +137,19 @@ fn straight_boxes(dice: &mut Dice) -> Scene {
     scene(boxes)
 }
 
-/// The ends of an edge in the image.
+/// Returns the ends of an edge in the image.
 fn ends(map: &ViewMap, edge: &ViewEdge) -> [Point; 2] {
     [edge.start, edge.end].map(|end| map.vertices[end.index()].position)
 }
 
-/// How far a point is from the nearest place of an edge that is beside it, where the edge runs in its direction.
+/// Returns the distance of a point from the line of an edge. Returns `None` unless the point lies next to the
+/// edge and `way` is parallel to it.
 fn off(map: &ViewMap, edge: &ViewEdge, point: Point, way: Vec2) -> Option<f64> {
     let [a, b] = ends(map, edge);
     let along = b - a;
     let length = along.hypot();
     let place = (point - a).dot(along) / length;
-    // Near its ends rounding may decide.
+    // Near its ends, rounding decides.
     let beside = length > 0.0 && place > 1e-3 && place < length - 1e-3;
     let parallel = along.cross(way).abs() / length <= BEHIND_INK_SINE * 0.999;
     (beside && parallel).then(|| (along.cross(point - a) / length).abs())
@@ -204,7 +207,7 @@ fn what_is_cut_away_runs_along_a_line_that_stays() {
         let Some(apart) = apart(&map, &extents, false) else { continue };
         for edge in map.edges.iter().filter(|edge| edge.invisibility > 0) {
             let [a, b] = ends(&map, edge);
-            // Distances may add up where a line gives way to one that gives way itself.
+            // Distances may add up if a line yields to one that itself yields.
             let far = |other: &ViewEdge, point: Point| {
                 let [p, q] = ends(&apart, other);
                 let along = q - p;
@@ -228,7 +231,7 @@ fn visible_lines_are_those_without_hidden_ones_cut() {
         return;
     }
     let scene = Scene::open(bracket).unwrap();
-    // From the side half of the hidden lines lie behind the outline; none of what is left does.
+    // From the side, half of the hidden lines lie behind the outline, and none of these remain.
     let drawing = technical(&scene, NamedView::Front);
     let hidden = marks(&drawing, LayerKind::HiddenLines);
     assert!((1..30).contains(&hidden), "{hidden}");

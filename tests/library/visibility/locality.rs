@@ -1,6 +1,5 @@
-//! What a fixed camera sees of one part does not depend on other parts far from it in the image: hiding or
-//! moving a part changes no line elsewhere, not by one byte; of fills and strokes of hatching, that run on beside
-//! a part, a few change.
+//! Hiding or moving a part does not change the drawing of distant parts under a fixed camera. Lines of the
+//! castle stay identical; elsewhere, a small share of the marks may change, such as fills and hatch strokes.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -13,7 +12,7 @@ use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 use ligne::view::Frame;
 
-/// Marks nearer than this (px) to the box around the image of a part may change with it.
+/// Marks closer than this to the image bounding box of a part may change with it, px.
 const NEAR_PX: f64 = 3.0;
 
 fn open(name: &str) -> (Scene, Camera) {
@@ -25,7 +24,7 @@ fn open(name: &str) -> (Scene, Camera) {
     (scene, camera)
 }
 
-/// All that is written of a mark.
+/// Returns a text with everything that defines a mark.
 fn written(layer: LayerKind, mark: &Mark) -> String {
     let mut text = format!("{layer:?} {:?} ", mark.provenance);
     let path = |text: &mut String, path: &kurbo::BezPath| {
@@ -63,7 +62,7 @@ fn written(layer: LayerKind, mark: &Mark) -> String {
     text
 }
 
-/// How often each mark stands in a drawing, of those that lie apart from some boxes.
+/// Counts equal marks among the marks that lie apart from the boxes.
 fn apart(scene: &Scene, camera: &Camera, style: &Style, boxes: &[Rect]) -> BTreeMap<String, u32> {
     let mut marks = BTreeMap::new();
     for layer in &render(scene, camera, style).unwrap().layers {
@@ -83,7 +82,7 @@ fn apart(scene: &Scene, camera: &Camera, style: &Style, boxes: &[Rect]) -> BTree
     marks
 }
 
-/// The box around the image of a part.
+/// Returns the image bounding box of a part.
 fn image_of(scene: &Scene, camera: &Camera, name: &str) -> Rect {
     let frame = Frame::new(camera, DVec3::ZERO);
     let mut around: Option<Rect> = None;
@@ -97,7 +96,8 @@ fn image_of(scene: &Scene, camera: &Camera, name: &str) -> Rect {
     around.unwrap_or_else(|| panic!("there is no part {name}"))
 }
 
-/// How many marks apart from the parts differ, of how many, between a scene and a changed one.
+/// Compares a scene with a changed one. Returns the number of differing marks apart from the part, and the
+/// number of all such marks.
 fn differing(
     (scene, camera): &(Scene, Camera),
     style: &Style,
@@ -138,7 +138,7 @@ const CASTLE: [&str; 7] = [
 const PUMP: [&str; 6] =
     ["lifting-eye", "anchor-1", "terminal-box", "motor-bolt-2", "fan-cover", "filler-plug"];
 
-/// Fails where more than this share of the marks elsewhere differ.
+/// Fails if more than this share of the distant marks differ.
 fn check(model: &str, styles: &[&str], parts: &[&str], most: f64) {
     let seen = open(model);
     let mut faults = String::new();

@@ -1,4 +1,5 @@
-//! Contours of rounded surfaces lie where geometry has them, whatever triangles stand for the surface.
+//! Contours of rounded surfaces agree with the closed-form contour for any triangulation: spheres,
+//! ellipsoids, tori, saddles and cylinders.
 
 use crate::support::measures::line_picture;
 use crate::support::references::torus_contour;
@@ -37,7 +38,7 @@ fn chains(drawn: &Stages, options: &ChainOptions) -> Vec<Chain> {
     chains
 }
 
-/// Cameras that look at the origin from everywhere, every other one parallel.
+/// Cameras that face the origin from random directions. Every second one is orthographic.
 fn cameras(seed: u64, count: usize, reach: f64) -> Vec<Camera> {
     let mut dice = Dice::new(seed);
     let camera = |k: usize| {
@@ -50,7 +51,7 @@ fn cameras(seed: u64, count: usize, reach: f64) -> Vec<Camera> {
     (0..count).map(camera).collect()
 }
 
-/// How far lines lie from where they should, and what should be drawn from lines, at most, px.
+/// Returns the largest distance of the drawn lines from the true ones, and of the true from the drawn, px.
 fn apart(drawn: &[[Point; 2]], truth: &[[Point; 2]]) -> [f64; 2] {
     let farthest = |of: &[[Point; 2]], from: &[[Point; 2]]| {
         let ink = Ink::new(from.to_vec(), 8.0);
@@ -59,7 +60,7 @@ fn apart(drawn: &[[Point; 2]], truth: &[[Point; 2]]) -> [f64; 2] {
     [farthest(drawn, truth), farthest(truth, drawn)]
 }
 
-/// A closed curve through the images of points.
+/// Returns a closed curve through the images of points.
 fn ring(camera: &Camera, point: impl Fn(f64) -> DVec3) -> Vec<[Point; 2]> {
     let eye = Eye::new(camera);
     let count = 2000;
@@ -67,10 +68,10 @@ fn ring(camera: &Camera, point: impl Fn(f64) -> DVec3) -> Vec<[Point; 2]> {
     (0..count as usize).map(|k| [at(k), at(k + 1)]).collect()
 }
 
-/// The contour of the ellipsoid of these half axes: it is that of a sphere, stretched.
+/// Returns the contour of an ellipsoid with these half axes. It is the contour of a sphere, scaled.
 fn contour_of_ellipsoid(axes: DVec3, camera: &Camera) -> Vec<[Point; 2]> {
     let eye = Eye::new(camera);
-    // n·v = 0 on the sphere is a circle about the way to the eye.
+    // On the sphere, the solutions of n·v = 0 form a circle around the direction to the camera.
     let (way, height) = if eye.perspective {
         let to_eye = eye.eye / axes;
         (to_eye.normalize(), 1.0 / to_eye.length())
@@ -82,7 +83,7 @@ fn contour_of_ellipsoid(axes: DVec3, camera: &Camera) -> Vec<[Point; 2]> {
     ring(camera, |t| (way * height + (u * cos(t) + v * sin(t)) * wide) * axes)
 }
 
-/// Draws a solid and compares with its one closed contour.
+/// Draws a solid and compares the result with its single closed contour.
 fn one_ring(
     what: &str,
     solid: &Solid,
@@ -93,7 +94,7 @@ fn one_ring(
     one_ring_of(what, &scene([solid.clone()]), contours, truth, within);
 }
 
-/// Draws a scene and compares with its one closed contour.
+/// Draws a scene and compares the result with its single closed contour.
 fn one_ring_of(
     what: &str,
     scene: &Scene,
@@ -125,7 +126,7 @@ fn one_ring_of(
     }
 }
 
-/// Plain lines, and default ones, whose curves may lie 0.15 px from the lines they are fitted to.
+/// Largest errors of plain lines, and of default lines, whose curves may lie 0.15 px from the lines they fit.
 const BALL_PX: [f64; 2] = [0.1, 0.2];
 
 #[test]
@@ -145,7 +146,7 @@ fn the_contour_of_a_sphere_is_a_circle_however_it_is_cut() {
 fn normals_that_were_left_behind_when_a_ball_was_turned_say_nothing_of_it() {
     let ball = |camera: &Camera| contour_of_ellipsoid(DVec3::ONE, camera);
     for (what, solid) in [("globe", globe(32)), ("icosphere", icosphere(4)), ("octasphere", octasphere(5))] {
-        // Those of the ball itself, and as they were before it was turned.
+        // The normals of the ball, and normals from before its rotation.
         for degrees in [0.0, 20.0, 35.0] {
             let before = DMat3::from_rotation_x(f64::to_radians(degrees));
             let normals = solid.positions.iter().map(|p| (before * *p).as_vec3().to_array()).collect();
@@ -168,14 +169,14 @@ fn the_contour_of_an_ellipsoid_is_an_ellipse() {
     }
 }
 
-/// A stretch of visible contour as it is drawn.
+/// A connected piece of visible contour in the drawing.
 struct DrawnPiece {
     length: f64,
     ends: usize,
     cusps: usize,
 }
 
-/// Visible contours joined where they share a vertex.
+/// Groups visible contour edges that share a vertex.
 fn drawn_pieces(drawn: &Stages) -> Vec<DrawnPiece> {
     let seen = || drawn.map.edges.iter().filter(|e| e.invisibility == 0 && e.kind == LineKind::Contour);
     let mut group: HashMap<u32, u32> = HashMap::new();
@@ -205,7 +206,7 @@ fn drawn_pieces(drawn: &Stages) -> Vec<DrawnPiece> {
     pieces.into_values().collect()
 }
 
-/// Loops and lines of at least `least` px, and the cusps at their ends.
+/// Counts loops and open lines of at least `least` px, and the cusps at their ends.
 fn census<'a, T: 'a>(
     pieces: impl IntoIterator<Item = &'a T>,
     least: f64,
@@ -225,20 +226,20 @@ fn length(segments: &[[Point; 2]]) -> f64 {
     segments.iter().map(|[a, b]| (*b - *a).hypot()).sum()
 }
 
-/// What 30 views of a torus came to.
+/// Results over 30 views of a torus.
 #[derive(Debug, Default)]
 struct TorusTally {
-    /// Views with other pieces or cusps than geometry has.
+    /// Number of views with pieces or cusps that differ from the closed form.
     wrong: usize,
-    /// The farthest that drawn contours lie from the whole contour, hidden or not, px.
+    /// Largest distance of the drawn contours from the full contour, visible or hidden, px.
     off: f64,
-    /// Drawn where nothing should be, and not drawn where something should, px of length.
+    /// Length drawn where there should be none, and length missing, px.
     extra: f64,
     missing: f64,
     length: f64,
 }
 
-/// Pieces and gaps shorter than this are no longer counted: on a coarse torus they come and go, px.
+/// Shorter pieces and gaps are not counted, because they depend on the view on a coarse torus, px.
 const LEAST_PX: f64 = 14.0;
 
 fn torus_views(around: usize, along: usize, radius: f64, tube: f64, within: f64) -> TorusTally {
@@ -281,8 +282,8 @@ fn torus_views(around: usize, along: usize, radius: f64, tube: f64, within: f64)
 
 #[test]
 fn the_contour_of_a_torus_has_its_pieces_and_cusps() {
-    // Of 30 views those with other pieces, px of length extra and missing in a thousand. What the polyhedron
-    // shows and the torus does not is drawn as it is: crumbs of 1 to 3 px beside cusps, which tidying takes.
+    // Limits: views of 30 with different pieces, and extra and missing length in thousandths. The polyhedron
+    // shows pieces of 1 to 3 px near cusps that the torus does not have; tidying removes them later.
     for (tube, around, within, wrong, [extra, missing]) in [
         (0.25, 24, 0.5, 8, [3.0, 0.2]),
         (0.25, 48, 0.5, 2, [3.0, 0.2]),
@@ -300,7 +301,7 @@ fn the_contour_of_a_torus_has_its_pieces_and_cusps() {
 
 #[test]
 fn a_saddle_has_its_contour_and_borders() {
-    // At its border the normals of a mesh are those of one side, so that contours end some px aside.
+    // At a border, vertex normals average one side only, so contours end some px away from their true ends.
     for (cells, least) in [(16, 93.0), (64, 98.0)] {
         let patch = scene([saddle(cells)]);
         let (mut astray, mut all) = (0.0, 0.0);
@@ -339,14 +340,14 @@ fn a_saddle_has_its_contour_and_borders() {
     }
 }
 
-/// Contours and borders of the saddle lie within this, but for their ends.
+/// Largest distance of the saddle's contours and borders, except at their ends.
 const SADDLE_PX: f64 = 1.0;
 
-/// Points of the contour of z = x² − y² in the square: all of it is seen, for a line of sight that
-/// touches the surface meets it nowhere else.
+/// Returns points of the contour of z = x² − y² over the square. All of it is visible, because a tangent line
+/// of sight meets the surface nowhere else.
 fn contour_of_saddle(camera: &Camera) -> Vec<DVec3> {
     let eye = Eye::new(camera);
-    // n·v = a (x² − y²) − 2 x ex + 2 y ey + ez with a = 1 for an eye, 0 for a direction.
+    // n·v = a (x² − y²) − 2 x ex + 2 y ey + ez, with a = 1 for perspective and 0 for orthographic views.
     let (a, e) = if eye.perspective { (1.0, eye.eye) } else { (0.0, -eye.forward) };
     let mut points = Vec::new();
     let mut push = |x: f64, y: f64| {
@@ -367,7 +368,7 @@ fn contour_of_saddle(camera: &Camera) -> Vec<DVec3> {
     points
 }
 
-/// The real roots of a x² + b x + c.
+/// Returns the real roots of a x² + b x + c.
 fn roots(a: f64, b: f64, c: f64) -> Vec<f64> {
     if a == 0.0 {
         return if b == 0.0 { Vec::new() } else { vec![-c / b] };
@@ -376,8 +377,8 @@ fn roots(a: f64, b: f64, c: f64) -> Vec<f64> {
     if root < 0.0 { Vec::new() } else { [-1.0, 1.0].map(|s| (-b + s * root.sqrt()) / (2.0 * a)).to_vec() }
 }
 
-/// Points of the borders of the saddle that it does not hide: a line of sight through a border meets
-/// the surface once more, before or behind, inside the square or beyond.
+/// Returns the visible border points of the saddle. A line of sight through a border point meets the surface
+/// once more; the point is hidden if that is in front and inside the square.
 fn borders_of_saddle(camera: &Camera) -> Vec<DVec3> {
     let eye = Eye::new(camera);
     let mut points = Vec::new();
@@ -410,17 +411,17 @@ fn a_cylinder_is_drawn_from_rim_to_rim() {
             worst = [0, 1].map(|i| worst[i].max(off[i]));
         }
         println!("cylinder {around}: off, missing {worst:?}");
-        // Rims are polygons, as far off as their chords: at most 330 px times 1 − cos(π / n).
+        // Rims are polygons, so the error is up to their sagitta: 330 px times 1 − cos(π / n).
         let chord = 330.0 * (1.0 - cos(std::f64::consts::PI / f64::from(around)));
         assert!(worst.iter().all(|w| *w <= chord + 0.05), "{worst:?}, chords {chord}");
     }
 }
 
-/// What is seen of the cylinder of radius 1 from z = −1 to 1: its rims where a face beside them faces
-/// the eye, and the two lines where its side turns away.
+/// Returns the visible lines of the cylinder of radius 1 from z = −1 to 1: rims next to a front face, and the
+/// two contour lines of its side.
 fn lines_of_cylinder(camera: &Camera) -> Vec<[Point; 2]> {
     let eye = Eye::new(camera);
-    // How much the outside at angle t is turned to the eye.
+    // How far the outward normal at angle t faces the camera.
     let side = |t: f64| {
         let n = DVec3::new(cos(t), sin(t), 0.0);
         if eye.perspective { eye.eye.dot(n) - 1.0 } else { -eye.forward.dot(n) }

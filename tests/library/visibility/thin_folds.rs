@@ -1,4 +1,4 @@
-//! Splinters: the contour of a fold that is thinner than a pen is not drawn, and all else is.
+//! Contours of folds thinner than a pen are not drawn, and all wider folds are; tested against known lengths.
 
 use glam::DVec3;
 use kurbo::Point;
@@ -13,8 +13,8 @@ use crate::support::pipeline::{orthographic, scene};
 use crate::support::references::drawing_judge::{axis, ink_marks};
 use crate::support::scenes::solids::Solid;
 
-/// A square of side 40 with a long step in its middle, from tip to tip 20 long: the surface rises to it, and falls
-/// behind its edge by half its width.
+/// A square of side 40 with a step in its middle, 20 long from tip to tip. The surface rises to the step and
+/// falls behind its edge by half its width.
 fn step(width: f64) -> Solid {
     let up = width / 2.0;
     let positions = [
@@ -44,15 +44,15 @@ fn step(width: f64) -> Solid {
     }
 }
 
-/// Seen from before it, at an angle with the ground: below 26.6 degrees, what falls by half its width is averted. A unit is
-/// 25 px.
+/// A view from the front at a given elevation, with 25 px per unit. Below 26.6 degrees, the falling side of
+/// the step faces away.
 fn before(elevation_deg: f64) -> Camera {
     let angle = elevation_deg.to_radians();
     let eye = DVec3::new(0.0, -100.0 * cos(angle), 100.0 * sin(angle));
     Camera { up: DVec3::Z, ..orthographic(eye, DVec3::ZERO, 40.0) }
 }
 
-/// What is drawn of a solid near the middle of the page, px.
+/// Returns the drawn length near the middle of the page, px.
 fn drawn(solid: Solid, elevation_deg: f64, tidy: Option<f64>) -> f64 {
     let mut style = Style::preset("ink").unwrap();
     if let Some(tidy) = tidy {
@@ -75,14 +75,15 @@ fn a_fold_thinner_than_a_pen_is_not_drawn() {
 
 #[test]
 fn a_step_wider_than_a_pen_is_drawn() {
-    // Also where its averted faces are all but edge-on, and take no more of the image than those of a splinter.
+    // Also where its back faces are nearly edge-on and take no more image area than a thin fold.
     for elevation_deg in [20.0, 26.0] {
         let wide = drawn(step(0.5), elevation_deg, None);
         assert!((wide - 500.0).abs() < 5.0, "{elevation_deg}: {wide}");
     }
 }
 
-/// The same with tips 28 apart, and the edge between them to and fro: a needle that is averted, one that faces the eye.
+/// The same step with tips 28 apart and a zigzag edge: one needle triangle faces away, the next faces the
+/// camera.
 fn step_to_and_fro() -> Solid {
     let (up, needle) = (0.25, 0.04);
     let foot = needle + 3.0_f64.sqrt() * up;
@@ -128,7 +129,7 @@ fn step_to_and_fro() -> Solid {
 #[test]
 fn a_line_that_needles_lead_to_and_fro_is_drawn() {
     let line = drawn(step_to_and_fro(), 20.0, None);
-    // Some of it is seen twice.
+    // Parts of it are drawn twice.
     assert!(line > 695.0, "{line}");
 }
 

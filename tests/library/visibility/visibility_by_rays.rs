@@ -1,4 +1,4 @@
-//! Visibility against a slow reference: one ray through every triangle for each view edge.
+//! Visibility of each view edge, compared with a ray through every triangle to its midpoint.
 
 use crate::support::measures::segment_sets::{cover_alike, distance, length, uncovered};
 use crate::support::pipeline::{Stages, counting, exact, stages};
@@ -12,25 +12,26 @@ use ligne::mesh::{FaceId, Mesh};
 use ligne::scene::{Camera, Scene};
 use ligne::view::Frame;
 
-/// What one ray says of one point.
+/// The result of one ray to one point.
 enum Answer {
-    /// So many surfaces lie in front.
+    /// The number of surfaces in front.
     Count(u16),
-    /// The ray grazes a border, a depth is at the limit of touching: rounding may decide.
+    /// The ray grazes a border or a depth is at the contact tolerance, so rounding decides.
     Ambiguous,
 }
 
-/// The difference in depth that counts as touching a face.
+/// Returns the depth difference within which a point touches a face.
 fn contact(mesh: &Mesh, face: u32, frame: &Frame, depth: f64) -> f64 {
     mesh.extent(FaceId(face)).contact.max(tolerance::CONTACT_PX * frame.px_at(depth))
 }
 
-/// Shoots a ray from the eye to a point of a feature segment.
+/// Shoots a ray from the camera to a point of a feature segment.
 fn shoot(stages: &Stages, camera: &Camera, eye: &Eye, segment: usize, point: DVec3) -> Answer {
     let source = &stages.lines.segments[segment];
     let mesh = &stages.mesh;
     let depth = eye.depth(point);
-    // The ray runs from depth 0 to the point at 1; in a parallel view hits behind the eye count.
+    // The ray runs from depth 0 to the point at parameter 1. In an orthographic view, hits behind the camera
+    // count.
     let from = if eye.perspective { eye.eye } else { point - eye.forward * depth };
     let way = point - from;
     let focus = camera.eye.distance(camera.target);
@@ -88,11 +89,11 @@ struct Tally {
     crumbs: usize,
 }
 
-/// View edges shorter than this (px) are what the tolerances of touching leave where lines pierce
-/// surfaces; a ray to their middle is at the limit itself.
+/// Shorter view edges are artefacts of the contact tolerances where lines pierce surfaces, px. A ray to their
+/// middle is itself at the tolerance.
 const CRUMB_PX: f64 = 5e-3;
 
-/// The point of the line p–q that is seen nearest to a place of the image, and its parameter.
+/// Returns the point of the line p–q that is nearest to a line of sight, and its parameter.
 fn point_seen_at(eye: &Eye, image: kurbo::Point, p: DVec3, q: DVec3) -> (DVec3, f64) {
     let (from, to) = (eye.world(image, 0.0), eye.world(image, 1.0));
     let (ray, way) = (to - from, q - p);
@@ -101,7 +102,7 @@ fn point_seen_at(eye: &Eye, image: kurbo::Point, p: DVec3, q: DVec3) -> (DVec3, 
     (p + way * t, t)
 }
 
-/// Compares every view edge of a drawing with a ray to its middle.
+/// Compares every view edge of a drawing with a ray to its midpoint.
 fn agrees_with_rays(scene: &Scene, camera: &Camera, tally: &mut Tally) -> Result<(), String> {
     let stages = stages(scene, camera, &counting());
     let local = Camera {
@@ -112,7 +113,7 @@ fn agrees_with_rays(scene: &Scene, camera: &Camera, tally: &mut Tally) -> Result
     let eye = Eye::new(&local);
     for edge in &stages.map.edges {
         let [a, b] = stages.ends(edge);
-        // The view edge must lie on its feature segment; there the ray ends.
+        // The view edge must lie on its feature segment, where the ray ends.
         let ends = stages.lines.segments[edge.segment as usize].ends;
         let [p, q] = ends.map(|end| stages.lines.position(&stages.mesh, end));
         let (point, t) = point_seen_at(&eye, a.midpoint(b), p, q);
@@ -205,7 +206,7 @@ fn visible_and_hidden_length_are_the_whole() {
             let stages = stages(&scene, &camera, &counting());
             let origin = stages.mesh.origin;
             let eye = Eye::new(&camera);
-            // Without a near plane of the camera's own, the view sets one very near to the eye.
+            // Without a near plane on the camera, the view sets one very close to it.
             let near = camera.near.or(stages.view.frame.near);
             let all = [stages.visible(), stages.hidden()].concat();
             let mut drawn = vec![0.0; stages.lines.segments.len()];
@@ -218,7 +219,7 @@ fn visible_and_hidden_length_are_the_whole() {
                 let whole =
                     eye.clipped(p, q, near).map_or(0.0, |[p, q]| distance(eye.image(p), eye.image(q)));
                 assert!(drawn <= whole + 1e-6, "{kind}, {camera_kind}: {drawn} of {whole}, {segment:?}");
-                // Where two lines run within DOUBLE_PX of each other, one of them is drawn.
+                // If two lines run within `DOUBLE_PX` of each other, only one is drawn.
                 if whole - drawn > 1e-6 * whole.max(1.0) {
                     let image = eye.clipped(p, q, near).map(|s| s.map(|p| eye.image(p)));
                     let lost = uncovered(image.as_slice(), &all, 1.01 * tolerance::DOUBLE_PX);
