@@ -122,7 +122,7 @@ fn places(rays: &Rays, id: usize, line: &Line) -> Vec<Place> {
 
 /// Depth distance within which a face does not hide a line; `None` for the line's own faces.
 ///
-/// Faces that share one end of the line may come closer.
+/// The distance is smaller for faces that share one end of the line.
 fn touching(rays: &Rays, line: &Line, face: u32) -> Option<f64> {
     if line.hosts.contains(&face) {
         return None;
