@@ -268,7 +268,7 @@ pub const ROWS: &[Row] = &[
         ],
         least: 10,
     },
-    // A sheet keeps its winding, which decides at which end a row of strokes begins. The strokes vary
+    // A sheet keeps its winding, so reversed faces start rows of strokes at the other end. The strokes vary
     // differently there, at the same density.
     Row {
         options: &[PENCIL_OBJECT],

@@ -1,10 +1,10 @@
 //! Metamorphic tests: a random model gives the same drawing in every file format and encoding.
 //!
-//! 1. [`model`] makes a random scene of [`body`] values, built by [`shapes`]. Their coordinates are short, so the
-//!    exact form is known.
+//! 1. [`model`] makes a random scene of [`body`] values, built by [`shapes`]. Their coordinates are short, so
+//!    the exact form is known.
 //! 2. [`relations`] lists the ways to write the model. [`changes`] alters its faces.
 //! 3. [`text_files`] and [`binary_files`] write files.
-//! 4. [`trial`] reads both files with the library, draws them, and compares the lines of each pen with [`pens`].
+//! 4. [`trial`] reads both files with the library, draws them, and compares the lines of each pen by [`pens`].
 //! 5. [`table`] counts the drawings that differ; [`known`] lists the accepted differences.
 
 mod binary_files;
