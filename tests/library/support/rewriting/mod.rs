@@ -4,7 +4,7 @@
 //!    the exact form is known.
 //! 2. [`relations`] lists the ways to write the model. [`changes`] alters its faces.
 //! 3. [`text_files`] and [`binary_files`] write files.
-//! 4. [`trial`] reads both files with the library, draws them, and compares the lines of each pen by [`pens`].
+//! 4. [`trial`] reads both files with the library, draws them, and compares their lines by pen with [`pens`].
 //! 5. [`table`] counts the drawings that differ; [`known`] lists the accepted differences.
 
 mod binary_files;
