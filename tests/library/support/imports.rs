@@ -1,22 +1,24 @@
-//! Which file imports which: `use` and paths read from source code, names followed to the file that defines them.
+//! Import graph of a crate, from `use` declarations and paths in its source code.
+//!
+//! Each imported name is followed through re-exports to the file that defines it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Names from the root of the crate down.
+/// A path of names, starting at the crate root.
 type Path = Vec<String>;
 
 /// A file of a crate.
 pub struct File {
-    /// Its place under `src/`, with `/`.
+    /// Its path below `src/`, with `/` as separator.
     pub place: String,
     /// Its code, without comments and tests.
     pub code: String,
 }
 
-/// The files that each file imports something of, by their places.
+/// The files that each file imports from, by path below `src/`.
 ///
-/// Where a module imports a name, whoever takes the name from there imports the file that defines it. A `mod.rs`
-/// may make names of its children public, and call the children by their paths: that is what it is for.
+/// An import through a re-export counts as an import of the defining file. Public re-exports in `mod.rs` and
+/// `lib.rs` are not counted, because a folder's front may publish its children.
 pub fn imports(files: &[File]) -> BTreeMap<&str, BTreeSet<&str>> {
     let scope = Scope::new(files);
     let of_file = |file: &File| {
@@ -32,13 +34,14 @@ pub fn imports(files: &[File]) -> BTreeMap<&str, BTreeSet<&str>> {
     files.iter().map(|file| (&*file.place, of_file(file))).collect()
 }
 
-/// Circles of files each of which imports the next, and the last one the first; some of those that share an import
-/// with another may be missing.
+/// Import cycles: in each, every file imports the next and the last imports the first.
+///
+/// Cycles that share an import with a reported cycle may be missing.
 pub fn circles<'a>(imports: &BTreeMap<&'a str, BTreeSet<&'a str>>) -> Vec<Vec<&'a str>> {
     let mut rest = imports.clone();
     let mut found = Vec::new();
     loop {
-        // What imports nothing of the rest is in no circle.
+        // A file without imports among the remaining files is in no cycle.
         let is_leaf = |others: &BTreeSet<&str>| others.iter().all(|other| !rest.contains_key(other));
         let leaves: Vec<&str> = rest.iter().filter(|(_, to)| is_leaf(to)).map(|(file, _)| *file).collect();
         if !leaves.is_empty() {
@@ -60,7 +63,7 @@ pub fn circles<'a>(imports: &BTreeMap<&'a str, BTreeSet<&'a str>>) -> Vec<Vec<&'
     }
 }
 
-/// No name goes through more modules than this before it is defined.
+/// Maximum number of re-exports followed for one name.
 const MOST_HOPS: usize = 8;
 
 /// The modules of a crate and the names that they import.
@@ -73,7 +76,7 @@ impl<'a> Scope<'a> {
     fn new(files: &'a [File]) -> Self {
         let places = files.iter().map(|file| (module(&file.place), &*file.place)).collect();
         let mut scope = Self { files: places, names: BTreeMap::new() };
-        // A second look finds what is imported by way of names that the first has found.
+        // The second pass resolves imports through names that the first pass found.
         for _ in 0..2 {
             for file in files {
                 let own = module(&file.place);
@@ -88,7 +91,7 @@ impl<'a> Scope<'a> {
         scope
     }
 
-    /// A path in a module from the root of the crate; none if it leads to another crate.
+    /// Resolves a path used in the module `own` to a path from the crate root; `None` for other crates.
     fn absolute(&self, own: &[String], path: &[String]) -> Option<Path> {
         let supers = path.iter().take_while(|name| *name == "super").count();
         let (start, rest) = match path.first()?.as_str() {
@@ -104,7 +107,7 @@ impl<'a> Scope<'a> {
         Some([start, rest].concat())
     }
 
-    /// The file that defines what a path from the root leads to.
+    /// The file that defines the item at a path from the crate root.
     fn file(&self, path: &[String], hops: usize) -> Option<&'a str> {
         let is_module = |count: &usize| self.files.contains_key(&path[..*count]);
         let known = (0..=path.len()).rev().find(is_module)?;
@@ -116,22 +119,22 @@ impl<'a> Scope<'a> {
     }
 }
 
-/// The module that a file is.
+/// The module path of a source file.
 fn module(place: &str) -> Path {
     let mut path: Path = place.trim_end_matches(".rs").split('/').map(str::to_owned).collect();
     path.pop_if(|last| ["mod", "lib"].contains(&last.as_str()));
     path
 }
 
-/// A name that is imported.
+/// An imported name.
 struct Used {
     path: Path,
-    /// What it is called from then on.
+    /// The name in the importing module, after any `as`.
     name: String,
     is_public: bool,
 }
 
-/// What is imported by `use`, and the code without that.
+/// The imports of a source text, and the text without its `use` declarations.
 fn split(code: &str) -> (Vec<Used>, String) {
     let (mut uses, mut others) = (Vec::new(), String::new());
     let mut rest = code;
@@ -152,12 +155,12 @@ fn split(code: &str) -> (Vec<Used>, String) {
     (uses, others)
 }
 
-/// Adds the names of a tree such as `a::{self, b::C as D}`, which stands behind `before`.
+/// Adds the names of a `use` tree such as `a::{self, b::C as D}` below the path `before`.
 fn add_leaves(tree: &str, before: &[String], is_public: bool, out: &mut Vec<Used>) {
     let (head, list) = tree.split_once('{').map_or((tree, None), |(head, list)| (head, Some(list)));
     let (head, alias) = head.split_once(" as ").map_or((head, None), |(head, alias)| (head, Some(alias)));
     let names = head.split("::").map(str::trim).filter(|name| !name.is_empty());
-    // In a list `self` is what stands before it.
+    // Inside braces, `self` stands for the path before them.
     let names = names.filter(|name| before.is_empty() || *name != "self").map(str::to_owned);
     let path: Path = before.iter().cloned().chain(names).collect();
     let Some(list) = list else {
@@ -182,7 +185,7 @@ fn add_leaves(tree: &str, before: &[String], is_public: bool, out: &mut Vec<Used
     }
 }
 
-/// Paths in code that begin at the root, at the module or above it.
+/// Paths in code that begin with `crate::`, `self::` or `super::`.
 fn paths(code: &str) -> Vec<Path> {
     let is_of_path = |c: char| c.is_alphanumeric() || c == '_' || c == ':';
     code.split(|c| !is_of_path(c))

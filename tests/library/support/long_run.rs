@@ -1,11 +1,11 @@
-//! How much a run looks at: a part of the views and models by day, all of them at night.
+//! Size of a test run: all cases in release builds, a third of them in debug builds.
 
-/// Whether all is looked at: in release, or where `LIGNE_ALL` is set.
+/// Whether all cases are tested: in release builds, or if `LIGNE_ALL` is set.
 pub fn is_long() -> bool {
     !cfg!(debug_assertions) || std::env::var_os("LIGNE_ALL").is_some()
 }
 
-/// All of these in a long run, else every third, the first among them.
+/// All items in a long run, otherwise every third one, starting with the first.
 pub fn some<T>(all: Vec<T>) -> Vec<T> {
     let step = if is_long() { 1 } else { 3 };
     all.into_iter().step_by(step).collect()

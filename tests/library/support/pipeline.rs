@@ -1,4 +1,4 @@
-//! Scenes from solids, cameras at a glance, and all stages up to the view map at once.
+//! Scenes from solids, simple cameras, and all pipeline stages up to the view map in one call.
 
 use glam::{DAffine3, DVec3};
 use kurbo::Point;
@@ -10,7 +10,7 @@ use ligne::visibility::{self, ViewEdge, ViewMap};
 
 use crate::support::scenes::solids::Solid;
 
-/// What the stages up to the view map made.
+/// Results of all pipeline stages up to the view map.
 pub struct Stages {
     pub mesh: Mesh,
     pub view: View,
@@ -18,16 +18,17 @@ pub struct Stages {
     pub map: ViewMap,
 }
 
-/// Contours along edges of the mesh and every crease by itself: the exact drawing of a polyhedron.
+/// Options for the exact drawing of a polyhedron: contours along mesh edges, and unmerged creases.
 pub fn exact() -> LineOptions {
     LineOptions { contours: Contours::Mesh, ..LineOptions::default() }
 }
 
-/// The same, hidden lines kept and counted.
+/// Options as in [`exact`], with hidden lines kept and their invisibility counted.
 pub fn counting() -> LineOptions {
     LineOptions { hidden: HiddenLines::Dashed, ..exact() }
 }
 
+/// Runs the pipeline on a scene up to the view map.
 pub fn stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stages {
     let surface = Surface::new(Mesh::build(scene.to_soup()), options).finer_for(camera);
     let view = View::new(&surface.mesh, camera);
@@ -37,40 +38,40 @@ pub fn stages(scene: &Scene, camera: &Camera, options: &LineOptions) -> Stages {
 }
 
 impl Stages {
-    /// Where a view edge starts and ends in the image.
+    /// The image positions of a view edge's two ends, px.
     pub fn ends(&self, edge: &ViewEdge) -> [Point; 2] {
         [edge.start, edge.end].map(|v| self.map.vertices[v.index()].position)
     }
 
-    /// The visible view edges as segments of the image.
+    /// The visible view edges, as image segments.
     pub fn visible(&self) -> Vec<[Point; 2]> {
         self.map.edges.iter().filter(|e| e.invisibility == 0).map(|e| self.ends(e)).collect()
     }
 
-    /// The visible view edges of one kind.
+    /// The visible view edges of one kind, as image segments.
     pub fn visible_of(&self, kind: LineKind) -> Vec<[Point; 2]> {
         let of_kind = |e: &&ViewEdge| e.kind == kind && e.invisibility == 0;
         self.map.edges.iter().filter(of_kind).map(|e| self.ends(e)).collect()
     }
 
-    /// The visible view edges behind which there is background.
+    /// The visible silhouette edges: those with background on one side.
     pub fn outline(&self) -> Vec<[Point; 2]> {
         let of_outline = |e: &&ViewEdge| e.silhouette && e.invisibility == 0;
         self.map.edges.iter().filter(of_outline).map(|e| self.ends(e)).collect()
     }
 
-    /// The hidden view edges.
+    /// The hidden view edges, as image segments.
     pub fn hidden(&self) -> Vec<[Point; 2]> {
         self.map.edges.iter().filter(|e| e.invisibility > 0).map(|e| self.ends(e)).collect()
     }
 }
 
-/// A shape of its own.
+/// A geometry with the positions and triangles of a solid.
 pub fn geometry(solid: Solid) -> Geometry {
     Geometry { positions: solid.positions, triangles: solid.triangles, ..Geometry::default() }
 }
 
-/// A scene with one part a geometry.
+/// A scene with one part per geometry, each placed by the identity transform.
 pub fn scene_of_geometries(geometries: Vec<Geometry>) -> Scene {
     let part = |geometry: usize| Part {
         name: format!("part {geometry}"),
@@ -80,7 +81,7 @@ pub fn scene_of_geometries(geometries: Vec<Geometry>) -> Scene {
     Scene { parts: (0..geometries.len()).map(part).collect(), geometries, ..Scene::default() }
 }
 
-/// A scene with one part a solid.
+/// A scene with one part per solid.
 pub fn scene(solids: impl IntoIterator<Item = Solid>) -> Scene {
     scene_of_geometries(solids.into_iter().map(geometry).collect())
 }
@@ -90,7 +91,7 @@ pub fn perspective(eye: DVec3, target: DVec3, fov_y_deg: f64) -> Camera {
     camera(eye, target, Projection::Perspective { fov_y_deg })
 }
 
-/// A parallel camera with a frame of 1000 x 1000 px.
+/// An orthographic camera with a frame of 1000 x 1000 px; `height` is in world units.
 pub fn orthographic(eye: DVec3, target: DVec3, height: f64) -> Camera {
     camera(eye, target, Projection::Orthographic { height })
 }

@@ -1,21 +1,21 @@
-//! A style with changes, and a camera and a page for a scene.
+//! Built-in styles with overrides, and a default camera and page for a scene.
 
 use ligne::Style;
 use ligne::drawing::{Page, Unit};
 use ligne::scene::{Camera, Scene};
 
-/// A style of the project, changed.
+/// The built-in style `name` with the overrides `sets`, each `key=value`.
 pub fn style(name: &str, sets: &[&str]) -> Style {
     let sets: Vec<String> = sets.iter().map(|set| (*set).to_owned()).collect();
     Style::load(name, &sets).expect("a style")
 }
 
-/// The camera of a figure of a scene.
+/// A three-quarter view that fits the scene.
 pub fn camera(scene: &Scene) -> Camera {
     Camera::three_quarter_of(scene.up).fit(scene)
 }
 
-/// A page as large as the frame of a camera.
+/// A page in px with the size of the camera's frame, without background.
 pub fn page(camera: &Camera) -> Page {
     Page { width: camera.width, height: camera.height, unit: Unit::Px, background: None }
 }

@@ -1,4 +1,5 @@
-//! How much of a drawing stays where it belongs when the camera turns a little.
+//! Stability of a drawing under a small turn of the camera: the share of lines that stay on their surface
+//! points.
 
 use glam::{DAffine3, DVec3};
 use kurbo::Point;
@@ -12,34 +13,35 @@ use super::line_picture::Ink;
 use crate::support::references::contour_stops::view_map;
 use crate::support::references::textbook_camera::Eye;
 
-/// What smoothing, simplifying and fitting may leave between a drawn line and its surface, px.
+/// Maximum distance of a drawn line from its surface line due to smoothing, simplifying and fitting, px.
 const PRECISION_PX: f64 = 0.25;
-/// Farther off than this is gone, px.
+/// Lines without ink within this distance are gone, px.
 const REACH: f64 = 6.0;
-/// A line with at least this much that goes, px, is one that pops.
+/// Minimum lost length of a line that counts as popping, px.
 const POP_PX: f64 = 5.0;
 
-/// How much of the ink of two drawings each finds in the other.
+/// Line length of two drawings, and how much of it each finds in the other.
 #[derive(Debug, Clone, Default)]
 pub struct Stability {
-    /// Length of all lines of both, px.
+    /// Total length of the lines of both drawings, px.
     pub length: f64,
-    /// What lies no farther from the other than twice what its place on the surface moved.
+    /// Length within the tolerance of the other drawing, px: twice the image motion of the surface point,
+    /// plus [`PRECISION_PX`].
     pub stays: f64,
-    /// Lines of either that go in part or as a whole.
+    /// Lines of either drawing that disappear in part or entirely.
     pub pops: Vec<Pop>,
 }
 
-/// A line that is in one drawing only, or that jumps.
+/// A line that occurs in one drawing only, or that jumps.
 #[derive(Debug, Clone, Copy)]
 pub struct Pop {
     pub kind: LineKind,
-    /// What is gone of it, and its length, px.
+    /// Lost length and total length, px.
     pub gone: f64,
     pub length: f64,
-    /// The middle of what is gone.
+    /// Centroid of the lost part.
     pub place: Point,
-    /// Whether it is a line of the first drawing.
+    /// Whether the line belongs to the first drawing.
     pub first: bool,
 }
 
@@ -53,7 +55,7 @@ impl std::fmt::Display for Pop {
 }
 
 impl Stability {
-    /// Percent.
+    /// The share of length that stays, percent.
     pub fn share(&self) -> f64 {
         100.0 * self.stays / self.length.max(f64::MIN_POSITIVE)
     }
@@ -65,7 +67,7 @@ impl Stability {
     }
 }
 
-/// The camera turned about the upright line through its target.
+/// The camera turned about the vertical axis through its target.
 pub fn turned(camera: &Camera, scene: &Scene, degrees: f64) -> Camera {
     let up = if scene.up == UpAxis::Y { DVec3::Y } else { DVec3::Z };
     let turn = DAffine3::from_axis_angle(up, degrees.to_radians());
@@ -73,7 +75,7 @@ pub fn turned(camera: &Camera, scene: &Scene, degrees: f64) -> Camera {
     Camera { eye, up: turn.transform_vector3(camera.up), ..*camera }
 }
 
-/// Compares the default drawings of two cameras.
+/// Compares the default drawings from two cameras.
 pub fn compare(surface: &Surface, options: &LineOptions, cameras: [&Camera; 2]) -> Stability {
     let drawings = cameras.map(|camera| {
         let map = view_map(surface, camera, options);
@@ -106,12 +108,12 @@ pub fn compare(surface: &Surface, options: &LineOptions, cameras: [&Camera; 2]) 
     result
 }
 
-/// The surface of a scene, as default drawings have it.
+/// The surface of a scene for `options`.
 pub fn surface(scene: &Scene, options: &LineOptions) -> Surface {
     Surface::new(Mesh::build(scene.to_soup()), options)
 }
 
-/// The sides of a chain with the depths at their ends.
+/// The segments of a chain, with the depths at their ends.
 fn segments(chain: &Chain) -> impl Iterator<Item = ([Point; 2], [f64; 2])> + '_ {
     let n = chain.points.len();
     let sides = if chain.closed { n } else { n.saturating_sub(1) };
@@ -121,7 +123,7 @@ fn segments(chain: &Chain) -> impl Iterator<Item = ([Point; 2], [f64; 2])> + '_ 
     })
 }
 
-/// Places along a chain every half px: where, at what depth, for how much length.
+/// Samples along a chain every half px: position, depth, and length represented.
 fn samples(chain: &Chain) -> Vec<(Point, f64, f64)> {
     let mut found = Vec::new();
     for ([a, b], [from, to]) in segments(chain) {

@@ -1,35 +1,36 @@
-//! Drawings in their canonical form, and what may not change by it.
+//! Checks that the canonical form of an SVG file shows the same picture.
 
 use ligne::diff::{DiffOptions, Finding, Picture, PixelDiff, canonical_svg, compare};
 
-/// The canonical form of a drawing.
+/// The canonical form of an SVG text.
 pub fn form(svg: &str) -> String {
     canonical_svg(svg, None).unwrap_or_else(|error| panic!("{error}\n{svg}"))
 }
 
-/// The first lines that differ, for messages.
+/// The first pair of lines that differ, for messages.
 pub fn parting(a: &str, b: &str) -> String {
     let differ = a.lines().zip(b.lines()).enumerate().find(|(_, (a, b))| a != b);
     differ.map_or("lengths differ".to_owned(), |(at, (a, b))| format!("line {}:\n{a}\n{b}", at + 1))
 }
 
-/// Fails with the first lines that differ.
+/// Fails with the first pair of lines that differ.
 #[track_caller]
 pub fn assert_text(found: &str, wanted: &str, name: &str) {
     assert!(found == wanted, "{name}: {}", parting(found, wanted));
 }
 
-/// Fails where two drawings show different pictures.
+/// Fails if two SVG texts show different pictures.
 #[track_caller]
 pub fn assert_same_picture(a: &str, b: &str, name: &str) {
     let [a, b] = [a, b].map(|svg| Picture::from_svg(svg).unwrap_or_else(|error| panic!("{name}: {error}")));
     let diff = compare(&a, &b, &DiffOptions::default().with_pixels());
-    // Where outlines of several rings begin elsewhere, their widths are told apart; pixels tell whether they are.
+    // If outlines of several rings start at different points, the diff may report widths that only look
+    // different. The pixels decide.
     let wide = |finding: &Finding| finding.changes.iter().all(|change| change.what == "width along the line");
     let finding = diff.findings.iter().find(|finding| finding.changes.is_empty() || !wide(finding));
     assert!(finding.is_none(), "{name}: {finding:?}");
-    // Renderers blend lines that run the other way round a little differently, and caps where a curve begins with a
-    // control point at its end.
+    // Renderers blend reversed lines slightly differently. The same holds for caps of curves that begin with
+    // a control point at their end.
     let few =
         |pixels: PixelDiff| pixels.differing * 2000 <= u64::from(pixels.width) * u64::from(pixels.height);
     assert!(diff.pixels.is_none_or(few), "{name}: {:?}", diff.pixels);

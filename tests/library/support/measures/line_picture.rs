@@ -1,14 +1,14 @@
-//! Lines of a picture as a set of segments, and how far a place is from the nearest.
+//! A set of image segments with fast queries for the distance to the nearest one.
 
 use kurbo::{BezPath, PathEl, Point};
 use ligne::chains::Chain;
 use rustc_hash::FxHashMap;
 
-/// Segments, sorted into square tiles.
+/// Segments in a uniform grid of square tiles.
 pub struct Ink {
     segments: Vec<[Point; 2]>,
     tiles: FxHashMap<(i64, i64), Vec<u32>>,
-    /// Distances are told up to here, px; the side of a tile.
+    /// Maximum distance that is measured, px; also the side of a tile.
     reach: f64,
 }
 
@@ -16,7 +16,7 @@ impl Ink {
     pub fn new(segments: Vec<[Point; 2]>, reach: f64) -> Self {
         let mut tiles: FxHashMap<(i64, i64), Vec<u32>> = FxHashMap::default();
         for (i, [a, b]) in segments.iter().enumerate() {
-            // Long segments are put into tiles piece by piece.
+            // Long segments are inserted piece by piece, to limit the tiles per segment.
             let pieces = ((*b - *a).hypot() / reach).ceil().max(1.0) as usize;
             for k in 0..pieces {
                 let [p, q] = [k, k + 1].map(|k| tile(a.lerp(*b, k as f64 / pieces as f64), reach));
@@ -33,7 +33,7 @@ impl Ink {
         Self { segments, tiles, reach }
     }
 
-    /// The segments that may be within reach of a place; some of them more than once.
+    /// Segments that may be within reach of a point, with their numbers; some occur more than once.
     pub fn near(&self, p: Point) -> impl Iterator<Item = (usize, [Point; 2])> + '_ {
         let (x, y) = tile(p, self.reach);
         let around = (x - 1..=x + 1).flat_map(move |x| (y - 1..=y + 1).map(move |y| (x, y)));
@@ -41,7 +41,7 @@ impl Ink {
         ids.map(|i| (*i as usize, self.segments[*i as usize]))
     }
 
-    /// The distance to the nearest segment; infinite beyond the reach.
+    /// The distance to the nearest segment; infinite if above the reach.
     pub fn distance(&self, p: Point) -> f64 {
         let nearest = self.near(p).map(|(_, s)| distance(p, s)).fold(f64::INFINITY, f64::min);
         if nearest <= self.reach { nearest } else { f64::INFINITY }
@@ -52,18 +52,18 @@ fn tile(p: Point, side: f64) -> (i64, i64) {
     ((p.x / side).floor() as i64, (p.y / side).floor() as i64)
 }
 
-/// The distance from a place to a segment.
+/// The distance from a point to a segment.
 pub fn distance(p: Point, [a, b]: [Point; 2]) -> f64 {
     (p - a.lerp(b, nearest_on(p, [a, b]))).hypot()
 }
 
-/// Where on a segment the place nearest to `p` is, 0 to 1.
+/// Parameter of the point of a segment nearest to `p`, 0 to 1.
 pub fn nearest_on(p: Point, [a, b]: [Point; 2]) -> f64 {
     let way = b - a;
     if way.hypot2() > 0.0 { ((p - a).dot(way) / way.hypot2()).clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Places along segments, no more than `step` apart, each with the length it stands for.
+/// Samples along segments, at most `step` apart, each with the length it represents.
 pub fn samples(segments: &[[Point; 2]], step: f64) -> Vec<(Point, f64)> {
     let mut found = Vec::new();
     for [a, b] in segments {
@@ -76,7 +76,7 @@ pub fn samples(segments: &[[Point; 2]], step: f64) -> Vec<(Point, f64)> {
     found
 }
 
-/// A path as short segments no farther than `tolerance` from it.
+/// A path as short segments within `tolerance` of it.
 pub fn flattened(path: &BezPath, tolerance: f64) -> Vec<[Point; 2]> {
     let (mut segments, mut at, mut start) = (Vec::new(), Point::ZERO, Point::ZERO);
     kurbo::flatten(path, tolerance, |element| match element {
@@ -90,19 +90,19 @@ pub fn flattened(path: &BezPath, tolerance: f64) -> Vec<[Point; 2]> {
     segments
 }
 
-/// What of one set of lines is farther than `within` from the other, px of length.
+/// Length of one set of segments that is farther than `within` from another set, px.
 pub fn beyond(of: &[[Point; 2]], from: &[[Point; 2]], within: f64) -> f64 {
     let ink = Ink::new(from.to_vec(), within + 1.0);
     samples(of, 0.25).iter().filter(|(p, _)| ink.distance(*p) > within).map(|(_, l)| l).sum()
 }
 
-/// The curves that chains are drawn as, as short segments no farther than a thousandth of a px from them.
+/// The drawn curves of visible chains, as segments within a thousandth of a px of them.
 pub fn drawn(chains: &[Chain]) -> Vec<[Point; 2]> {
     let visible = chains.iter().filter(|c| c.invisibility == 0);
     visible.flat_map(|chain| flattened(&chain.path, 1e-3)).collect()
 }
 
-/// A share of the values is at most this; `values` are sorted.
+/// The quantile of sorted values: the given share of them is at most this.
 pub fn quantile(values: &[f64], share: f64) -> f64 {
     let last = values.len().saturating_sub(1) as f64;
     values.get((share * last).round() as usize).copied().unwrap_or(0.0)

@@ -1,10 +1,10 @@
-//! Drawings of colours alone: one tone for all, no ink; and what of them is painted.
+//! A style of flat fills without lines, and the fills of a drawing.
 
 use ligne::colour::srgb::Colour;
 use ligne::drawing::{Drawing, Mark, Paint};
 use ligne::style::Style;
 
-/// One tone for all, in the colour of the surface, and no ink.
+/// A toon style with one tone, in the surface colour and without lines, plus overrides.
 pub fn plain(changes: &[&str]) -> Style {
     let mut all =
         vec!["lines.enabled=false", "fills.thresholds=[]", "fills.tones=[1.0]", "light.from_model=false"];
@@ -12,7 +12,7 @@ pub fn plain(changes: &[&str]) -> Style {
     Style::load("toon", &all.iter().map(|change| (*change).to_owned()).collect::<Vec<_>>()).unwrap()
 }
 
-/// The fills of a drawing and their colours, painted first to last.
+/// The filled marks of a drawing with their colours, in painting order.
 pub fn fills(drawing: &Drawing) -> Vec<(&Mark, Colour)> {
     let colour = |mark: &Mark| match &mark.paint {
         Paint::Fill(colour) => Some(*colour),

@@ -1,4 +1,4 @@
-//! Grounds made of polygons, and how much of them ink covers.
+//! Hatch regions made of polygons, and the share of an area that ink covers.
 
 use std::collections::BTreeMap;
 
@@ -7,8 +7,9 @@ use ligne::mesh::{MaterialId, PaintId, PartId};
 use ligne::regions::hatch_regions::hatch_map::{BorderPiece, Cell};
 use ligne::regions::{Ground, Look};
 
-/// A ground whose cells are polygons in facets, turning from x to y; cell 0 is paper. Polygons that touch
-/// share their corners.
+/// Hatch regions whose cells are polygons, given as facet number and corners.
+///
+/// Polygons turn from x to y; adjacent ones share their corners. Cell 0 is the paper.
 pub fn ground(polygons: &[(u32, Vec<Point>)]) -> Ground {
     let look = |bin: usize| Look {
         part: PartId(0),
@@ -49,7 +50,7 @@ pub fn square(x: f64, y: f64, side: f64) -> Vec<Point> {
     [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)].map(|(a, b)| Point::new(x + a, y + b)).to_vec()
 }
 
-/// A square of the page as grey pixels, eight a unit, in which paths are black; 0 to 1, row by row.
+/// Ink coverage of the pixels of a page square, 0 to 1, row by row, at eight pixels per unit.
 pub fn inked(paths: &[&BezPath], x: f64, y: f64, side: f64) -> Vec<f64> {
     const PIXELS: f64 = 8.0;
     let size = (side * PIXELS) as u32;
@@ -78,7 +79,7 @@ pub fn inked(paths: &[&BezPath], x: f64, y: f64, side: f64) -> Vec<f64> {
     pixels.data().chunks_exact(4).map(|pixel| f64::from(pixel[3]) / 255.0).collect()
 }
 
-/// The part of a square of the page that paths cover.
+/// The share of a page square that paths cover.
 pub fn coverage(paths: &[&BezPath], x: f64, y: f64, side: f64) -> f64 {
     let pixels = inked(paths, x, y, side);
     pixels.iter().sum::<f64>() / pixels.len() as f64

@@ -1,4 +1,4 @@
-//! Sets of segments compared by what they cover, however they are cut.
+//! Comparison of two sets of segments by the length they cover, independent of how they are split.
 
 use kurbo::Point;
 
@@ -11,20 +11,20 @@ pub fn distance(a: Point, b: Point) -> f64 {
     (b - a).hypot2().sqrt()
 }
 
-/// The length of `segments` that no segment of `by` covers within `nearness`.
+/// Length of `segments` that no segment of `by` covers within `nearness`.
 pub fn uncovered(segments: &[[Point; 2]], by: &[[Point; 2]], nearness: f64) -> f64 {
     let others: Vec<&[Point; 2]> = by.iter().collect();
     segments.iter().map(|s| whole(*s) - covered(*s, &others, nearness)).sum()
 }
 
-/// The length that is drawn more than once.
+/// Length that is covered more than once.
 pub fn doubled(segments: &[[Point; 2]], nearness: f64) -> f64 {
     (0..segments.len())
         .map(|i| covered(segments[i], &segments[..i].iter().collect::<Vec<_>>(), nearness))
         .sum()
 }
 
-/// Fails where one set covers more than the other by more than `slack` of length.
+/// Fails if either set covers more than `slack` of length that the other does not.
 pub fn cover_alike(
     one: &[[Point; 2]],
     other: &[[Point; 2]],
@@ -46,7 +46,7 @@ fn whole([a, b]: [Point; 2]) -> f64 {
     distance(a, b)
 }
 
-/// The length of a segment along which any of the others lies within `nearness`.
+/// Length of a segment that any of the others covers within `nearness`.
 fn covered([a, b]: [Point; 2], others: &[&[Point; 2]], nearness: f64) -> f64 {
     let length = distance(a, b);
     if length == 0.0 {

@@ -1,4 +1,4 @@
-//! Lines by themselves, the marks that strokes make of them, and measures of these.
+//! Chains made of points, the marks that a style paints for them, and measures of these marks.
 
 use kurbo::{BezPath, ParamCurve, ParamCurveNearest, Point, Shape};
 use ligne::chains::{Chain, Sample};
@@ -11,14 +11,14 @@ use ligne::style::Style;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-/// A style that extends plain pens with some changes.
+/// The ink style with pens of 4 px and overrides.
 pub fn style(sets: &[&str]) -> Style {
     let plain = ["pen.contour.width=4", "pen.silhouette.width=4", "pen.width=4"];
     let sets: Vec<String> = plain.iter().chain(sets).map(|set| (*set).to_owned()).collect();
     Style::load("ink", &sets).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// A polyline as a chain; its depths run from the first to the second number.
+/// A polyline as a chain whose depth runs linearly from the first to the second number.
 pub fn chain(points: &[(f64, f64)], depths: [f64; 2]) -> Chain {
     let points: Vec<Point> = points.iter().map(|p| Point::from(*p)).collect();
     let closed = points.len() > 2 && points.first() == points.last();
@@ -54,7 +54,7 @@ pub fn chain(points: &[(f64, f64)], depths: [f64; 2]) -> Chain {
     chain
 }
 
-/// A circle of 720 sides, round which it turns to the right.
+/// A circle of 720 sides, turning from x to y, with an exact path.
 pub fn circle(radius: f64) -> Chain {
     let at = |i: u32| {
         let angle = TAU * f64::from(i % 720) / 720.0;
@@ -65,7 +65,7 @@ pub fn circle(radius: f64) -> Chain {
     chain
 }
 
-/// What strokes know where there is no scene.
+/// The ink context of a drawing without a scene.
 pub fn context(style: &Style) -> InkContext<'static> {
     InkContext {
         unit: Unit::Px,
@@ -82,10 +82,12 @@ pub fn context(style: &Style) -> InkContext<'static> {
     }
 }
 
+/// The marks that a style paints for chains.
 pub fn marks(chains: &[Chain], style: &Style) -> Vec<Mark> {
     ink(chains, &context(style), &style.stroke).into_iter().flat_map(|layer| layer.marks).collect()
 }
 
+/// The outline paint of a mark of varying width.
 pub fn outline(mark: &Mark) -> &OutlinePaint {
     match &mark.paint {
         Paint::Outline(outline) => outline,
@@ -93,7 +95,7 @@ pub fn outline(mark: &Mark) -> &OutlinePaint {
     }
 }
 
-/// The middle of a line.
+/// The centre line of a mark.
 pub fn axis(mark: &Mark) -> &BezPath {
     match &mark.paint {
         Paint::Outline(outline) => &outline.axis,
@@ -101,7 +103,7 @@ pub fn axis(mark: &Mark) -> &BezPath {
     }
 }
 
-/// Width of an outline across a level line at `x`.
+/// Vertical extent of an outline at `x`, around the point (`x`, `y`) inside it.
 pub fn width_at(mark: &Mark, x: f64, y: f64) -> f64 {
     let inside = |y: f64| mark.path.winding(Point::new(x, y)) != 0;
     assert!(inside(y), "no ink at {x}, {y}");
@@ -116,7 +118,7 @@ pub fn width_at(mark: &Mark, x: f64, y: f64) -> f64 {
     edge(1.0) + edge(-1.0)
 }
 
-/// Points on a path, about so far apart.
+/// Points on a path, at most about `step` apart.
 pub fn places(path: &BezPath, step: f64) -> Vec<Point> {
     let mut places = Vec::new();
     for segment in path.segments() {
@@ -126,6 +128,7 @@ pub fn places(path: &BezPath, step: f64) -> Vec<Point> {
     places
 }
 
+/// The distance from a point to a path.
 pub fn distance(path: &BezPath, p: Point) -> f64 {
     path.segments().map(|s| s.nearest(p, 1e-6).distance_sq).fold(f64::INFINITY, f64::min).sqrt()
 }

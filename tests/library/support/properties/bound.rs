@@ -1,4 +1,4 @@
-//! How alike two pictures are, and what they have to be for a property to hold.
+//! Bounds on the difference between two pictures.
 
 use std::collections::BTreeMap;
 
@@ -7,25 +7,25 @@ use kurbo::Point;
 use super::picture::{Key, Picture};
 use crate::support::measures::segment_sets::{length, uncovered};
 
-/// What lines are told apart by.
+/// How lines are grouped before they are compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum By {
     Class,
     ClassAndPart,
 }
 
-/// What two pictures must have in common.
+/// A bound on the difference between two pictures.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bound {
-    /// Every byte.
+    /// All bytes are equal.
     Bytes,
-    /// All visible lines within `nearness` px, but for `slack` px and a `share` of their length.
+    /// Visible lines agree within `nearness` px, except for `slack` px plus a `share` of their length.
     Lines { by: By, nearness: f64, slack: f64, share: f64 },
-    /// How long the lines along intersections are that belong to each part; there are `least` such parts.
+    /// The length of intersection lines per part is equal, and at least `least` parts have such lines.
     Owners { least: usize },
-    /// The area in each colour on each part, but for a share of all.
+    /// The filled area per colour and part agrees within a share of the total.
     Areas { share: f64 },
-    /// The length of strokes on each part, but for a share of all.
+    /// The length of hatching strokes per part agrees within a share of the total.
     Strokes { share: f64 },
 }
 
@@ -42,7 +42,7 @@ impl Bound {
         Self::Lines { by: By::ClassAndPart, nearness, slack, share: 0.0 }
     }
 
-    /// Fails with what differs, or where there is too little to compare.
+    /// Fails with the difference, or if there is nothing to compare.
     pub fn check(self, one: &Picture, other: &Picture) -> Result<(), String> {
         match self {
             Self::Bytes => same_bytes(one.bytes(), other.bytes()),
@@ -63,7 +63,7 @@ impl Bound {
     }
 }
 
-/// Lines by what they are told apart by.
+/// Lines by class and part.
 type Groups = BTreeMap<Key, Vec<[Point; 2]>>;
 
 fn groups(picture: &Picture, by: By) -> Groups {
@@ -75,7 +75,7 @@ fn groups(picture: &Picture, by: By) -> Groups {
     groups
 }
 
-/// Fails where in all groups together more than so much is not covered by the same group of the other picture.
+/// Fails if the uncovered length, summed over all groups, exceeds the bound in either direction.
 fn lines_alike(one: &Groups, other: &Groups, nearness: f64, slack: f64, share: f64) -> Result<(), String> {
     let nothing = Vec::new();
     let lost = |from: &Groups, by: &Groups| -> BTreeMap<Key, f64> {
@@ -96,6 +96,7 @@ fn lines_alike(one: &Groups, other: &Groups, nearness: f64, slack: f64, share: f
     Ok(())
 }
 
+/// Fails if an amount differs by more than a share of the total.
 fn amounts_alike(one: &BTreeMap<Key, f64>, other: &BTreeMap<Key, f64>, share: f64) -> Result<(), String> {
     let whole: f64 = one.values().sum();
     if whole <= 0.0 {
@@ -110,7 +111,7 @@ fn amounts_alike(one: &BTreeMap<Key, f64>, other: &BTreeMap<Key, f64>, share: f6
     Ok(())
 }
 
-/// Fails with where two texts part and some of what is around.
+/// Fails with the first differing byte and its surroundings.
 fn same_bytes(one: &str, other: &str) -> Result<(), String> {
     if one == other {
         return Ok(());

@@ -1,4 +1,4 @@
-//! The changes that must not be seen in a drawing, each by name.
+//! Changes to a scene that must not change its drawing.
 
 use glam::{DMat3, DVec3};
 use ligne::scene::Scene;
@@ -8,32 +8,32 @@ use super::shape::{moved, with_faces_split, with_hidden_things};
 use super::subject::Subject;
 use crate::support::scenes::random_dice::Dice;
 
-/// What is done to a scene and its camera.
+/// A change to a scene and its camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Change {
-    /// Scene and camera are turned at random or not, scaled, and moved.
+    /// Scene and camera are scaled and moved, and rotated randomly if `turned`.
     Moved { turned: bool, scale: f64, by: DVec3 },
-    /// Vertices, faces and wires are numbered anew, and triangles begin elsewhere.
+    /// Vertices, faces and wires are renumbered, and the corners of triangles are rotated.
     Renumbered,
-    /// Parts stand in another order, a different one for each seed.
+    /// Parts are shuffled with a seed.
     PartsShuffled { seed: u64 },
-    /// Parts stand in the order from last to first.
+    /// Parts are listed in reverse order.
     PartsReversed,
-    /// Vertices, faces and wires are numbered anew, and parts stand in another order.
+    /// Vertices, faces and wires are renumbered, and parts are shuffled.
     AllShuffled,
-    /// Faces are cut in three.
+    /// Each face is split into three.
     FacesSplit,
-    /// Faces are wound the other way: all of them, all of every other part, or some at random.
+    /// The winding of faces is reversed.
     FacesTurned(Turned),
-    /// Things are put into the first places of which nothing is seen.
+    /// Objects are added in the first `places` hidden boxes of the subject.
     HiddenThings { places: usize },
-    /// Nothing is done, and so many threads draw.
+    /// The scene stays the same and is drawn with this number of threads.
     Threads(usize),
-    /// The scene grows by two hundredths under a camera that stays: no property, for it must be seen.
+    /// The scene grows by 2 % under a fixed camera. This must change the drawing: it tests the harness.
     Grown,
 }
 
-/// Which faces are wound the other way.
+/// Faces whose winding is reversed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Turned {
     All,
@@ -41,37 +41,37 @@ pub enum Turned {
     Some,
 }
 
-/// What a change is about; each is one test.
+/// The property that a change tests; there is one test per property.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Property {
-    /// Where scene and camera are, how they are turned, and how large.
+    /// Invariance under similarity transforms of scene and camera.
     Place,
-    /// How vertices and faces are numbered; parts may stand in another order as well.
+    /// Invariance under renumbering of vertices and faces, also combined with a new order of parts.
     Numbering,
-    /// In which order parts stand.
+    /// Invariance under the order of parts.
     OrderOfParts,
-    /// How flat faces are cut.
+    /// Invariance under the subdivision of flat faces.
     Cuts,
-    /// Which way round the file gives the corners of faces.
+    /// Invariance under the winding of faces.
     Winding,
-    /// What is not seen.
+    /// Invariance under hidden objects.
     HiddenThings,
-    /// How many threads draw.
+    /// Invariance under the number of threads.
     Threads,
 }
 
 impl Change {
-    /// Turned and moved.
+    /// A random rotation and a translation.
     pub const RIGID: Self = Self::Moved { turned: true, scale: 1.0, by: DVec3::new(3.0, -2.0, 7.0) };
-    /// Moved so far that coordinates lose digits.
+    /// A translation so far that coordinates lose digits.
     pub const FAR: Self = Self::Moved { turned: false, scale: 1.0, by: DVec3::new(1e6, -1e6, 1e6) };
 
-    /// Of another size.
+    /// A uniform scaling.
     pub const fn size(scale: f64) -> Self {
         Self::Moved { turned: false, scale, by: DVec3::ZERO }
     }
 
-    /// Turned, and of another size.
+    /// A random rotation and a uniform scaling.
     pub const fn turned_size(scale: f64) -> Self {
         Self::Moved { turned: true, scale, by: DVec3::ZERO }
     }
@@ -121,7 +121,7 @@ impl Change {
         }
     }
 
-    /// How many threads draw; none where that does not matter.
+    /// The number of threads to draw with; `None` if it does not matter.
     pub fn threads(self) -> Option<usize> {
         if let Self::Threads(count) = self { Some(count) } else { None }
     }

@@ -1,8 +1,15 @@
-//! One harness for what must not change a drawing: subjects, changes to them, ways to draw them, and how alike the
-//! drawings have to be.
+//! Metamorphic tests: a drawing is invariant under changes such as rotation, renumbering or reversed winding.
 //!
-//! [`table`] lists what holds of what; [`holds`] asks one property of all of it. A new way to draw, a new scene or a
-//! new change is a row there.
+//! [`table`] lists which changes keep which drawings, and within which bounds; [`holds`] tests all rows for
+//! one property. A new scene, style or change needs only a new row.
+//!
+//! Reading order:
+//!
+//! 1. [`subject`]: scenes with cameras; [`sheets`] builds one with rare features.
+//! 2. [`change`]: the changes, implemented in [`shape`] and [`numbering`].
+//! 3. [`option_set`]: the ways to draw. [`picture`]: the result of a drawing.
+//! 4. [`bound`]: how closely two pictures must agree.
+//! 5. [`table`]: the rows.
 
 pub mod bound;
 pub mod change;
@@ -23,30 +30,30 @@ use self::picture::Picture;
 use self::subject::Subject;
 use crate::support::scenes::random_dice::Dice;
 
-/// Ways to draw, what they are asked to draw, and what must not change it by more than the bounds allow.
+/// A row of the table: every subject is drawn in every way, before and after each change.
 pub struct Row {
     pub options: &'static [OptionSet],
     pub subjects: fn() -> Vec<Subject>,
     pub unchanged_by: &'static [(Change, &'static [Bound])],
-    /// With fewer segments of visible lines a drawing proves nothing.
+    /// Minimum number of visible line segments; a drawing with fewer fails the test.
     pub least: usize,
 }
 
-/// A subject drawn in one way, and what is done to it.
+/// A subject, a way to draw it, and the changes to test.
 pub struct Job {
     pub options: OptionSet,
     pub subject: Subject,
     pub changes: Vec<(Change, &'static [Bound])>,
     pub least: usize,
-    /// Of the dice that changes throw.
+    /// Random seed of the changes.
     pub seed: u64,
 }
 
 impl Job {
-    /// What does not hold, in words.
+    /// A message for each bound that is violated.
     pub fn faults(&self) -> Vec<String> {
         let name = format!("{}, {}", self.subject.name, self.options.name);
-        // Where the number of threads matters, it is told here as well.
+        // Changes of the number of threads are compared with a drawing on two threads.
         let threads = self.changes.iter().find_map(|(change, _)| change.threads()).map(|_| 2);
         let here = self.draw(&self.subject, threads);
         let count: usize = here.lines.values().map(Vec::len).sum();
@@ -69,13 +76,14 @@ impl Job {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
         pool.install(|| {
             let picture = self.options.draw(subject);
-            // These threads write it, too.
+            // Write the output on these threads, too.
             picture.bytes();
             picture
         })
     }
 }
 
+/// The jobs of all rows for one property.
 fn jobs(rows: &[Row], property: Property) -> Vec<Job> {
     let mut jobs = Vec::new();
     for row in rows {
@@ -94,13 +102,14 @@ fn jobs(rows: &[Row], property: Property) -> Vec<Job> {
     jobs
 }
 
-/// Fails with a line for each subject that is not drawn alike after a change that belongs to the property.
+/// Fails with a message for each drawing that violates a bound under a change of the given property.
 pub fn holds(rows: &[Row], property: Property) {
     let is_asked = |row: &Row| row.unchanged_by.iter().any(|(change, _)| change.property() == property);
     assert!(rows.iter().any(is_asked), "nothing is said of {property:?}");
     let jobs = jobs(rows, property);
     let faults: Vec<String> = if property == Property::Threads {
-        // One after another: a thread that waits for others would begin the next drawing on top.
+        // Run sequentially: a waiting thread would otherwise start the next drawing nested in the current
+        // one.
         jobs.iter().flat_map(Job::faults).collect()
     } else {
         jobs.par_iter().flat_map_iter(Job::faults).collect()

@@ -1,10 +1,10 @@
-//! The same model numbered in another way: its vertices, faces and parts in another order.
+//! Changes to the numbering of a model: other orders of vertices, faces and parts, and reversed faces.
 
 use ligne::scene::{Geometry, Scene};
 
 use crate::support::scenes::random_dice::Dice;
 
-/// The items in another order: at each place stands what had this number.
+/// The items in another order: item `order[k]` moves to position k.
 fn taken<T: Copy>(items: &[T], order: &[u32]) -> Vec<T> {
     if items.is_empty() { Vec::new() } else { order.iter().map(|k| items[*k as usize]).collect() }
 }
@@ -13,31 +13,30 @@ fn shuffled_numbers(dice: &mut Dice, count: usize) -> Vec<u32> {
     dice.shuffled((0..count as u32).collect())
 }
 
-/// The new number of each item, given which stands at each place.
+/// The inverse of a permutation: the new position of each item.
 fn new_numbers(order: &[u32]) -> Vec<u32> {
     let mut new_id = vec![0; order.len()];
     order.iter().zip(0..).for_each(|(old, new)| new_id[*old as usize] = new);
     new_id
 }
 
-/// Numbers values anew: the values in their new order, the corners of each triangle with their new numbers.
+/// Shuffles values, and updates the indices in `corners`.
 fn renumber<T: Copy>(dice: &mut Dice, values: &mut Vec<T>, corners: &mut [u32]) {
     let order = shuffled_numbers(dice, values.len());
     let new_id = new_numbers(&order);
     *values = taken(values, &order);
-    // Corners without a value have no id.
+    // Corners without a value have an index out of range, which stays.
     corners.iter_mut().for_each(|id| *id = new_id.get(*id as usize).copied().unwrap_or(*id));
 }
 
-/// What belongs to the corners of each triangle, with another corner in front.
+/// Rotates the corner data of each triangle.
 fn turn<T: Copy>(corners: &mut [[T; 3]], turns: &[usize]) {
     for (corners, by) in corners.iter_mut().zip(turns) {
         corners.rotate_left(*by);
     }
 }
 
-/// The same shape with vertices, normals, triangles and wires in another order, and other corners of the
-/// triangles in front.
+/// The geometry with vertices, normals, triangles and wires shuffled, and the corners of triangles rotated.
 fn renumbered_geometry(geometry: &Geometry, dice: &mut Dice) -> Geometry {
     let mut mixed = geometry.clone();
     let order = shuffled_numbers(dice, geometry.positions.len());
@@ -68,18 +67,18 @@ fn renumbered_geometry(geometry: &Geometry, dice: &mut Dice) -> Geometry {
     mixed
 }
 
-/// The scene with each of its shapes numbered in another way.
+/// The scene with each geometry renumbered.
 pub fn renumbered(scene: &Scene, dice: &mut Dice) -> Scene {
     let geometries = scene.geometries.iter().map(|geometry| renumbered_geometry(geometry, dice)).collect();
     Scene { geometries, ..scene.clone() }
 }
 
-/// The scene with its parts in another order.
+/// The scene with its parts shuffled.
 pub fn with_parts_shuffled(scene: &Scene, dice: &mut Dice) -> Scene {
     Scene { parts: dice.shuffled(scene.parts.clone()), ..scene.clone() }
 }
 
-/// The text of an OBJ file with its vertices in another order, and the faces of each object likewise.
+/// An OBJ text with its vertices shuffled, and the faces of each object shuffled.
 pub fn renumbered_obj(text: &str, dice: &mut Dice) -> String {
     let vertices: Vec<&str> = text.lines().filter(|line| line.starts_with("v ")).collect();
     let order = shuffled_numbers(dice, vertices.len());
@@ -104,7 +103,7 @@ pub fn renumbered_obj(text: &str, dice: &mut Dice) -> String {
     mixed.join("\n")
 }
 
-/// The same scene with some faces wound the other way; `is_turned` is asked face by face, with the number of the shape.
+/// The scene with the winding of some faces reversed; `is_turned` gets the geometry index for each face.
 pub fn with_faces_turned(scene: &Scene, mut is_turned: impl FnMut(usize) -> bool) -> Scene {
     let mut scene = scene.clone();
     for (shape, geometry) in scene.geometries.iter_mut().enumerate() {

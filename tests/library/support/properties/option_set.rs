@@ -1,4 +1,4 @@
-//! Ways to draw, by name: lines as stages give them, or a style with changes to it.
+//! Named ways to draw a subject: the bare lines of the view map, or a style with overrides.
 
 use ligne::lines::{Contours, LineOptions};
 use ligne::pipeline::render;
@@ -17,9 +17,9 @@ pub struct OptionSet {
 
 #[derive(Debug, Clone, Copy)]
 enum From {
-    /// Visible lines as the view map has them, every crease by itself.
+    /// The visible edges of the view map, with unmerged creases.
     Lines(Contours),
-    /// A style and changes to it.
+    /// A style and its overrides.
     Sheet(&'static str, &'static [&'static str]),
 }
 
@@ -31,7 +31,7 @@ const fn changed(name: &'static str, style: &'static str, sets: &'static [&'stat
     OptionSet { name, from: From::Sheet(style, sets) }
 }
 
-/// The exact drawing of a polyhedron.
+/// The exact lines of a polyhedron.
 pub const EXACT: OptionSet = OptionSet { name: "lines of the mesh", from: From::Lines(Contours::Mesh) };
 pub const SMOOTH_LINES: OptionSet = OptionSet { name: "smooth lines", from: From::Lines(Contours::Smooth) };
 
@@ -89,7 +89,7 @@ pub const BUILT_IN: [OptionSet; 24] = [
     sheet("woodcut"),
 ];
 
-/// All that a hand does to lines, at once.
+/// Overrides for all hand-drawn effects at once, plus varying widths, halos and fills.
 pub const HAND_SETS: [&str; 15] = [
     "pen.contour.width=4",
     "pen.silhouette.width=4",

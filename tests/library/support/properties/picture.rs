@@ -1,4 +1,4 @@
-//! What was drawn, as properties compare it: visible lines by class and part, areas, strokes, bytes.
+//! The result of a drawing, in the forms that the bounds compare: lines, areas, strokes and bytes.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -10,12 +10,12 @@ use ligne::export::SvgOptions;
 use crate::support::pipeline::Stages;
 use crate::support::references::drawing_judge::{axis, ink_marks};
 
-/// The class of a line, and the name of its part; both empty where they do not count.
+/// The class of a line and the name of its part; either is empty if it does not count.
 pub type Key = (String, String);
 
-/// What was drawn.
+/// The result of a drawing.
 pub struct Picture {
-    /// Visible lines in short segments, by class and part.
+    /// Visible lines as short segments, by class and part.
     pub lines: BTreeMap<Key, Vec<[Point; 2]>>,
     drawing: Option<Drawing>,
     bytes: OnceLock<String>,
@@ -44,7 +44,7 @@ impl Picture {
         Self { lines, drawing: Some(drawing), bytes: OnceLock::new() }
     }
 
-    /// All there is as text, with every digit, so that no difference is rounded away.
+    /// The whole result as text, with enough digits that rounding hides no difference.
     pub fn bytes(&self) -> &str {
         self.bytes.get_or_init(|| match &self.drawing {
             Some(drawing) => drawing.to_svg(&SvgOptions::default().with_precision(8)),
@@ -57,7 +57,7 @@ impl Picture {
         layers.filter(move |other| other.kind == layer).flat_map(|layer| &layer.marks)
     }
 
-    /// The length of the lines along intersections that belong to each part, in hundredths of a px.
+    /// The length of intersection lines per part, in hundredths of a px.
     pub fn owners(&self) -> BTreeMap<String, i64> {
         let mut owned: BTreeMap<String, f64> = BTreeMap::new();
         let lines = self.marks(LayerKind::Lines).chain(self.marks(LayerKind::HiddenLines));
@@ -68,7 +68,7 @@ impl Picture {
         owned.into_iter().map(|(part, length)| (part, (length * 100.0).round() as i64)).collect()
     }
 
-    /// The area that is filled, by colour and part, px².
+    /// The filled area by colour and part, px².
     pub fn areas(&self) -> BTreeMap<Key, f64> {
         let mut areas: BTreeMap<Key, f64> = BTreeMap::new();
         for mark in self.marks(LayerKind::Fills).chain(self.marks(LayerKind::Shadows)) {
@@ -79,7 +79,7 @@ impl Picture {
         areas
     }
 
-    /// The length of strokes of hatching on each part, px.
+    /// The length of hatching strokes per part, px.
     pub fn strokes(&self) -> BTreeMap<Key, f64> {
         let mut strokes: BTreeMap<Key, f64> = BTreeMap::new();
         for mark in self.marks(LayerKind::Hatching) {

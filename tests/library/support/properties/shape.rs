@@ -1,4 +1,4 @@
-//! The same scene elsewhere, in another size, cut finer, or with more in it that is not seen.
+//! Changes to the shapes of a scene: similarity transforms, face splits and hidden objects.
 
 use glam::{DAffine3, DMat3, DVec3};
 use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
@@ -6,7 +6,7 @@ use ligne::scene::{Camera, Geometry, Part, Projection, Scene};
 use super::subject::Subject;
 use crate::support::scenes::random_dice::Dice;
 
-/// Scene and camera turned, scaled and moved together.
+/// Scene and camera, rotated, scaled and moved together.
 pub fn moved(subject: &Subject, turn: DMat3, scale: f64, by: DVec3) -> Subject {
     let Subject { scene, camera, .. } = subject;
     assert!(scene.lights.is_empty(), "lights would have to move as well");
@@ -31,7 +31,7 @@ pub fn moved(subject: &Subject, turn: DMat3, scale: f64, by: DVec3) -> Subject {
     Subject::new(subject.name.clone(), scene, camera)
 }
 
-/// Each face cut in three about a point on it.
+/// The scene with each face split into three at a random point inside.
 pub fn with_faces_split(scene: &Scene, dice: &mut Dice) -> Scene {
     let mut split = scene.clone();
     for geometry in &mut split.geometries {
@@ -51,7 +51,7 @@ pub fn with_faces_split(scene: &Scene, dice: &mut Dice) -> Scene {
     split
 }
 
-/// The scene with what it may hide in the first boxes of which nothing is seen.
+/// The scene with the subject's hideable objects added in its first hidden boxes.
 pub fn with_hidden_things(subject: &Subject, boxes: usize, dice: &mut Dice) -> Scene {
     let mut scene = subject.scene.clone();
     let is_room = (1..=subject.unseen.len()).contains(&boxes) && !subject.hideable.is_empty();
@@ -69,7 +69,7 @@ pub fn with_hidden_things(subject: &Subject, boxes: usize, dice: &mut Dice) -> S
     scene
 }
 
-/// Turns things together and makes them as large as fits into a box.
+/// Rotates objects together and scales them to fit into a box.
 fn put_into([low, high]: [DVec3; 2], things: &mut [Geometry], dice: &mut Dice) {
     let turn = dice.turn();
     things.iter_mut().flat_map(|thing| &mut thing.positions).for_each(|p| *p = turn * *p);

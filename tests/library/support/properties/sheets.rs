@@ -1,11 +1,13 @@
-//! A scene with what few models have: marks of edges, lines without faces, sheets with faces on both sides in two
-//! materials, vertices that no face uses.
+//! A scene with rare features of models.
+//!
+//! It has edge marks, wires, sheets with faces on both sides in two materials, vertex colours and unused
+//! vertices.
 
 use glam::{DAffine3, DVec3};
 use ligne::mesh::EdgeMark;
 use ligne::scene::{Geometry, Material, Part, Scene};
 
-/// Two of these sheets side by side.
+/// Two instances of the sheet side by side.
 pub fn sheets() -> Scene {
     let materials = ["front", "back"].map(|name| Material { name: name.into(), ..Default::default() });
     let place = |k: usize| Part {
@@ -17,6 +19,7 @@ pub fn sheets() -> Scene {
     Scene { geometries: vec![sheet()], materials: materials.into(), parts, ..Scene::default() }
 }
 
+/// A curved sheet of 6 × 6 quads with faces on both sides.
 fn sheet() -> Geometry {
     let at = |x: u32, y: u32| y * 7 + x;
     let bend = |x: f64| (x - 3.0) * (x - 3.0) / 9.0;

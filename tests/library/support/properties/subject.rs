@@ -1,4 +1,4 @@
-//! What the properties are asked of: scenes with their cameras, made by chance, made on purpose, or read.
+//! Scenes with cameras that the properties are tested on: random, constructed, or read from files.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -14,15 +14,15 @@ use crate::support::scenes::random_scenes::{random_camera, random_scene};
 use crate::support::scenes::round_solids::{icosphere, saddle};
 use crate::support::scenes::solids::{Solid, cuboid, sphere, torus, tube};
 
-/// A scene and who looks at it.
+/// A scene and its camera.
 #[derive(Debug, Clone)]
 pub struct Subject {
     pub name: String,
     pub scene: Scene,
     pub camera: Camera,
-    /// Boxes of the world of which the camera sees nothing, from corner to corner.
+    /// World-space boxes that are hidden from the camera, as opposite corners.
     pub unseen: Vec<[DVec3; 2]>,
-    /// What may be put there.
+    /// Objects that may be put into the hidden boxes.
     pub hideable: Vec<Geometry>,
 }
 
@@ -31,7 +31,7 @@ impl Subject {
         Self { name: name.into(), scene, camera, unseen: Vec::new(), hideable: Vec::new() }
     }
 
-    /// A scene seen from where models are seen by default, in a square frame.
+    /// A scene from the default view, in a square frame with sides of `side` px.
     pub fn framed(name: impl Into<String>, scene: Scene, side: f64) -> Self {
         let mut camera = Camera::three_quarter_of(scene.up);
         (camera.width, camera.height) = (side, side);
@@ -40,7 +40,7 @@ impl Subject {
     }
 }
 
-/// One random scene of each kind before each camera.
+/// One random scene for each kind and each kind of camera.
 pub fn random(kinds: &[&str], cameras: &[&str], seed: u64) -> Vec<Subject> {
     let one = |kind: &str, camera: &str| {
         let mut dice = Dice::new(seed);
@@ -50,7 +50,7 @@ pub fn random(kinds: &[&str], cameras: &[&str], seed: u64) -> Vec<Subject> {
     kinds.iter().flat_map(|kind| cameras.iter().map(|camera| one(kind, camera))).collect()
 }
 
-/// Random scenes of all kinds that are hard to see right, for each seed.
+/// A random scene of each kind in `HARD_SCENES`, for each seed.
 pub fn hard(seeds: Range<u64>) -> Vec<Subject> {
     let one = |kind: &str, seed: u64| {
         let mut dice = Dice::new(seed);
@@ -60,15 +60,16 @@ pub fn hard(seeds: Range<u64>) -> Vec<Subject> {
     HARD_SCENES.iter().flat_map(|kind| seeds.clone().map(|seed| one(kind, seed))).collect()
 }
 
-/// Every other one of some subjects on a small page: enough where drawing takes long.
+/// Every second subject on a small page, for styles that draw slowly.
 pub fn few_in_small(subjects: Vec<Subject>) -> Vec<Subject> {
     let mut few: Vec<Subject> = subjects.into_iter().step_by(2).collect();
     few.iter_mut().for_each(|few| (few.camera.width, few.camera.height) = (400.0, 400.0));
     few
 }
 
-/// The same scenes shrunk to the right half; on the left a wall stands, with room for their parts behind it, near
-/// and far.
+/// The scenes of `HARD_SCENES`, shrunk to the right half, with a wall on the left.
+///
+/// Copies of their parts can be hidden behind the wall, near and far.
 pub fn beside_a_wall(seed: u64) -> Vec<Subject> {
     let one = |kind: &str| {
         let parts = hard_parts(kind, &mut Dice::new(seed));
@@ -84,7 +85,7 @@ pub fn beside_a_wall(seed: u64) -> Vec<Subject> {
     HARD_SCENES.iter().map(|kind| one(kind)).collect()
 }
 
-/// A closed box with room in it and behind it, before a camera of either kind.
+/// A closed box with hidden space inside and behind, in perspective and orthographic views.
 pub fn shells() -> Vec<Subject> {
     let eye = DVec3::new(1.0, 0.5, 9.0);
     let mut dice = Dice::new(14);
@@ -115,18 +116,18 @@ fn round_solids() -> Vec<(&'static str, Solid)> {
     ]
 }
 
-/// Rounded solids, each before as many of the three cameras as told.
+/// Rounded solids from the first `cameras` of three cameras.
 pub fn round(cameras: usize) -> Vec<Subject> {
     round_solids().into_iter().flat_map(|solid| seen_round(solid, cameras)).collect()
 }
 
-/// Those of them that have an outside, before one camera.
+/// The closed rounded solids, from one camera.
 pub fn round_closed() -> Vec<Subject> {
     let closed = round_solids().into_iter().filter(|(name, _)| !["saddle", "bulging tube"].contains(name));
     closed.flat_map(|solid| seen_round(solid, 1)).collect()
 }
 
-/// Open surfaces, before one camera: both of their sides are seen.
+/// Open surfaces from one camera that sees both sides.
 pub fn round_open() -> Vec<Subject> {
     let tubes = round_solids().into_iter().filter(|(name, _)| *name == "bulging tube");
     let uneven = |p: DVec3| p + DVec3::Z * (0.05 * p.x + 0.03 * p.y + (0.1 * p.x + 0.2 * p.y) * p.x * p.x);
@@ -146,7 +147,7 @@ fn seen_round((name, solid): (&str, Solid), cameras: usize) -> Vec<Subject> {
     all[..cameras].iter().map(one).collect()
 }
 
-/// A box, a step and a ball, seen along the faces of the boxes from the front and from above.
+/// Two boxes and a ball, seen along the faces of the boxes and obliquely.
 pub fn along_faces() -> Vec<Subject> {
     let all = || {
         [
@@ -166,7 +167,7 @@ pub fn along_faces() -> Vec<Subject> {
     ]
 }
 
-/// Flat sheets next to each other, some of which show their back.
+/// Flat sheets side by side, some with their back to the camera.
 pub fn upright_sheets() -> Subject {
     let sheet = |k: u32| {
         let left = DVec3::X * 1.5 * f64::from(k);
@@ -181,7 +182,7 @@ pub fn upright_sheets() -> Subject {
     Subject::new("upright sheets", scene((0..4).map(sheet)), camera)
 }
 
-/// A ring.
+/// A torus.
 pub fn ring() -> Subject {
     Subject::framed("a ring", scene([torus(64, 32, 1.0, 0.4)]), 1000.0)
 }
@@ -196,7 +197,7 @@ pub fn ring_with_ball() -> Subject {
     Subject::framed("a ring around a ball", scene(solids), 1000.0)
 }
 
-/// Solids through each other, each placed by its part.
+/// Intersecting solids, each placed by its part's transform.
 pub fn through_each_other() -> Vec<Subject> {
     let mut dice = Dice::new(5);
     let one = |round: usize| {
@@ -217,7 +218,7 @@ pub fn through_each_other() -> Vec<Subject> {
     (0..4).map(one).collect()
 }
 
-/// Cubes that only their places tell apart.
+/// Cubes that differ only in position.
 pub fn equal_cubes() -> Subject {
     let mut dice = Dice::new(6);
     let cube = |k: usize| Part {
@@ -230,6 +231,7 @@ pub fn equal_cubes() -> Subject {
     Subject::framed("equal cubes", Scene { geometries, parts, ..Scene::default() }, 500.0)
 }
 
+/// The path of an example model.
 pub fn example(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name)
 }
@@ -239,7 +241,7 @@ pub fn examples(names: &[&str], side: f64) -> Vec<Subject> {
     names.iter().map(|name| Subject::framed(*name, Scene::open(example(name)).unwrap(), side)).collect()
 }
 
-/// Shared models in a square frame, those of them that are there.
+/// Shared models in a square frame; absent ones are left out.
 pub fn shared(names: &[&str], side: f64) -> Vec<Subject> {
     let found = names.iter().filter_map(|name| Some((name, shared_folder::find(name)?)));
     found.map(|(name, path)| Subject::framed(*name, Scene::open(path).unwrap(), side)).collect()

@@ -1,4 +1,4 @@
-//! What holds of what: each row names ways to draw, subjects, changes, and how alike the drawings have to be.
+//! The table of properties: each row lists ways to draw, subjects, changes, and bounds on the difference.
 
 use super::Row;
 use super::bound::Bound;
@@ -8,11 +8,14 @@ use super::sheets::sheets;
 use super::subject::{self, Subject};
 use crate::support::scenes::random_scenes::SCENES;
 
+/// Kinds of random scenes that the rows use.
 pub const KINDS: [&str; 5] = ["boxes", "tori", "soup", "interpenetrating", "mixture"];
+/// Kinds of random scenes with flat faces only.
 const FLAT_KINDS: [&str; 3] = ["boxes", "tetrahedra", "soup"];
+/// Kinds of random cameras that the rows use.
 pub const CAMERAS: [&str; 3] = ["perspective", "orthographic", "cutting"];
 
-/// Contours along the mesh, by default, and all smooth.
+/// Ink with mesh contours, with the default contours, and with smooth contours.
 const INKS: [OptionSet; 3] = [INK_MESH, INK, INK_SMOOTH];
 const STYLES: [OptionSet; 10] =
     [INK, IMAGE, TECHNICAL, TOON, COMIC, PENCIL, PEN, SUGGESTIVE, ENGRAVING, STIPPLE];
@@ -20,7 +23,7 @@ const STYLES: [OptionSet; 10] =
 type Changes = &'static [(Change, &'static [Bound])];
 
 const BYTES: &[Bound] = &[Bound::Bytes];
-/// Two threads draw what these are compared with.
+/// Compared with a drawing on two threads.
 const THREADS: Changes = &[(Change::Threads(1), BYTES), (Change::Threads(4), BYTES)];
 const RENUMBERED: Changes = &[(Change::Renumbered, BYTES)];
 const SHUFFLED: Changes = &[(Change::AllShuffled, BYTES)];
@@ -32,28 +35,32 @@ const WOUND: Changes = &[
 ];
 
 const EXACTLY: &[Bound] = &[Bound::by_class(1e-6, 0.02)];
-/// At 1e6 a coordinate is exact to 1e-10, of which each unit takes some hundred px.
+/// At 1e6, coordinates are exact to about 1e-10 world units, and a unit covers some hundred px.
 const FAR_AWAY: &[Bound] = &[Bound::by_class(1e-5, 0.05)];
-/// The new vertices lie in their planes up to rounding only.
+/// The new vertices lie in their planes up to rounding.
 const CUT: &[Bound] = &[Bound::by_class(1e-6, 0.05)];
 const CUT_AND_DRAWN: &[Bound] = &[Bound::by_class_and_part(1e-5, 0.01)];
 
-/// Where an edge is cut turns on whether its arc is higher than 0.08 px, and rounding may decide that
-/// differently where a symmetrical solid has many edges at that height: so lines may lie 0.1 px apart. Of some
-/// 3,000 px 30 may differ: on an open surface seen edge-on, whether a ripple of the mesh lies beside its contour
-/// or is drawn itself rounding may decide either way.
+/// Smooth lines may lie 0.1 px apart, because rounding may decide whether an edge is split.
+///
+/// An edge is split if its arc is higher than 0.08 px, and a symmetrical solid has many edges at that limit.
+/// 30 px of some 3,000 px may differ: on an open surface seen edge-on, rounding may decide whether a ripple
+/// of the mesh is drawn.
 const SMOOTHLY: &[Bound] = &[Bound::by_class(0.1, 30.0)];
 
-/// Strokes of the same length on each part, but for a little where they begin and end at random: 0.0024 of all is measured. One of
-/// four parts without strokes would lose 0.25.
+/// Stroke length per part agrees except for random stroke ends. Measured: 0.0024 of the total.
+///
+/// If one of four parts had no strokes, 0.25 would be missing.
 const AS_DENSE: &[Bound] = &[Bound::Strokes { share: 0.01 }];
 
-/// Rounding may decide where a chain begins and an arc is cut, not where a line is seen; a line that ends may
-/// run 3 px too far. To whom a line belongs along which parts of equal size meet, their places decide.
+/// Rounding may decide where a chain begins and where an arc is split, but not what is visible.
+///
+/// The end of a line may run 3 px too far. Lines are compared by class only: if parts of equal size
+/// intersect, their positions decide which part owns the line.
 const INKED_LINES: Bound = Bound::by_class_but_for(0.5, 3.0, 0.003);
 const INKED: &[Bound] = &[INKED_LINES];
 
-/// Along how many parts lines run where two pass through each other, and which.
+/// New orders of the parts, each with the bounds to test.
 const fn reordered(owned: &'static [Bound]) -> [(Change, &'static [Bound]); 4] {
     [
         (Change::PartsShuffled { seed: 47 }, owned),
@@ -65,9 +72,9 @@ const fn reordered(owned: &'static [Bound]) -> [(Change, &'static [Bound]); 4] {
 const OWNED: Changes = &reordered(&[Bound::Bytes, Bound::Owners { least: 3 }]);
 const CUBES_OWNED: Changes = &reordered(&[Bound::Bytes, Bound::Owners { least: 2 }]);
 
-/// What holds on any machine, and soon.
+/// Rows of the default run.
 pub const ROWS: &[Row] = &[
-    // Lines as stages give them.
+    // Bare lines of the view map.
     Row {
         options: &[EXACT],
         subjects: || subject::random(&KINDS, &CAMERAS, 11),
@@ -114,7 +121,7 @@ pub const ROWS: &[Row] = &[
         ],
         least: 41,
     },
-    // Ink, its contours found in three ways.
+    // Ink with three kinds of contours.
     Row {
         options: &INKS,
         subjects: || subject::hard(13..14),
@@ -169,14 +176,14 @@ pub const ROWS: &[Row] = &[
     Row {
         options: &[PEN],
         subjects: || subject::few_in_small(subject::beside_a_wall(10)),
-        // Shadows are found anew.
+        // Shadows are recomputed.
         unchanged_by: &[(
             Change::HiddenThings { places: 2 },
             &[Bound::by_class_and_part(0.01, 0.05), Bound::Strokes { share: 1e-4 }],
         )],
         least: 40,
     },
-    // Which part the line belongs to along which two parts pass through each other.
+    // Ownership of the lines where two parts intersect.
     Row { options: &[TECHNICAL], subjects: subject::through_each_other, unchanged_by: OWNED, least: 40 },
     Row {
         options: &[TECHNICAL],
@@ -190,7 +197,7 @@ pub const ROWS: &[Row] = &[
         unchanged_by: OWNED,
         least: 40,
     },
-    // How files number what they hold.
+    // Numbering in files.
     Row {
         options: &STYLES,
         subjects: || subject::examples(&["bear.ply", "knot.ply", "bracket.stl"], 300.0),
@@ -206,7 +213,7 @@ pub const ROWS: &[Row] = &[
     Row {
         options: &[TECHNICAL, COMIC, STIPPLE],
         subjects: || subject::examples(&["pump.glb", "trellis.obj"], 300.0),
-        // The order of its parts shows.
+        // The order of the parts affects the drawing.
         unchanged_by: RENUMBERED,
         least: 40,
     },
@@ -216,7 +223,7 @@ pub const ROWS: &[Row] = &[
         unchanged_by: SHUFFLED,
         least: 10,
     },
-    // How files wind the faces of closed surfaces.
+    // Winding of closed surfaces.
     Row { options: &BUILT_IN, subjects: subject::along_faces, unchanged_by: WOUND, least: 10 },
     Row {
         options: &[RIDGES, APPARENT, SUGGESTIVE],
@@ -224,10 +231,11 @@ pub const ROWS: &[Row] = &[
         unchanged_by: WOUND,
         least: 10,
     },
-    // Open surfaces have no outside and keep the winding of most of their faces. The side that the eye sees decides what is a ridge, so
-    // lines are the same up to rounding. The even saddle z = x² − y² is left out: its two curvatures are of one size along the
-    // diagonals, and it is made of straight lines, along which the curvature towards the eye does not change. There rounding decides
-    // whether a line inside is drawn.
+    // Open surfaces have no outside and keep the winding of most of their faces. The visible side decides
+    // what is a ridge, so lines agree up to rounding. The even saddle z = x² − y² is left out: along its
+    // diagonals, the two principal curvatures have equal size. It is also a ruled surface, and along its
+    // straight lines the curvature towards the camera is constant. There, rounding decides whether an inner
+    // line is drawn.
     Row {
         options: &[RIDGES, APPARENT, SUGGESTIVE],
         subjects: subject::round_open,
@@ -250,7 +258,7 @@ pub const ROWS: &[Row] = &[
         unchanged_by: WOUND,
         least: 40,
     },
-    // Of sheets.
+    // Winding of flat sheets.
     Row {
         options: &[TOON, PEN],
         subjects: || vec![subject::upright_sheets()],
@@ -260,8 +268,8 @@ pub const ROWS: &[Row] = &[
         ],
         least: 10,
     },
-    // A sheet keeps its winding, and from that follows at which end a line of strokes begins: they are irregular in another way there,
-    // but as dense.
+    // A sheet keeps its winding, so reversed faces start rows of strokes at the other end. The strokes vary
+    // differently there, at the same density.
     Row {
         options: &[PENCIL_OBJECT],
         subjects: || vec![subject::upright_sheets()],
@@ -298,8 +306,10 @@ pub const ROWS: &[Row] = &[
     Row { options: &[GOOCH], subjects: || vec![subject::ring_with_ball()], unchanged_by: THREADS, least: 40 },
 ];
 
-/// What takes longer: models with all that may go wrong, open and twisted surfaces, faces through each other, doubled
-/// and without area, textures and colours of vertices, wires, instances.
+/// Rows of the long run: shared models with defects and rare features.
+///
+/// They include open and twisted surfaces, intersecting, duplicate and degenerate faces, textures, vertex
+/// colours, wires and instances.
 pub const LONG_ROWS: &[Row] = &[
     Row {
         options: &STYLES,

@@ -1,6 +1,6 @@
-//! A plain reader of the entities of DXF files.
+//! Reference reader for the entities of DXF files.
 
-/// Pairs of a code and a value.
+/// The group codes and values of a file.
 pub fn pairs(bytes: &[u8]) -> Vec<(u16, String)> {
     let text = std::str::from_utf8(bytes).expect("text");
     assert!(text.is_ascii());
@@ -9,27 +9,27 @@ pub fn pairs(bytes: &[u8]) -> Vec<(u16, String)> {
     lines.chunks(2).map(|pair| (pair[0].parse().expect("a code"), pair[1].to_owned())).collect()
 }
 
-/// One entity with all its pairs; vertices of polylines are entities of their own.
+/// An entity with its group codes and values; each vertex of a polyline is a separate entity.
 pub struct Entity {
-    /// Its name.
+    /// The entity type.
     pub kind: String,
     /// Codes and values.
     pub pairs: Vec<(u16, String)>,
 }
 
 impl Entity {
-    /// The first value of a code.
+    /// The first value with a group code.
     pub fn text(&self, code: u16) -> Option<&str> {
         self.pairs.iter().find(|pair| pair.0 == code).map(|pair| pair.1.as_str())
     }
 
-    /// The same as a number, 0 where there is none.
+    /// The first value with a group code as a number, or 0 without one.
     pub fn number(&self, code: u16) -> f64 {
         self.text(code).and_then(|text| text.parse().ok()).unwrap_or(0.0)
     }
 }
 
-/// The entities of a file.
+/// The entities of the ENTITIES section.
 pub fn entities(pairs: &[(u16, String)]) -> Vec<Entity> {
     let at = |wanted: (u16, &str), from: usize| {
         from + pairs[from..]

@@ -1,20 +1,21 @@
-//! Models of the examples as their files have them, read without the library.
+//! Reference readers for the example models: OBJ, STL, PLY and GLB, without the library.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde_json::Value;
 
-/// Coordinates.
+/// Coordinates x, y, z.
 pub type Point = [f64; 3];
 
-/// A part as read: its name, its points, and triangles between them.
+/// A part: its name, its points and its triangles.
 pub struct Part {
     pub name: String,
     pub points: Vec<Point>,
     pub faces: Vec<[usize; 3]>,
 }
 
+/// The path of an example model.
 pub fn path(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name)
 }
@@ -23,7 +24,7 @@ pub fn bytes(name: &str) -> Vec<u8> {
     std::fs::read(path(name)).unwrap()
 }
 
-/// The objects of an OBJ file; faces fanned, indices kept as the file shares them.
+/// The objects of an OBJ file, with faces fan-triangulated. Each part holds all points of the file.
 pub fn read_obj(name: &str) -> Vec<Part> {
     let mut points: Vec<Point> = Vec::new();
     let mut parts: Vec<Part> = Vec::new();
@@ -82,7 +83,7 @@ pub fn read_ply(name: &str) -> Part {
     Part { name: name.to_owned(), points, faces }
 }
 
-/// The same part with equal points made one.
+/// The part with bitwise equal points merged.
 pub fn welded(part: &Part) -> Part {
     let mut known: BTreeMap<[u64; 3], usize> = BTreeMap::new();
     let mut points = Vec::new();
@@ -100,7 +101,7 @@ pub fn welded(part: &Part) -> Part {
     Part { name: part.name.clone(), points, faces }
 }
 
-/// A GLB file as it was written: its document and its one buffer.
+/// A GLB file: its JSON document and its binary buffer.
 pub struct Glb {
     pub document: Value,
     buffer: Vec<u8>,
@@ -119,7 +120,7 @@ impl Glb {
         self.document[name].as_array().unwrap()
     }
 
-    /// The values of an accessor, each so many bytes wide.
+    /// The values of an accessor as slices of `width` bytes.
     pub fn values(&self, accessor: &Value, width: usize) -> impl Iterator<Item = &[u8]> {
         let accessor = &self.list("accessors")[accessor.as_u64().unwrap() as usize];
         let view = &self.list("bufferViews")[accessor["bufferView"].as_u64().unwrap() as usize];

@@ -1,6 +1,6 @@
-//! [`glb`]: binary glTF files made by tests.
+//! [`glb`]: writes binary glTF files for tests.
 
-/// A GLB of a document and its binary chunk. The length of the latter is a multiple of four.
+/// A GLB file with a JSON document and a binary chunk, whose length must be a multiple of four.
 pub fn glb(mut json: String, bin: &[u8]) -> Vec<u8> {
     while !json.len().is_multiple_of(4) {
         json.push(' ');

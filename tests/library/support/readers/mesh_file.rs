@@ -1,4 +1,4 @@
-//! A minimal reader of OBJ and little-endian PLY, welding equal positions, for tests only.
+//! Reference reader for OBJ and little-endian PLY meshes, with equal positions welded.
 
 use std::collections::HashMap;
 
@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::shared_folder;
 use crate::support::scenes::solids::Solid;
 
-/// Reads a shared model by its name, or says that it is absent.
+/// Reads a shared model by name; `None` if it is absent.
 pub fn read(name: &str) -> Option<Solid> {
     let bytes = std::fs::read(shared_folder::find(name)?).ok()?;
     let solid = if name.ends_with(".ply") { ply(&bytes) } else { obj(&bytes) };
@@ -67,7 +67,7 @@ fn fan(corners: &[u32], triangles: &mut Vec<[u32; 3]>) {
     triangles.extend(corners.windows(2).skip(1).map(|pair| [corners[0], pair[0], pair[1]]));
 }
 
-/// Vertices with equal positions become one; triangles that lose a corner go.
+/// Welds vertices with equal positions and drops triangles that become degenerate.
 fn welded(solid: Solid) -> Solid {
     let mut seen = HashMap::new();
     let mut positions = Vec::new();

@@ -1,6 +1,6 @@
-//! A PDF file taken apart.
+//! Reference reader for PDF files: content streams, and everything else.
 
-/// The streams of a PDF file, inflated, and everything else in it.
+/// The inflated content streams of a PDF file, and the rest of the file with its XMP metadata.
 pub fn take_apart(pdf: &[u8]) -> (String, String) {
     let find = |text: &[u8], word: &[u8]| text.windows(word.len()).position(|part| part == word);
     let (mut content, mut rest) = (String::new(), String::new());
@@ -11,7 +11,7 @@ pub fn take_apart(pdf: &[u8]) -> (String, String) {
         let end = find(left, b"\nendstream").unwrap();
         match miniz_oxide::inflate::decompress_to_vec_zlib(&left[..end]) {
             Ok(inflated) => content.push_str(&String::from_utf8_lossy(&inflated)),
-            // Some are not packed: those that are for reading go to the rest.
+            // Uncompressed XMP metadata belongs to the rest; other uncompressed streams are content.
             Err(_) if left.starts_with(b"<?xpacket") => rest.push_str(&String::from_utf8_lossy(&left[..end])),
             Err(_) => content.push_str(&String::from_utf8_lossy(&left[..end])),
         }

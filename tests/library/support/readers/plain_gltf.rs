@@ -1,4 +1,5 @@
-//! [`Plain`]: glTF files read and posed by other code than the library's, slowly and plainly, as the specification says it.
+//! [`Plain`]: reference reader for glTF files that evaluates poses directly from the specification's
+//! formulas.
 
 use std::path::Path;
 
@@ -8,7 +9,7 @@ use glam::{DMat4, DVec3};
 use ligne::geometry::numbers::portable_math::{acos, sin};
 use serde_json::Value;
 
-/// A glTF file read for the second time, by other code.
+/// A glTF file: its JSON document and its buffers.
 pub struct Plain {
     json: Value,
     buffers: Vec<Vec<u8>>,
@@ -36,7 +37,7 @@ impl Plain {
         Self { json, buffers }
     }
 
-    /// The elements of an accessor.
+    /// The elements of an accessor, with sparse values applied.
     fn read(&self, accessor: &Value) -> Vec<Vec<f64>> {
         let own = &self.json["accessors"][index(accessor).unwrap()];
         let width = match own["type"].as_str().unwrap() {
@@ -69,6 +70,7 @@ impl Plain {
         all
     }
 
+    /// Elements of `width` numbers from a buffer view; normalised integers are scaled if `part` is set.
     fn numbers(
         &self,
         view: usize,
@@ -102,7 +104,7 @@ impl Plain {
         (0..count).map(|k| (0..width).map(|i| one(begin + k * stride + i * size)).collect()).collect()
     }
 
-    /// The value of a channel at a time.
+    /// The interpolated value of a channel at a time.
     fn value(&self, animation: &Value, channel: &Value, time: f64) -> Vec<f64> {
         let sampler = &animation["samplers"][index(&channel["sampler"]).unwrap()];
         let times: Vec<f64> = self.read(&sampler["input"]).concat();
@@ -125,7 +127,7 @@ impl Plain {
             match sampler["interpolation"].as_str() {
                 Some("STEP") => a,
                 Some("CUBICSPLINE") => {
-                    // The equation as the specification prints it.
+                    // The cubic spline equation of the specification.
                     let (b_k, a_next) = (row(3 * k + 2), row(3 * (k + 1)));
                     (0..width)
                         .map(|i| {
@@ -157,7 +159,7 @@ impl Plain {
         found
     }
 
-    /// The value that a pointer leads to at a time of a clip.
+    /// The value of an animation pointer at a time of a clip.
     pub fn pointed(&self, clip: usize, pointer: &str, time: f64) -> Vec<f64> {
         let animation = &self.json["animations"][clip];
         let leads =
@@ -166,7 +168,7 @@ impl Plain {
         self.value(animation, channel, time)
     }
 
-    /// A number of a node at a time: what a clip says, else what the node says, else a default.
+    /// A property of a node at a time: from the clip, else from the node, else the default.
     fn property(&self, node: usize, path: &str, playing: Option<(usize, f64)>, default: &[f64]) -> Vec<f64> {
         if let Some((clip, time)) = playing {
             let animation = &self.json["animations"][clip];
@@ -181,6 +183,7 @@ impl Plain {
         if own.is_null() { default.to_vec() } else { floats(own) }
     }
 
+    /// The local matrix of a node.
     fn local(&self, node: usize, playing: Option<(usize, f64)>) -> DMat4 {
         let matrix = &self.json["nodes"][node]["matrix"];
         if !matrix.is_null() {
@@ -190,7 +193,7 @@ impl Plain {
         let q = self.property(node, "rotation", playing, &[0.0, 0.0, 0.0, 1.0]);
         let s = self.property(node, "scale", playing, &[1.0; 3]);
         let [x, y, z, w] = [q[0], q[1], q[2], q[3]];
-        // The matrix of a quaternion, written out.
+        // The rotation matrix of a quaternion.
         let turn = [
             [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
             [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
@@ -200,7 +203,7 @@ impl Plain {
         DMat4::from_cols_array_2d(&[column(0), column(1), column(2), [t[0], t[1], t[2], 1.0]])
     }
 
-    /// The vertices of each node that has a mesh, depth first.
+    /// The world-space vertices of each node with a mesh, in depth-first order.
     pub fn points(&self, playing: Option<(usize, f64)>) -> Vec<Vec<DVec3>> {
         let nodes = list(&self.json["nodes"]).len();
         let mut parents = vec![None; nodes];
@@ -236,6 +239,7 @@ impl Plain {
         found
     }
 
+    /// The world-space vertices of a mesh, with morph targets and skinning applied.
     fn mesh(&self, node: usize, mesh: usize, world: &[DMat4], playing: Option<(usize, f64)>) -> Vec<DVec3> {
         let mesh = &self.json["meshes"][mesh];
         let resting = if mesh["weights"].is_null() { Vec::new() } else { floats(&mesh["weights"]) };

@@ -1,10 +1,10 @@
-//! The shared models: a folder that is not part of the project and may be absent.
+//! Locates the shared models, an optional folder outside the repository.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use std::sync::Mutex;
 
-/// What was asked for and is not there.
+/// Names of models that were requested and are absent.
 static ABSENT: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
 
 fn place() -> PathBuf {
@@ -14,8 +14,9 @@ fn place() -> PathBuf {
     )
 }
 
-/// The folder of the shared models, `LIGNE_MODELS`, or `../shared/models` beside the project; none if it is absent,
-/// which is noted.
+/// The folder of the shared models; `None` if absent, which is recorded.
+///
+/// It is `LIGNE_MODELS` if set, otherwise `../shared/models` next to the repository.
 pub fn folder() -> Option<PathBuf> {
     let folder = place();
     if !folder.is_dir() {
@@ -25,7 +26,7 @@ pub fn folder() -> Option<PathBuf> {
     Some(folder)
 }
 
-/// The path of a shared model; none if it is absent, which is noted.
+/// The path of a shared model; `None` if absent, which is recorded.
 pub fn find(name: &str) -> Option<PathBuf> {
     let path = place().join(name);
     if !path.is_file() {
@@ -42,7 +43,7 @@ fn note(name: &str) {
     }
 }
 
-/// What has been asked for and was not there, in one line.
+/// One line that lists all requested models that were absent.
 pub fn absent() -> Option<String> {
     let absent = ABSENT.lock().ok()?;
     let names: Vec<&str> = absent.iter().map(String::as_str).collect();

@@ -1,6 +1,6 @@
-//! Whether the visible contours of rounded surfaces stop only where something explains it.
+//! Whether each end of a visible smooth contour has a reason: an occluder, a cusp, another line, the frame.
 //!
-//! Asked of the finished view map alone, not of the code that made it.
+//! The check reads only the finished view map, so it is independent of the code that built it.
 
 use glam::DVec3;
 use kurbo::Point;
@@ -12,49 +12,47 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::support::measures::line_picture::{Ink, nearest_on};
 
-/// How near an explanation has to be, px.
+/// Maximum distance of a reason from the end of the contour, px.
 const NEAR_PX: f64 = 0.75;
-/// A contour's own line is no explanation this far back along it, px.
+/// The contour's own last stretch of this length gives no reason, px.
 const OWN_PX: f64 = 2.5;
 
-/// Nothing is sought farther off than this, px.
+/// Maximum distance for gaps and lengths that are reported, px.
 const FAR_PX: f64 = 8.0;
-/// Loose pieces shorter than this are not drawn, px.
+/// Isolated chains shorter than this are not drawn, px.
 const CRUMB_PX: f64 = 4.0;
 
-/// What one or more views came to.
+/// Counts of contour ends by reason, over one or more views.
 #[derive(Debug, Clone, Default)]
 pub struct Tally {
     pub views: usize,
-    /// Smooth contours, and pieces of the polyhedron's that are drawn in their place, by the view map's
-    /// count.
+    /// Number of smooth contours, and of mesh contours drawn in their place, as counted by the view map.
     pub curves: u64,
     pub bare: u64,
-    /// Places where a visible contour stops.
+    /// Ends of visible contours.
     pub stops: usize,
-    /// Of these: under a nearer line, where the contour turns back, at another line, at the frame.
+    /// Ends at an occluding line, at a cusp, at another line, and at the frame.
     pub junctions: usize,
     pub cusps: usize,
     pub at_lines: usize,
     pub at_frame: usize,
-    /// Across a gap from another such place, not wider than [`NEAR_PX`]; at the end of a piece so short
-    /// that it is not drawn by itself.
+    /// Ends within [`NEAR_PX`] of another end, and ends of chains too short to be drawn.
     pub slits: usize,
     pub crumbs: usize,
-    /// The rest.
+    /// Ends without a reason.
     pub unexplained: Vec<Stop>,
 }
 
-/// A place where a visible contour stops for no reason.
+/// An end of a visible contour without a reason.
 #[derive(Debug, Clone, Copy)]
 pub struct Stop {
     pub position: Point,
     pub kind: ViewVertexKind,
-    /// Whether a hidden contour goes on there.
+    /// Whether a hidden contour continues there.
     pub goes_on: bool,
-    /// How far it is to the next place where a visible contour stops; infinite beyond [`FAR_PX`].
+    /// Distance to the nearest other end of a visible contour; infinite above [`FAR_PX`].
     pub gap: f64,
-    /// Length of the piece that stops, up to [`FAR_PX`].
+    /// Length of the chain that ends, up to [`FAR_PX`].
     pub length: f64,
 }
 
@@ -81,12 +79,12 @@ impl Tally {
         self.unexplained.extend(other.unexplained);
     }
 
-    /// Pieces of the polyhedron's contour drawn in a view, on average.
+    /// Mean number of mesh contours drawn per view.
     pub fn bare_a_view(&self) -> f64 {
         self.bare as f64 / (self.views as f64).max(1.0)
     }
 
-    /// Stops that are explained, percent.
+    /// Share of ends with a reason, percent.
     pub fn explained(&self) -> f64 {
         100.0 * (1.0 - self.unexplained.len() as f64 / (self.stops as f64).max(1.0))
     }
@@ -131,7 +129,8 @@ impl Tally {
     }
 }
 
-/// The 26 directions to the faces, edges and corners of a cube, every other view parallel.
+/// Cameras from the 26 directions to a cube's faces, edges and corners, alternately perspective and
+/// orthographic.
 pub fn cameras(scene: &Scene) -> Vec<Camera> {
     let mut cameras = Vec::new();
     for code in (0..27).filter(|code| *code != 13) {
@@ -150,7 +149,7 @@ pub fn cameras(scene: &Scene) -> Vec<Camera> {
     cameras
 }
 
-/// The view map of a surface.
+/// The view map of a surface, refined for the camera.
 pub fn view_map(surface: &Surface, camera: &Camera, options: &LineOptions) -> ViewMap {
     let surface = surface.clone().finer_for(camera);
     let view = View::new(&surface.mesh, camera);
@@ -158,7 +157,7 @@ pub fn view_map(surface: &Surface, camera: &Camera, options: &LineOptions) -> Vi
     visibility::build(&surface.mesh, &view, &lines, options)
 }
 
-/// Looks at all places of a view map where a visible smooth contour stops.
+/// Counts the ends of the visible smooth contours of a view map by reason.
 pub fn check(map: &ViewMap) -> Tally {
     let mut tally =
         Tally { views: 1, curves: map.contours.curves, bare: map.contours.bare, ..Tally::default() };
@@ -178,7 +177,7 @@ pub fn check(map: &ViewMap) -> Tally {
     }
     let ink = Ink::new(seen.iter().map(|e| ends(*e).map(place)).collect(), NEAR_PX);
     let is_smooth = |e: &&usize| map.edges[**e].kind == LineKind::Contour && map.edges[**e].smooth;
-    // Where a line meets another by identity it does not stop in the open.
+    // A vertex shared with another visible edge is no end.
     let stops: Vec<(usize, u32)> = seen
         .iter()
         .filter(is_smooth)
@@ -230,7 +229,7 @@ pub fn check(map: &ViewMap) -> Tally {
     tally
 }
 
-/// The visible line that ends at `v` with edge `e`, at least `reach` px back, and its length so far.
+/// The visible edges that lead to `v` by edge `e`, for at least `reach` px, and their total length.
 fn behind(
     v: u32,
     e: usize,
@@ -254,7 +253,7 @@ fn behind(
     }
 }
 
-/// Whether the contour goes on hidden from `v`, and in the image comes back at least a little: a cusp.
+/// Whether a contour edge continues at `v` and turns back in the image: a cusp.
 fn turns_back(map: &ViewMap, v: u32, e: usize, ends: &impl Fn(usize) -> [u32; 2]) -> bool {
     let place = |v: u32| map.vertices[v as usize].position;
     let other = |e: usize, v: u32| {
@@ -263,7 +262,7 @@ fn turns_back(map: &ViewMap, v: u32, e: usize, ends: &impl Fn(usize) -> [u32; 2]
     };
     let here = place(v);
     let came = here - place(other(e, v));
-    // Edges are in the order of their segments, which run along the curve: hidden ones lie close by.
+    // Edges follow the order of their segments along the curve, so the continuation has a nearby number.
     let window = e.saturating_sub(64)..(e + 65).min(map.edges.len());
     let goes = |o: &usize| *o != e && map.edges[*o].kind == LineKind::Contour && ends(*o).contains(&v);
     window.filter(goes).any(|o| came.dot(place(other(o, v)) - here) < 0.0)

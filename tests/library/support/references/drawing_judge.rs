@@ -1,8 +1,7 @@
-//! Holds a drawing against what is seen of the polyhedron: what is drawn but hidden, drawn but nowhere, and
-//! seen but not drawn.
+//! Compares a drawing with the reference lines of a polyhedron: missing, hidden and misplaced lines.
 //!
-//! Drawings smooth, join and leave crumbs out, so ink counts within a tolerance; what must be there and what
-//! may be there differ, so that nothing hangs on an angle.
+//! Drawings smooth and join lines and omit short ones, so ink is compared within a tolerance. Creases must be
+//! drawn above one angle and may be drawn above a smaller one.
 
 use kurbo::Point;
 use ligne::drawing::{Drawing, LayerKind, Mark, Paint};
@@ -11,50 +10,52 @@ use super::line_visibility::{Place, State, Truth};
 use super::polyhedron_lines::Kind;
 use crate::support::measures::line_picture::{Ink, flattened, samples};
 
-/// What turns by this much must be drawn.
+/// Creases with at least this angle must be drawn.
 const MUST_CREASE_DEG: f64 = 45.0;
-/// No share is taken of fewer px of creases.
+/// Minimum length of creases for a meaningful share, px.
 const LEAST_CREASE_PX: f64 = 200.0;
 
-/// A share, and where the longest stretch is that does not belong to it.
+/// A share of a length, and the longest run of samples outside it.
 #[derive(Debug, Clone, Copy)]
 pub struct Share {
     pub share: f64,
-    /// Length of which it is a share, px.
+    /// Total length, px.
     pub of: f64,
     pub worst: Option<(Point, f64)>,
 }
 
 #[derive(Debug, Clone)]
 pub struct Verdict {
-    /// Of the contour that has background behind it, of all contour, and of sharp creases: what has ink.
+    /// Shares with ink: of contours with background behind them, of all contours, and of sharp creases.
     pub outline: Share,
     pub contour: Share,
     pub crease: Option<Share>,
-    /// Of the ink: what lies near hidden lines only, near none, and near such lines only that another piece hides.
+    /// Shares of the ink: near hidden lines only, near no line, and near lines only that another component
+    /// hides.
     pub leak: Share,
     pub off: Share,
     pub through: Share,
 }
 
-/// The axes of all marks of visible lines.
+/// The marks of all visible lines.
 pub fn ink_marks(drawing: &Drawing) -> impl Iterator<Item = &Mark> {
     let lines = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Lines);
     lines.flat_map(|layer| &layer.marks).filter(|mark| mark.provenance.invisibility == 0)
 }
 
-/// The line that a mark follows, in short segments.
+/// The centre line of a mark, as short segments.
 pub fn axis(mark: &Mark) -> Vec<[Point; 2]> {
     let path = if let Paint::Outline(outline) = &mark.paint { &outline.axis } else { &mark.path };
     flattened(path, 0.01)
 }
 
-/// The verdict on a drawing, with ink counted within `tolerance` px.
+/// Compares a drawing with the reference; ink counts within `tolerance` px of a line.
 pub fn judge(truth: &Truth, drawing: &Drawing, tolerance: f64) -> Verdict {
     let strokes: Vec<[Point; 2]> = ink_marks(drawing).flat_map(axis).collect();
     judge_ink(truth, &strokes, tolerance)
 }
 
+/// Compares ink, given as segments, with the reference.
 pub fn judge_ink(truth: &Truth, strokes: &[[Point; 2]], tolerance: f64) -> Verdict {
     let ink = Ink::new(strokes.to_vec(), tolerance);
     let seen = |wanted: &dyn Fn(&Place) -> bool| {
@@ -72,7 +73,7 @@ pub fn judge_ink(truth: &Truth, strokes: &[[Point; 2]], tolerance: f64) -> Verdi
     let shown = near(&|place| place.state != State::Hidden);
     let hidden = near(&|place| place.state == State::Hidden);
     let before_others = near(&|place| !place.behind_others);
-    // Of each place of the ink: whether something seen is near, something hidden, something no other piece hides.
+    // For each ink sample: whether visible, hidden, or not occluded by another component is near.
     let drawn: Vec<(Point, f64, [bool; 3])> = samples(strokes, 1.0)
         .into_iter()
         .map(|(at, length)| {
@@ -94,7 +95,7 @@ pub fn judge_ink(truth: &Truth, strokes: &[[Point; 2]], tolerance: f64) -> Verdi
     }
 }
 
-/// The share of places that are right, each with its length and the line it is on.
+/// The share of samples that are right; each has a position, a length and the number of its line.
 fn share(places: impl Iterator<Item = (Point, f64, u32, bool)>) -> Share {
     let (mut right, mut all) = (0.0, 0.0);
     let mut worst: Option<(Point, f64)> = None;
@@ -116,7 +117,7 @@ fn share(places: impl Iterator<Item = (Point, f64, u32, bool)>) -> Share {
     Share { share: if all > 0.0 { right / all } else { 1.0 }, of: all, worst }
 }
 
-/// The least and the most that a drawing may have.
+/// Lower limits of the drawn shares and upper limits of the wrong ones.
 #[derive(Debug, Clone, Copy)]
 pub struct Limits {
     pub outline: f64,
@@ -125,11 +126,11 @@ pub struct Limits {
     pub leak: f64,
     pub off: f64,
     pub through: f64,
-    /// How far ink may lie from its line, px.
+    /// Maximum distance of ink from its line, px.
     pub tolerance: f64,
 }
 
-/// Machined and low-poly things with flat faces: what the mesh shows, the drawing shows.
+/// Limits for machined and low-poly models with flat faces: the drawing matches the mesh.
 pub const EXACT: Limits = Limits {
     outline: 0.998,
     contour: 0.985,
@@ -139,15 +140,15 @@ pub const EXACT: Limits = Limits {
     through: 0.0005,
     tolerance: 2.5,
 };
-/// Scans and dense figures: small folds may go, the outline may not.
+/// Limits for scans and dense figures: small folds may be missing, the silhouette may not.
 pub const ROUND: Limits = Limits { contour: 0.80, crease: 0.0, leak: 0.005, off: 0.01, ..EXACT };
-/// Both in one mesh.
+/// Limits for meshes with both flat and rounded parts.
 pub const MIXED: Limits = Limits { crease: 0.92, ..ROUND };
-/// Figures of few polygons, whose outline is drawn rounder than it is.
+/// Limits for coarse figures whose silhouette is drawn smoother than the mesh.
 pub const COARSE: Limits = Limits { outline: 0.985, contour: 0.90, off: 0.02, tolerance: 15.0, ..ROUND };
 
 impl Limits {
-    /// What a verdict falls short of, in words; nothing if it is right.
+    /// A message for each limit that is violated; empty if the drawing is right.
     pub fn short(&self, verdict: &Verdict) -> Vec<String> {
         let mut words = Vec::new();
         let mut say = |what: &str, share: Share, limit: f64, falls: bool| {

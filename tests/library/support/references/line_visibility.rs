@@ -1,4 +1,4 @@
-//! What of the lines of a polyhedron is seen: places along all of them, each with one ray from the eye.
+//! Reference for the visibility of a polyhedron's lines: one ray per sample along every line.
 
 use kurbo::{Point, Vec2};
 use ligne::scene::{Camera, Scene};
@@ -9,31 +9,31 @@ use super::ray_casts::{Before, Rays, around, project};
 use super::textbook_camera::Eye;
 use super::triangle_scene::Polygons;
 
-/// Whatever bends by this much may be drawn.
+/// Edges with at least this angle may be drawn as creases.
 const MAY_CREASE_DEG: f64 = 15.0;
-/// Places no farther apart than this, px.
+/// Maximum distance between samples, px.
 const STEP: f64 = 1.0;
-/// Where a shift by so much, px, changes what is seen, nothing is asked and nothing punished.
+/// If a shift by this distance changes the visibility, the sample counts as unsure, px.
 const SHIFT: f64 = 0.75;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum State {
     Visible,
     Hidden,
-    /// Rounding may decide.
+    /// Too close to call.
     Unsure,
 }
 
-/// A short stretch of a line.
+/// A sample: a short piece of a line.
 pub struct Place {
     pub at: Point,
-    /// From the middle to the end of the stretch.
+    /// Vector from the middle to the end of the piece.
     pub half: Vec2,
     pub line: u32,
     pub state: State,
-    /// Whether another connected piece hides it, clearly.
+    /// Whether another connected component clearly hides it.
     pub behind_others: bool,
-    /// Whether it is contour with nothing at all behind it.
+    /// Whether it is a contour or border with background on one side.
     pub is_outline: bool,
 }
 
@@ -47,7 +47,7 @@ impl Place {
     }
 }
 
-/// The lines of a view and places along them, line by line.
+/// The lines of a view and the samples along them, in line order.
 pub struct Truth {
     pub lines: Vec<Line>,
     pub places: Vec<Place>,
@@ -69,7 +69,7 @@ impl Truth {
         self.lines[place.line as usize].kind
     }
 
-    /// The stretches of the places that are wanted.
+    /// The pieces of the samples that satisfy `wanted`.
     pub fn stretches(&self, wanted: impl Fn(&Place) -> bool) -> Vec<[Point; 2]> {
         self.places.iter().filter(|place| wanted(place)).map(Place::stretch).collect()
     }
@@ -120,7 +120,9 @@ fn places(rays: &Rays, id: usize, line: &Line) -> Vec<Place> {
         .collect()
 }
 
-/// A line's own faces never hide it; faces at one of its ends may come as near as they like.
+/// Depth distance within which a face does not hide a line; `None` for the line's own faces.
+///
+/// The distance is smaller for faces that share one end of the line.
 fn touching(rays: &Rays, line: &Line, face: u32) -> Option<f64> {
     if line.hosts.contains(&face) {
         return None;
@@ -133,7 +135,7 @@ fn touching(rays: &Rays, line: &Line, face: u32) -> Option<f64> {
     }
 }
 
-/// Faces of the pieces that a line does not lie on.
+/// The contact distance for faces of other components; `None` for those of the line's own component.
 fn of_others(rays: &Rays, line: &Line, face: u32) -> Option<f64> {
     let piece = &rays.polygons.piece;
     let own = line.hosts.iter().any(|host| piece[*host as usize] == piece[face as usize]);

@@ -1,4 +1,4 @@
-//! How far visible smooth contours lie from the contour of the polyhedron, seen or hidden.
+//! Distances of visible smooth contours from the mesh contour, visible or hidden.
 
 use kurbo::Point;
 use ligne::lines::{Contours, LineKind, LineOptions, Surface};
@@ -9,10 +9,10 @@ use ligne::visibility::ViewMap;
 use super::contour_stops::view_map;
 use crate::support::measures::line_picture::{Ink, quantile, samples};
 
-/// Distances are told up to here, px.
+/// Maximum distance that is measured, px.
 const REACH: f64 = 8.0;
 
-/// A surface with smooth contours, and with those of the polyhedron.
+/// A scene's surface prepared for smooth contours, and prepared for mesh contours.
 pub struct Both {
     auto: Surface,
     polygon: Surface,
@@ -25,8 +25,9 @@ impl Both {
         Self { auto, polygon }
     }
 
-    /// The distances of a view in px, ascending, one for each half px of smooth contour; `None` where the
-    /// model is not taken as rounded, so that both contours are one.
+    /// The distances in one view, px, ascending, one per half px of smooth contour.
+    ///
+    /// `None` if the model has no smooth contours, so both contours are the same.
     pub fn distances(&self, camera: &Camera) -> Option<Vec<f64>> {
         let smooth = view_map(&self.auto, camera, &options(Contours::Auto));
         if smooth.contours.curves == 0 {
@@ -41,7 +42,7 @@ impl Both {
     }
 }
 
-/// Half, 95 of 100, all of the distances are at most, and the share within half a px in percent.
+/// Median, 95th percentile and maximum of the distances, and the share within half a px, percent.
 pub fn summary(distances: &[f64]) -> [f64; 4] {
     let within = distances.partition_point(|d| *d <= 0.5) as f64;
     let share = 100.0 * within / (distances.len() as f64).max(1.0);

@@ -1,5 +1,7 @@
-//! The lines of a polyhedron that a viewer may see, found from triangles by the textbook: contours, borders,
-//! creases, material boundaries and intersections.
+//! Reference for feature lines of a polyhedron: contours, borders, creases, material boundaries and
+//! intersections.
+//!
+//! Each edge is classified from its triangles by the textbook definitions. Hidden lines are included.
 
 use glam::DVec3;
 
@@ -19,14 +21,15 @@ pub enum Kind {
 /// A straight line that may be drawn.
 pub struct Line {
     pub ends: [DVec3; 2],
-    /// The corners it runs between; none of them for intersections.
+    /// The vertices at its ends; `u32::MAX` for intersections.
     pub corners: [u32; 2],
     /// The faces it lies on.
     pub hosts: Vec<u32>,
     pub kind: Kind,
-    /// By how many degrees its faces turn, where they are two; of more, the corner that is turned to the eye.
+    /// Angle between the faces, degrees, 0 if coplanar. With more than two faces, the angle of the wedge that
+    /// contains the camera.
     pub turn_deg: f64,
-    /// At the limit of what counts: neither asked for nor punished.
+    /// Whether the angle is at the crease limit; such a line may be drawn or not.
     pub unsure: bool,
 }
 
@@ -34,13 +37,13 @@ pub struct Line {
 struct Side {
     edge: [u32; 2],
     face: u32,
-    /// The corner that is not on the edge.
+    /// The vertex that is not on the edge.
     opposite: u32,
-    /// Whether the face runs along the edge from its lower to its higher corner.
+    /// Whether the face's winding runs from the lower to the higher vertex number.
     forward: bool,
 }
 
-/// All lines; edges that turn by less than `crease_deg` are none.
+/// All lines that may be drawn. Edges with an angle below `crease_deg` are no creases.
 pub fn lines(polygons: &Polygons, eye: &Eye, crease_deg: f64) -> Vec<Line> {
     let mut sides: Vec<Side> = Vec::new();
     for (id, face) in polygons.faces.iter().enumerate() {
@@ -79,7 +82,7 @@ fn faces_eye(polygons: &Polygons, eye: &Eye, face: usize) -> bool {
 fn line_of(polygons: &Polygons, eye: &Eye, facing: &[bool], sides: &[Side], crease_deg: f64) -> Option<Line> {
     let corners = sides[0].edge;
     let ends = corners.map(|corner| polygons.points[corner as usize]);
-    // On which side of the edge's image each face lies.
+    // Whether a face lies to the left of the edge in the image.
     let left = |side: &&Side| facing[side.face as usize] == side.forward;
     let lefts = sides.iter().filter(left).count();
     let is_contour = sides.len() > 1 && (lefts == 0 || lefts == sides.len());
@@ -101,7 +104,8 @@ fn line_of(polygons: &Polygons, eye: &Eye, facing: &[bool], sides: &[Side], crea
     Some(Line { ends, corners, hosts, kind, turn_deg, unsure })
 }
 
-/// By how many degrees the corner turns that the eye looks into, and the one that turns most.
+/// The angle of the wedge between faces that contains the camera, and the largest of all such angles,
+/// degrees.
 fn turns(polygons: &Polygons, eye: &Eye, [a, b]: [DVec3; 2], sides: &[Side]) -> (f64, f64) {
     let axis = (b - a).normalize();
     let across = |side: &Side| {
@@ -113,7 +117,7 @@ fn turns(polygons: &Polygons, eye: &Eye, [a, b]: [DVec3; 2], sides: &[Side]) -> 
         |v: DVec3| ligne::geometry::numbers::portable_math::atan2(v.dot(up), v.dot(first)).to_degrees();
     let mut angles: Vec<f64> = sides.iter().map(|side| angle(across(side))).collect();
     angles.sort_by(f64::total_cmp);
-    // Faces that lie in one another are one.
+    // Coincident faces count as one.
     angles.dedup_by(|a, b| (*a - *b).abs() < 1e-3);
     if angles.len() > 1 && angles[0] + 360.0 - angles[angles.len() - 1] < 1e-3 {
         angles.pop();

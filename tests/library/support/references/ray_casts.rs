@@ -1,17 +1,16 @@
-//! Rays from the eye through every triangle that may be in their way, in f64: slow and obvious but for a grid
-//! of cells over the picture.
+//! Reference for visibility: rays from the camera through every triangle of an image cell, in `f64`.
 
 use kurbo::{Point, Vec2};
 
 use super::textbook_camera::Eye;
 use super::triangle_scene::Polygons;
 
-/// Side of a cell, px.
+/// Side of an image cell, px.
 const CELL: f64 = 8.0;
-/// Surfaces that touch hide nothing of each other: this share of the size of all counts as touching.
+/// Surfaces closer than this share of the scene's size touch, and hide nothing from each other.
 const CONTACT: f64 = 1e-6;
 
-/// What lies before a point.
+/// Result of a ray: the occluder in front of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Before {
     Nothing,
@@ -20,7 +19,7 @@ pub enum Before {
     Something,
 }
 
-/// A triangle as the eye sees it: signed distances to its sides, and nearness over the picture.
+/// A projected triangle: signed distances to its sides, and nearness as a linear function of the image.
 struct Seen {
     sides: [[f64; 3]; 3],
     nearness: [f64; 3],
@@ -28,6 +27,7 @@ struct Seen {
     face: u32,
 }
 
+/// Projected triangles of a scene, sorted into image cells.
 pub struct Rays<'a> {
     pub polygons: &'a Polygons,
     pub eye: &'a Eye,
@@ -38,7 +38,7 @@ pub struct Rays<'a> {
 }
 
 impl<'a> Rays<'a> {
-    /// All triangles, in a frame of `width` x `height` px.
+    /// Projects all triangles into a frame of `width` x `height` px.
     pub fn new(polygons: &'a Polygons, eye: &'a Eye, width: f64, height: f64) -> Self {
         let (columns, rows) = ((width / CELL).ceil() as usize + 1, (height / CELL).ceil() as usize + 1);
         let cells = vec![Vec::new(); columns * rows];
@@ -91,8 +91,10 @@ impl<'a> Rays<'a> {
         self.seen.push(Seen { sides, nearness, range, face: face as u32 });
     }
 
-    /// What lies before a place of the picture at a nearness; `touching` says of each face how near in depth
-    /// it may be without hiding, or that it is left out.
+    /// The occluder in front of an image point at a given nearness.
+    ///
+    /// `touching` returns the depth distance within which a face does not hide the point, or `None` to skip
+    /// the face.
     pub fn before(&self, at: Point, nearness: f64, touching: impl Fn(u32) -> Option<f64>) -> Before {
         let depth = self.depth(nearness);
         let contact = CONTACT * self.polygons.size;
@@ -112,19 +114,19 @@ impl<'a> Rays<'a> {
         found
     }
 
-    /// The nearest of the wanted faces at a place.
+    /// The nearness of the nearest wanted face at an image point.
     pub fn nearest(&self, at: Point, wanted: impl Fn(u32) -> bool) -> Option<f64> {
         let seen = self.through(at).filter(|seen| wanted(seen.face));
         let hits = seen.map(|seen| seen.nearness[0] * at.x + seen.nearness[1] * at.y + seen.nearness[2]);
         hits.max_by(f64::total_cmp)
     }
 
-    /// Whether nothing at all is seen at a place.
+    /// Whether an image point shows background.
     pub fn is_background(&self, at: Point) -> bool {
         self.through(at).next().is_none()
     }
 
-    /// The depth within which surfaces touch.
+    /// The depth distance within which surfaces touch, world units.
     pub fn contact(&self) -> f64 {
         CONTACT * self.polygons.size
     }
@@ -143,13 +145,13 @@ impl<'a> Rays<'a> {
     }
 }
 
-/// Where a point is in the picture, and how near: a number that is linear over straight lines there.
+/// The image position of a point, and its nearness: a number that is linear along straight image lines.
 pub fn project(eye: &Eye, p: glam::DVec3) -> (Point, f64) {
     let depth = eye.depth(p);
     (eye.image(p), if eye.perspective { 1.0 / depth } else { -depth })
 }
 
-/// Eight places around one, at a distance.
+/// Eight points on a circle around a point.
 pub fn around(at: Point, radius: f64) -> impl Iterator<Item = Point> {
     let half = std::f64::consts::FRAC_1_SQRT_2;
     let ways = [

@@ -1,4 +1,4 @@
-//! A slow reference for cast shadows: one ray through every triangle.
+//! Reference for cast shadows: one ray from each point through every triangle.
 
 use glam::DVec3;
 use ligne::mesh::{FaceId, Mesh};
@@ -6,7 +6,7 @@ use ligne::shadows::{Caster, Shadows};
 
 use crate::support::scenes::random_dice::Dice;
 
-/// The direction from a point towards a light, of any length.
+/// The direction from a point towards a light, not normalised.
 fn towards(caster: &Caster, point: DVec3) -> DVec3 {
     match *caster {
         Caster::Directional { towards } => towards,
@@ -14,12 +14,13 @@ fn towards(caster: &Caster, point: DVec3) -> DVec3 {
     }
 }
 
+/// The centroid of a face.
 pub fn middle(mesh: &Mesh, face: u32) -> DVec3 {
     let [a, b, c] = mesh.corners(FaceId(face));
     (a + b + c) / 3.0
 }
 
-/// Whether a triangle stands between a point and a light (not the face of the point).
+/// Whether a triangle other than `face` blocks the ray from a point of `face` to a light.
 fn is_blocked(mesh: &Mesh, caster: &Caster, face: u32, p: DVec3) -> bool {
     let (along, most) = match caster {
         Caster::Directional { towards } => (*towards, f64::INFINITY),
@@ -42,7 +43,7 @@ fn is_blocked(mesh: &Mesh, caster: &Caster, face: u32, p: DVec3) -> bool {
     })
 }
 
-/// What rays say at a point, `None` where they disagree a little way off.
+/// Whether a point is in shadow; `None` if rays from four points at the distance `reach` disagree.
 fn surely_blocked(mesh: &Mesh, caster: &Caster, face: u32, p: DVec3, reach: f64) -> Option<bool> {
     let answer = is_blocked(mesh, caster, face, p);
     let [a, b, c] = mesh.corners(FaceId(face));
@@ -52,6 +53,7 @@ fn surely_blocked(mesh: &Mesh, caster: &Caster, face: u32, p: DVec3, reach: f64)
     around.iter().all(|d| is_blocked(mesh, caster, face, p + *d) == answer).then_some(answer)
 }
 
+/// Whether a point lies on a face, with the tolerance `slack` at its sides.
 fn inside(mesh: &Mesh, face: u32, p: DVec3, slack: f64) -> bool {
     let [a, b, c] = mesh.corners(FaceId(face));
     let normal = (b - a).cross(c - a).normalize();
@@ -59,6 +61,7 @@ fn inside(mesh: &Mesh, face: u32, p: DVec3, slack: f64) -> bool {
         && (p - a).dot(normal).abs() <= 5e-7 * mesh.extents.diagonal
 }
 
+/// Two directional and two point lights, three of them random.
 pub fn lights(mesh: &Mesh, dice: &mut Dice) -> Vec<Caster> {
     let mut sun = dice.direction();
     sun.z = sun.z.abs() + 0.3;
@@ -70,6 +73,7 @@ pub fn lights(mesh: &Mesh, dice: &mut Dice) -> Vec<Caster> {
     ]
 }
 
+/// A random point on a face.
 fn on_face(mesh: &Mesh, face: u32, dice: &mut Dice) -> DVec3 {
     let [a, b, c] = mesh.corners(FaceId(face));
     let (u, v) = (dice.between(0.0, 1.0), dice.between(0.0, 1.0));
@@ -77,7 +81,7 @@ fn on_face(mesh: &Mesh, face: u32, dice: &mut Dice) -> DVec3 {
     a + (b - a) * u + (c - a) * v
 }
 
-/// 1 for parts whose normals point outward, -1 for such that are inside out.
+/// For each part 1 if its normals point outward, and -1 if it is inside out.
 fn outward(mesh: &Mesh) -> Vec<f64> {
     let parts = mesh.face_part.iter().map(|p| p.index() + 1).max().unwrap_or(0);
     let mut volumes = vec![0.0; parts];
@@ -88,6 +92,7 @@ fn outward(mesh: &Mesh) -> Vec<f64> {
     volumes.into_iter().map(f64::signum).collect()
 }
 
+/// Checks the shadow masks of random surface points against rays.
 pub fn check_points(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dice) {
     let outward = outward(mesh);
     let asked: Vec<(u32, DVec3)> = (0..count)
@@ -104,7 +109,7 @@ pub fn check_points(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dic
             let Some(blocked) = surely_blocked(mesh, caster, *face, *p, 1e-5 * mesh.extents.diagonal) else {
                 continue;
             };
-            // Faces of solids that are turned away are not asked.
+            // The library does not test faces that are averted from the light.
             let outward = outward[mesh.face_part[*face as usize].index()];
             let attached = (b - a).cross(c - a).dot(towards(caster, *p)) * outward <= 0.0;
             let dark = mask >> k & 1 == 1;
@@ -118,7 +123,7 @@ pub fn check_points(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dic
     assert!(sure * 3 > count * shadows.casters().len(), "{sure} of {count}");
 }
 
-/// Checks that lines lie on their faces and part light from shadow; returns how many were checked.
+/// Checks that shadow lines lie on their faces and separate light from shadow; returns the number checked.
 pub fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
     let mut checked = 0;
     for segment in &shadows.lines.segments {
@@ -126,7 +131,7 @@ pub fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
         let [p, q] = segment.ends.map(|end| shadows.lines.points[end as usize]);
         let [a, b, c] = mesh.corners(FaceId(segment.face));
         let normal = (b - a).cross(c - a).normalize();
-        // Where light grazes a face, what is near in the light's view is not so near on the face.
+        // At grazing light, a small distance in the light's view is a larger one on the face.
         let fall = normal.dot(towards(caster, p).normalize()).abs().max(1e-6);
         let slack = 1e-6 * mesh.extents.diagonal / fall;
         assert!([p, q].iter().all(|p| inside(mesh, segment.face, *p, slack)), "{segment:?} {p} {q}");
@@ -134,7 +139,7 @@ pub fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
         if p.distance(q) < 1e-3 * mesh.extents.diagonal {
             continue;
         }
-        // A narrow strip of shadow may have both its borders between the sides.
+        // In a narrow strip of shadow, both its borders may lie between the two sample points.
         let parts = |reach: f64| {
             let sides = [1.0, -1.0].map(|side| (p + q) / 2.0 + across * (side * reach));
             if !sides.iter().all(|side| inside(mesh, segment.face, *side, 0.0)) {
@@ -146,7 +151,7 @@ pub fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
         };
         let found = [1e-4, 1e-5, 2e-6].map(|reach| parts(reach * mesh.extents.diagonal / fall.max(0.1)));
         if found.iter().any(Option::is_some) {
-            // Of a strip narrower than that, the other border is near.
+            // The other border of an even narrower strip is close by.
             let beside = || {
                 let others =
                     shadows.lines.segments.iter().filter(|s| *s != segment && s.face == segment.face);
@@ -168,7 +173,8 @@ pub fn check_lines(mesh: &Mesh, shadows: &Shadows) -> usize {
     checked
 }
 
-/// Checks that light and shadow change along random lines over a face as often as lines are crossed.
+/// Checks random segments on a face: their ends differ in shadow if the number of crossed shadow lines is
+/// odd.
 pub fn check_crossings(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut Dice) {
     let mut crossed = 0;
     for _ in 0..count {
@@ -190,7 +196,7 @@ pub fn check_crossings(mesh: &Mesh, shadows: &Shadows, count: usize, dice: &mut 
                     side(p, q, a) != side(p, q, b) && side(a, b, p) != side(a, b, q)
                 })
                 .count();
-            // A solid's averted faces get no lines, since no light falls on them.
+            // Faces of a solid that are averted from the light have no shadow lines.
             assert_eq!(one != other, crossings % 2 == 1, "light {k} on face {face} from {p} to {q}");
             crossed += crossings;
         }

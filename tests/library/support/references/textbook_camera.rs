@@ -1,17 +1,17 @@
-//! A camera that projects by the textbook, to check the library's view with.
+//! Reference for projection and clipping: a camera by the textbook formulas.
 
 use glam::{DVec3, DVec4};
 use kurbo::Point;
 use ligne::scene::{Camera, Projection};
 
-/// The camera's axes, and how far apart the picture shows things.
+/// Position, axes and scale of a camera.
 pub struct Eye {
     pub eye: DVec3,
     pub right: DVec3,
     pub up: DVec3,
     pub forward: DVec3,
     pub perspective: bool,
-    /// Px per tangent, or per world unit.
+    /// Px per unit of tangent (perspective), or per world unit (orthographic).
     pub scale: f64,
     width: f64,
     height: f64,
@@ -34,11 +34,12 @@ impl Eye {
         Self { eye: camera.eye, right, up, forward, perspective, scale, width, height }
     }
 
+    /// Distance of a point along the viewing direction.
     pub fn depth(&self, p: DVec3) -> f64 {
         (p - self.eye).dot(self.forward)
     }
 
-    /// Where a world point is in the image.
+    /// The image position of a world point.
     pub fn image(&self, p: DVec3) -> Point {
         let d = p - self.eye;
         let k = self.scale / if self.perspective { d.dot(self.forward) } else { 1.0 };
@@ -50,18 +51,19 @@ impl Eye {
         segments.iter().map(|s| s.map(|p| self.image(p))).collect()
     }
 
-    /// The world point of that depth that is seen at a place of the image.
+    /// The world point at an image position and a depth.
     pub fn world(&self, image: Point, depth: f64) -> DVec3 {
         let k = if self.perspective { depth } else { 1.0 } / self.scale;
         let (x, y) = (image.x - self.width / 2.0, self.height / 2.0 - image.y);
         self.eye + self.right * (x * k) + self.up * (y * k) + self.forward * depth
     }
 
-    /// What of a world segment lies beyond the depth `near` and inside the frame, by clipping it
-    /// with five half spaces.
+    /// The part of a world segment inside the frame and farther than the depth `near`, by clipping with up to
+    /// five half-spaces.
     pub fn clipped(&self, a: DVec3, b: DVec3, near: Option<f64>) -> Option<[DVec3; 2]> {
         let (x, y) = (self.width / 2.0 / self.scale, self.height / 2.0 / self.scale);
-        // Coordinates to the right, up, forward and 1; inside is where the product is positive.
+        // Homogeneous camera coordinates (right, up, forward, 1); the dot product with a plane is positive
+        // inside.
         let side = |d: DVec3, half: f64| match self.perspective {
             true => DVec4::new(d.x, d.y, half, 0.0),
             false => DVec4::new(d.x, d.y, 0.0, half),

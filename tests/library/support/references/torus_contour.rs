@@ -1,9 +1,11 @@
-//! The contour of a torus as geometry has it: where it is, where it is seen, where it has cusps.
+//! Closed form of the contour of a torus: position, visibility and cusps.
 //!
-//! With the centre of the tube at R c(u) and the normal n = c cos v + z sin v, a point is on the contour
-//! where n points as far to the eye as the tube is thick: two values of v for each u. A line of sight
-//! touches the torus there, so that two of its four meetings are known and the others are roots of a
-//! quadratic. An eye between the two planes that the torus lies between sees other contours: not for those.
+//! A surface point is p = R c(u) + r n, with the normal n = c cos v + z sin v. It is on the contour where n ·
+//! (E − R c(u)) = r for the camera position E, which gives two values of v for each u. The line of sight
+//! touches the torus there, so two of its four intersections coincide. The other two are the roots of a
+//! quadratic.
+//!
+//! The formula does not hold for a camera between the planes z = ±r.
 
 use glam::DVec3;
 use kurbo::Point;
@@ -12,25 +14,25 @@ use ligne::scene::Camera;
 
 use super::textbook_camera::Eye;
 
-/// A point of the contour.
+/// A point of the contour and its visibility.
 #[derive(Debug, Clone, Copy)]
 pub struct Place {
     pub image: Point,
     pub visible: bool,
-    /// Whether the surface bends away from the line of sight; changes at cusps.
+    /// Whether the surface curves away from the line of sight; this changes at cusps.
     pub convex: bool,
 }
 
-/// A stretch of contour that is seen from end to end.
+/// A maximal visible part of a contour.
 #[derive(Debug, Clone)]
 pub struct Piece {
     pub points: Vec<Point>,
     pub closed: bool,
-    /// How many of its ends are cusps.
+    /// Number of its ends that are cusps.
     pub cusps: usize,
 }
 
-/// The two contours of a torus about the z axis, each a loop.
+/// The two contours of a torus about the z axis, each a loop of `count` points.
 pub fn contours(radius: f64, tube: f64, camera: &Camera, count: usize) -> [Vec<Place>; 2] {
     let eye = Eye::new(camera);
     [-1.0, 1.0].map(|branch| {
@@ -61,8 +63,7 @@ pub fn contours(radius: f64, tube: f64, camera: &Camera, count: usize) -> [Vec<P
     })
 }
 
-/// Along a line p + t d that touches the torus at t = 0, the quartic of the torus is t² (t² + a t + b):
-/// a and b.
+/// Coefficients a and b of the quartic t² (t² + a t + b) of a line p + t d that touches the torus at t = 0.
 fn other_meetings(radius: f64, tube: f64, p: DVec3, d: DVec3) -> [f64; 2] {
     let s = p.length_squared() + radius * radius - tube * tube;
     let q = p.dot(d);
@@ -70,7 +71,7 @@ fn other_meetings(radius: f64, tube: f64, p: DVec3, d: DVec3) -> [f64; 2] {
     [4.0 * q, 4.0 * q * q + 2.0 * s - 4.0 * radius * radius * flat]
 }
 
-/// The stretches that are seen.
+/// The visible parts of the contours.
 pub fn visible_pieces(contours: &[Vec<Place>]) -> Vec<Piece> {
     let mut pieces = Vec::new();
     for places in contours {

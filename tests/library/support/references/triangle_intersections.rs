@@ -1,12 +1,11 @@
-//! Where triangles pass through one another: every pair whose boxes meet is asked.
+//! Reference for intersection lines: every pair of triangles with overlapping boxes is intersected.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::triangle_scene::Polygons;
 
-/// Ends of each line of intersection, and the two faces. Faces with a common corner are neighbours and have
-/// none; nor have those in one plane.
+/// Ends of each intersection segment, and its two faces. Faces that share a vertex or a plane have none.
 pub fn piercings(polygons: &Polygons) -> Vec<([DVec3; 2], [u32; 2])> {
     let boxes: Vec<[DVec3; 2]> = (0..polygons.faces.len())
         .map(|face| {
@@ -43,7 +42,7 @@ pub fn piercings(polygons: &Polygons) -> Vec<([DVec3; 2], [u32; 2])> {
         .collect()
 }
 
-/// The common line of two triangles: both cut the line of their planes in an interval.
+/// The intersection segment of two triangles: the overlap of their intervals on the line of their planes.
 fn pierce(polygons: &Polygons, one: usize, other: usize) -> Option<[DVec3; 2]> {
     let (p, q) = (polygons.corners(one), polygons.corners(other));
     let normal = |t: [DVec3; 3]| (t[1] - t[0]).cross(t[2] - t[0]).normalize();

@@ -1,23 +1,24 @@
-//! A scene as plain triangles, welded by position, with the pieces that hang together.
+//! A scene as triangles welded by position, with connected components.
 
 use glam::DVec3;
 use ligne::scene::Scene;
 use rustc_hash::FxHashMap;
 
-/// Triangles in the world, sharing corners where positions are the same to the bit.
+/// World-space triangles that share vertices with bitwise equal positions.
 #[derive(Default)]
 pub struct Polygons {
     pub points: Vec<DVec3>,
     pub faces: Vec<[u32; 3]>,
-    /// Of each face the part of the scene, the material, and which connected piece it belongs to.
+    /// The part, the material and the connected component of each face.
     pub part: Vec<u32>,
     pub material: Vec<u32>,
     pub piece: Vec<u32>,
-    /// The diagonal of the box around all.
+    /// Diagonal of the bounding box.
     pub size: f64,
 }
 
 impl Polygons {
+    /// Collects the triangles of a scene; triangles with two equal vertices are dropped.
     pub fn of(scene: &Scene) -> Self {
         let mut all = Self::default();
         let mut known: FxHashMap<[u64; 3], u32> = FxHashMap::default();
@@ -59,13 +60,14 @@ impl Polygons {
         self.faces[face].map(|corner| self.points[corner as usize])
     }
 
-    /// Whether a face is so thin that it hides nothing.
+    /// Whether a face is too thin to hide anything.
     pub fn is_flat(&self, face: usize) -> bool {
         let [a, b, c] = self.corners(face);
         let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
         (b - a).cross(c - a).length() <= 1e-12 * self.size * longest
     }
 
+    /// Labels connected components by union-find over the vertices.
     fn find_pieces(&mut self) {
         let mut leader: Vec<u32> = (0..self.points.len() as u32).collect();
         for face in &self.faces {

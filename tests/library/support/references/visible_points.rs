@@ -1,4 +1,4 @@
-//! Every visible line of a view map, point by point in the world, against rays through all other parts.
+//! Checks that no other part hides a visible line of the view map, by rays at points along each line.
 
 use kurbo::Point;
 use ligne::lines::LineOptions;
@@ -10,7 +10,7 @@ use super::textbook_camera::Eye;
 use super::triangle_scene::Polygons;
 use crate::support::pipeline::{Stages, stages};
 
-/// What was found: places asked, those that another part hides, and the first of these.
+/// Number of points tested, number of them hidden by another part, and the first hidden point.
 #[derive(Debug, Default, Clone)]
 pub struct Shown {
     pub asked: usize,
@@ -18,8 +18,10 @@ pub struct Shown {
     pub first: Option<Point>,
 }
 
-/// Asks along all visible view edges, 2 px apart; places that a shift by `excused` px clears are not counted, nor
-/// places of round lines whose polygon is seen within as much.
+/// Tests all visible view edges every 2 px.
+///
+/// A hidden point is excused if a shift by `excused` px makes it visible. Points of smooth lines are also
+/// excused if the mesh surface below is visible within that distance.
 pub fn hidden_by_others(scene: &Scene, camera: &Camera, options: &LineOptions, excused: f64) -> Shown {
     let polygons = Polygons::of(scene);
     let eye = Eye::new(camera);
@@ -48,14 +50,15 @@ fn ask(stages: &Stages, rays: &Rays, id: usize, excused: f64) -> Shown {
     let others = |face: u32| (!own.contains(&rays.polygons.part[face as usize])).then_some(rays.contact());
     for k in 0..count {
         let at = a.lerp(b, (k as f64 + 0.5) / count as f64);
-        // Where the place is on the whole segment, whose nearness is linear in the picture.
+        // Nearness is linear along the whole segment in the image, so it follows from the position on it.
         let way = to - from;
         let share = if way.hypot2() > 0.0 { (at - from).dot(way) / way.hypot2() } else { 0.5 };
         let nearness = near_p + (near_q - near_p) * share;
         let hides = |at: Point| rays.before(at, nearness, others) == Before::Something;
         let nearby =
             || std::iter::once(at).chain([0.25, 0.5, 1.0].into_iter().flat_map(|k| around(at, k * excused)));
-        // A round line lies beside its polygon in depth as well: what counts is whether the polygon is seen there.
+        // A smooth line differs from the mesh in depth as well, so the visibility of the mesh surface
+        // decides.
         let polygon_is_seen = |at: Point| {
             let front = rays.nearest(at, |face| own.contains(&rays.polygons.part[face as usize]));
             front.is_some_and(|front| rays.before(at, front, others) != Before::Something)

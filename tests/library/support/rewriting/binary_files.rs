@@ -1,4 +1,4 @@
-//! Models written in single precision: STL, PLY, and GLB with placed nodes.
+//! Writers for models in single precision: STL, PLY, and GLB with placed nodes.
 
 use glam::{DQuat, DVec3};
 use serde_json::{Value, json};
@@ -54,7 +54,7 @@ pub fn ply_single(model: &Model) -> Vec<u8> {
     bytes
 }
 
-/// A document of glTF in the making.
+/// A glTF document under construction.
 #[derive(Default)]
 struct Document {
     nodes: Vec<Value>,
@@ -78,7 +78,7 @@ impl Document {
         self.accessors.len() - 1
     }
 
-    /// A mesh of a part, a primitive for each colour; `place` gives the coordinates that are written.
+    /// Adds the mesh of a part, with one primitive per colour; `place` maps points to written coordinates.
     fn mesh(&mut self, part: &[Body], has_colours: bool, place: impl Fn(DVec3) -> DVec3) -> usize {
         let points: Vec<DVec3> = part.iter().flat_map(|body| &body.points).map(|p| place(*p)).collect();
         let mut data = Vec::new();
@@ -132,7 +132,7 @@ impl Document {
     }
 }
 
-/// World coordinates in single precision; the nodes place nothing.
+/// A GLB file with world coordinates and untransformed nodes.
 pub fn glb_baked(model: &Model) -> Vec<u8> {
     let mut document = Document::default();
     let mut roots = Vec::new();
@@ -143,7 +143,7 @@ pub fn glb_baked(model: &Model) -> Vec<u8> {
     document.bytes(&roots)
 }
 
-/// Short coordinates under nodes that move, scale, mirror and turn them.
+/// A GLB file with short coordinates under nodes that move, scale, mirror and rotate them.
 pub fn glb_nested(model: &Model, dice: &mut Dice) -> Vec<u8> {
     let mut document = Document::default();
     let mut groups = Vec::new();
@@ -153,7 +153,7 @@ pub fn glb_nested(model: &Model, dice: &mut Dice) -> Vec<u8> {
         if dice.below(3) == 0 {
             scale.x = -scale.x;
         }
-        // A mirroring node turns the winding round, so the part is written wound the other way.
+        // A mirroring node reverses the winding, so the part is written with reversed faces.
         let mut part = part.to_vec();
         if scale.x < 0.0 {
             part.iter_mut().for_each(Body::reverse);

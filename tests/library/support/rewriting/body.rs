@@ -1,8 +1,8 @@
-//! [`Body`]: exact points and flat polygons between them, and how polygons are cut into triangles.
+//! [`Body`]: a polyhedral surface with exact points and flat polygons, and its triangulation.
 
 use glam::{DVec2, DVec3};
 
-/// A flat polygon, counter-clockwise seen from outside; it may be concave, and corners may lie on straight edges.
+/// A flat polygon, counter-clockwise from outside. It may be concave and may have straight corners.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Face {
     pub corners: Vec<u32>,
@@ -12,15 +12,15 @@ pub struct Face {
 /// A connected surface.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Body {
-    /// Name of its part. Neighbours in a model with the same name are one part.
+    /// Name of its part. Adjacent bodies of a model with the same name form one part.
     pub part: String,
     pub points: Vec<DVec3>,
     pub faces: Vec<Face>,
     /// Whether it encloses a volume.
     pub is_closed: bool,
-    /// Whether it stands for a rounded surface.
+    /// Whether it approximates a rounded surface.
     pub is_round: bool,
-    /// Opposite corners of an upright box strictly inside.
+    /// Opposite corners of an axis-aligned box strictly inside.
     pub core: Option<[DVec3; 2]>,
 }
 
@@ -31,7 +31,7 @@ impl Body {
         [points().reduce(DVec3::min).unwrap(), points().reduce(DVec3::max).unwrap()]
     }
 
-    /// The body with every point moved by an orientation-preserving map that keeps boxes upright.
+    /// The body with every point moved. The map must preserve orientation and keep boxes axis-aligned.
     pub fn moved(mut self, place: impl Fn(DVec3) -> DVec3) -> Self {
         self.points.iter_mut().for_each(|point| *point = place(*point));
         self.core = self.core.map(|core| {
@@ -50,7 +50,7 @@ impl Body {
         self.faces.iter_mut().for_each(|face| face.corners.reverse());
     }
 
-    /// The triangles of a face. Another `start` gives other diagonals where the polygon has a choice.
+    /// The triangles of a face. Another `start` gives other diagonals if the polygon allows several.
     pub fn triangles(&self, face: &Face, start: usize) -> Vec<[u32; 3]> {
         let points: Vec<DVec3> = face.corners.iter().map(|&corner| self.points[corner as usize]).collect();
         let flat = flattened(&points);
@@ -60,7 +60,7 @@ impl Body {
     }
 }
 
-/// The polygon in its plane, counter-clockwise; one coordinate is left out, so nothing is rounded.
+/// The polygon projected along a coordinate axis without rounding, counter-clockwise.
 fn flattened(points: &[DVec3]) -> Vec<DVec2> {
     let mut normal = DVec3::ZERO;
     for (k, a) in points.iter().enumerate() {
@@ -75,7 +75,7 @@ fn flattened(points: &[DVec3]) -> Vec<DVec2> {
     points.iter().map(flat).collect()
 }
 
-/// Cuts off ears, the first possible one each time, none of them without area.
+/// Triangulates by ear clipping: the first ear with positive area each time.
 fn ears(points: &[DVec2], mut ring: Vec<usize>) -> Vec<[usize; 3]> {
     let mut found = Vec::new();
     let turn = |a: usize, b: usize, c: usize| (points[b] - points[a]).perp_dot(points[c] - points[a]);
@@ -93,7 +93,7 @@ fn ears(points: &[DVec2], mut ring: Vec<usize>) -> Vec<[usize; 3]> {
         let Some(ear) = (0..count).find(is_ear) else { break };
         found.push(corners(ear));
         ring.remove(ear);
-        // Go on at the far end, so that fans are rare.
+        // Continue at another corner, to avoid fans.
         ring.rotate_left(1);
     }
     if let [a, b, c] = ring[..]

@@ -1,4 +1,5 @@
-//! The same bodies written otherwise: faces reversed, cut, doubled, or in another order, and a body that is hidden.
+//! Changes to a model that must not change its drawing: faces reversed, split, duplicated or reordered, and
+//! hidden bodies.
 
 use glam::DVec3;
 
@@ -7,7 +8,7 @@ use super::model::Model;
 use super::shapes::cuboid;
 use crate::support::scenes::random_dice::Dice;
 
-/// A random choice of at least one of `count` things, and of fewer than all if there are several.
+/// A random selection of at least one of `count` items, and not of all if there are several.
 fn some_of(count: usize, dice: &mut Dice) -> Vec<bool> {
     let mut chosen: Vec<bool> = (0..count).map(|_| dice.below(2) == 0).collect();
     if let Some(last) = count.checked_sub(1) {
@@ -20,6 +21,7 @@ fn some_of(count: usize, dice: &mut Dice) -> Vec<bool> {
     chosen
 }
 
+/// Reverses all faces.
 pub fn all_reversed(model: &mut Model) {
     model.bodies.iter_mut().for_each(Body::reverse);
 }
@@ -32,7 +34,7 @@ pub fn some_reversed(model: &mut Model, dice: &mut Dice) -> Option<()> {
     (model.bodies.len() > 1).then_some(())
 }
 
-/// Each face as triangles. Another `start` gives other diagonals.
+/// Triangulates each face. Another `start` gives other diagonals.
 pub fn triangulated(model: &mut Model, start: usize) {
     for body in &mut model.bodies {
         let cut = |face: &Face| {
@@ -43,12 +45,13 @@ pub fn triangulated(model: &mut Model, start: usize) {
     }
 }
 
+/// The bodies without rounded surfaces; `None` if there are none.
 fn flat_bodies(model: &mut Model) -> Option<Vec<&mut Body>> {
     let flat: Vec<&mut Body> = model.bodies.iter_mut().filter(|body| !body.is_round).collect();
     (!flat.is_empty()).then_some(flat)
 }
 
-/// Cuts some faces of flat bodies into triangles about points inside.
+/// Splits some faces of flat bodies into triangles around interior points.
 pub fn faces_split(model: &mut Model, dice: &mut Dice) -> Option<()> {
     for body in flat_bodies(model)? {
         let chosen = some_of(body.faces.len(), dice);
@@ -58,7 +61,7 @@ pub fn faces_split(model: &mut Model, dice: &mut Dice) -> Option<()> {
                 continue;
             }
             for [a, b, c] in body.triangles(&face, dice.below(face.corners.len())) {
-                // Halves and quarters keep the coordinates short.
+                // Dividing by four keeps the coordinates short.
                 let [p, q, r] = [a, b, c].map(|corner| body.points[corner as usize]);
                 body.points.push((p + q + r * 2.0) / 4.0);
                 let middle = body.points.len() as u32 - 1;
@@ -70,11 +73,11 @@ pub fn faces_split(model: &mut Model, dice: &mut Dice) -> Option<()> {
     Some(())
 }
 
-/// Puts vertices into the middle of some edges of flat bodies: into both faces of the edge, or into one.
+/// Inserts vertices at the middle of some edges of flat bodies, in both faces of the edge or in one.
 pub fn vertices_in_edges(model: &mut Model, on_both_sides: bool, dice: &mut Dice) -> Option<()> {
     for body in flat_bodies(model)? {
         let mut edges: Vec<[u32; 2]> = body.faces.iter().flat_map(sides).collect();
-        // Each edge once, the way that comes first.
+        // Keep each edge once, in its first direction.
         let mut known = std::collections::BTreeSet::new();
         edges.retain(|[a, b]| known.insert([*a.min(b), *a.max(b)]));
         let chosen = some_of(edges.len(), dice);
@@ -96,13 +99,13 @@ pub fn vertices_in_edges(model: &mut Model, on_both_sides: bool, dice: &mut Dice
     Some(())
 }
 
-/// The sides of a face from corner to corner.
+/// The directed edges of a face.
 fn sides(face: &Face) -> Vec<[u32; 2]> {
     let next = face.corners.iter().cycle().skip(1);
     face.corners.iter().zip(next).map(|(a, b)| [*a, *b]).collect()
 }
 
-/// Writes some faces twice.
+/// Duplicates some faces.
 pub fn faces_doubled(model: &mut Model, dice: &mut Dice) {
     for body in &mut model.bodies {
         let chosen = some_of(body.faces.len(), dice);
@@ -112,7 +115,7 @@ pub fn faces_doubled(model: &mut Model, dice: &mut Dice) {
     }
 }
 
-/// Adds faces without area: with a corner twice, and with all corners on an edge.
+/// Adds degenerate faces: with a repeated corner, or with three corners on one edge.
 pub fn faces_without_area(model: &mut Model, dice: &mut Dice) {
     for body in &mut model.bodies {
         for _ in 0..3 {
@@ -129,7 +132,7 @@ pub fn faces_without_area(model: &mut Model, dice: &mut Dice) {
     }
 }
 
-/// Parts, bodies, faces and vertices in another order; faces begin at another corner.
+/// Shuffles parts, bodies, faces and vertices, and rotates the corners of faces.
 pub fn reordered(model: &mut Model, dice: &mut Dice) {
     let parts: Vec<Vec<Body>> = model.parts().map(<[Body]>::to_vec).collect();
     let parts = dice.shuffled(parts);
@@ -151,7 +154,7 @@ pub fn reordered(model: &mut Model, dice: &mut Dice) {
     }
 }
 
-/// Adds a small box inside a closed body, as a part or in the part of that body; `None` if no body has room.
+/// Adds a small box inside a closed body, as a separate part or in the same part; `None` if no body has room.
 pub fn hidden_body_added(model: &mut Model, dice: &mut Dice) -> Option<()> {
     let with_room: Vec<usize> = (0..model.bodies.len()).filter(|k| model.bodies[*k].core.is_some()).collect();
     let host = *with_room.get(dice.below(with_room.len().max(1)))?;

@@ -1,13 +1,13 @@
-//! Differences that are known, each with its reason and upper bounds. A relation that is not listed holds for every scene.
+//! Accepted differences, each with its reason and upper bounds. All other relations hold for every scene.
 
 use super::relations::Relation;
 
 /// A relation that does not hold for every scene.
 pub struct Known {
     pub relation: Relation,
-    /// Drawings that may differ in the short run, which draws the same scenes each time.
+    /// Maximum number of different drawings in the short run, which always draws the same scenes.
     pub in_short_run: usize,
-    /// The share of drawings that may differ in the long run.
+    /// Maximum share of different drawings in the long run.
     pub share: f64,
     pub why: &'static str,
 }
@@ -40,7 +40,7 @@ pub const KNOWN: [Known; 10] = [
     known(Relation::PictureSize, 1, 0.15, SHORT),
 ];
 
-/// What is known of a relation.
+/// The accepted differences of a relation.
 pub fn of(relation: Relation) -> Option<&'static Known> {
     KNOWN.iter().find(|known| known.relation == relation)
 }

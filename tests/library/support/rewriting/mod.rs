@@ -1,10 +1,11 @@
-//! Random models written in many ways that must all give the same drawing.
+//! Metamorphic tests: a random model gives the same drawing in every file format and encoding.
 //!
-//! 1. [`model`] makes a random scene of [`body`] values with short coordinates, so its exact form is known, and places it in the
-//!    world.
-//! 2. [`relations`] lists the ways to write it; [`changes`] alters its faces, [`text_files`] and [`binary_files`] write it.
-//! 3. [`trial`] reads both files with the library, draws them, and compares the lines [`pens`] by pen.
-//! 4. [`table`] counts the drawings that differ.
+//! 1. [`model`] makes a random scene of [`body`] values, built by [`shapes`]. Their coordinates are short, so
+//!    the exact form is known.
+//! 2. [`relations`] lists the ways to write the model. [`changes`] alters its faces.
+//! 3. [`text_files`] and [`binary_files`] write files.
+//! 4. [`trial`] reads both files with the library, draws them, and compares their lines by pen with [`pens`].
+//! 5. [`table`] counts the drawings that differ; [`known`] lists the accepted differences.
 
 mod binary_files;
 pub mod body;

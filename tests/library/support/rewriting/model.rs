@@ -1,4 +1,4 @@
-//! [`Model`]: a random scene of bodies whose exact form is known, its place in the world, and the camera.
+//! [`Model`]: a random scene of exact bodies, with its placement in the world and a camera.
 
 use glam::{DAffine3, DVec3};
 use ligne::load::ModelFormat;
@@ -11,20 +11,20 @@ use super::shapes::{
 use super::text_files::{Digits, obj};
 use crate::support::scenes::random_dice::Dice;
 
-/// What a scene is made of.
+/// Kinds of bodies of a scene.
 pub const SHAPES: [&str; 9] =
     ["boxes", "prisms", "plates", "stairs", "houses", "sheets", "decals", "round bodies", "mixed bodies"];
 
-/// How its bodies lie to each other.
+/// Spatial relations between the bodies of a scene.
 pub const CONTACTS: [&str; 4] = ["free", "touching", "flush", "overlapping"];
 
-/// From where a scene is seen.
+/// The viewing direction of a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Sight {
     Named(NamedView),
     /// Azimuth and elevation, whole degrees.
     Angles(f64, f64),
-    /// A parallel view along an axis of the bodies.
+    /// An orthographic view along an axis of the bodies.
     AlongAxis(DVec3),
     Direction {
         to_eye: DVec3,
@@ -34,7 +34,7 @@ pub enum Sight {
 
 #[derive(Debug, Clone)]
 pub struct Model {
-    /// Shapes and contact.
+    /// The kind of its bodies and their contact.
     pub kind: String,
     pub seed: u64,
     pub bodies: Vec<Body>,
@@ -44,9 +44,10 @@ pub struct Model {
 }
 
 impl Model {
+    /// The model of a seed. Consecutive seeds run through all combinations of [`SHAPES`] and [`CONTACTS`].
     pub fn random(seed: u64) -> Self {
         let mut dice = Dice::new(seed);
-        // Every shape with every contact, in turn.
+        // Every shape with every contact in turn.
         let shapes = SHAPES[seed as usize % SHAPES.len()];
         let contact = CONTACTS[seed as usize / SHAPES.len() % CONTACTS.len()];
         let count = [1, 2, 2, 3, 3, 4, 5, 6, 8, 11, 14][dice.below(11)];
@@ -74,7 +75,7 @@ impl Model {
         model
     }
 
-    /// Points the camera at all there is.
+    /// Fits the camera to the scene.
     pub fn frame(&mut self) {
         let along = |to_eye: DVec3, is_parallel: bool| {
             let to_eye = to_eye.normalize();
@@ -95,12 +96,12 @@ impl Model {
         self.camera = camera.fit(&self.scene());
     }
 
-    /// The scene read from the exact file.
+    /// The scene read from the reference file.
     pub fn scene(&self) -> Scene {
         Scene::from_bytes(&obj(self, Digits::All), ModelFormat::Obj).unwrap()
     }
 
-    /// Whether a surface stands for a rounded one.
+    /// Whether any body approximates a rounded surface.
     pub fn is_round(&self) -> bool {
         self.bodies.iter().any(|body| body.is_round)
     }
@@ -110,7 +111,7 @@ impl Model {
         body.points.iter().map(|point| self.world_from_model.transform_point3(*point)).collect()
     }
 
-    /// The bodies of each part.
+    /// The bodies, grouped by part.
     pub fn parts(&self) -> impl Iterator<Item = &[Body]> {
         self.bodies.chunk_by(|one, next| one.part == next.part)
     }
@@ -119,7 +120,7 @@ impl Model {
         self.bodies.iter().flat_map(|body| &body.faces).any(|face| face.colour > 0)
     }
 
-    /// All bodies in one part, of one colour, as STL and PLY have them.
+    /// The model as one part with one colour, for STL and PLY.
     pub fn in_one_part(mut self) -> Self {
         for body in &mut self.bodies {
             body.part = "all".into();
@@ -147,7 +148,7 @@ fn any_body(shapes: &str, dice: &mut Dice) -> Body {
         "plates" => any_plate(dice),
         "stairs" => any_stairs(dice),
         "houses" => any_house(dice),
-        // Sheets need something to lie on.
+        // Sheets need a body to lie on.
         "sheets" if dice.below(3) == 0 => any_cuboid(dice),
         "sheets" => any_sheet(dice),
         "round bodies" => any_round(dice),
@@ -155,7 +156,7 @@ fn any_body(shapes: &str, dice: &mut Dice) -> Body {
     }
 }
 
-/// Bodies placed one after another: apart, or each against one that is there.
+/// Random bodies, each placed apart from the others or in contact with an earlier one.
 fn arranged(shapes: &str, contact: &str, count: usize, dice: &mut Dice) -> Vec<Body> {
     let mut bodies: Vec<Body> = Vec::new();
     for k in 0..count {
@@ -179,7 +180,7 @@ fn arranged(shapes: &str, contact: &str, count: usize, dice: &mut Dice) -> Vec<B
     bodies
 }
 
-/// Where a box goes to lie against another one.
+/// The translation that puts a box in contact with another box.
 fn against(there: [DVec3; 2], [low, high]: [DVec3; 2], contact: &str, dice: &mut Dice) -> DVec3 {
     let size = high - low;
     let room = there[1] - there[0];
@@ -196,7 +197,7 @@ fn against(there: [DVec3; 2], [low, high]: [DVec3; 2], contact: &str, dice: &mut
         } else if contact == "flush" || contact == "overlapping" && dice.below(3) == 0 {
             if dice.below(2) == 0 { there[0][axis] } else { there[1][axis] - size[axis] }
         } else {
-            // Anywhere along the side, in steps of half a unit.
+            // Any position along the side, in steps of half a unit.
             let way = half_units(room[axis] + size[axis]).max(3) - 1;
             there[0][axis] - size[axis] + 0.5 * (1 + dice.below(way)) as f64
         };
@@ -204,7 +205,7 @@ fn against(there: [DVec3; 2], [low, high]: [DVec3; 2], contact: &str, dice: &mut
     corner - low
 }
 
-/// Boxes with sheets of another colour in the planes of their sides, in a part of their own or in that of the box.
+/// Boxes with coloured sheets in the planes of their sides, in the same part or in a separate one.
 fn decals(dice: &mut Dice) -> Vec<Body> {
     let mut bodies = Vec::new();
     for k in 0..1 + dice.below(3) {
@@ -214,7 +215,7 @@ fn decals(dice: &mut Dice) -> Vec<Body> {
         let part = format!("wall{k}");
         let mut group = vec![Body { part: part.clone(), ..wall }];
         for decal in 0..1 + dice.below(2) {
-            // In its half of the side, so that two do not overlap.
+            // Each sheet stays in its half of the side, so two never overlap.
             let (low, high) = ([0.5, 2.0][decal], [1.5, 3.5][decal]);
             let (from, to) = (0.5 + 0.5 * dice.below(3) as f64, 2.5);
             let z = if dice.below(2) == 0 { size.z } else { 0.0 };

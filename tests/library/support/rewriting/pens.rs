@@ -1,4 +1,4 @@
-//! [`Pens`]: the visible lines of a drawing by pen, and how two drawings differ.
+//! [`Pens`]: the visible lines of a drawing grouped by pen, and the difference between two drawings.
 
 use std::collections::BTreeMap;
 
@@ -8,20 +8,21 @@ use ligne::drawing::{Drawing, Mark, Paint};
 use crate::support::measures::line_picture::{Ink, samples};
 use crate::support::references::drawing_judge::{axis, ink_marks};
 
-/// Places along lines are compared this far apart, px.
+/// Distance between samples along lines, px.
 const STEP_PX: f64 = 0.25;
 
-/// Visible lines by kind, whether they are silhouettes, and width.
+/// Visible lines as segments, by classes and pen width.
 #[derive(Debug, Clone)]
 pub struct Pens(BTreeMap<String, Vec<[Point; 2]>>);
 
-/// The lines of one drawing that are farther than the tolerance from the same pen of the other.
+/// The lines of each drawing that are farther than a tolerance from the same pen in the other drawing.
 #[derive(Debug, Clone)]
 pub struct Difference {
-    /// Length by pen: of lines only the reference has, and of lines only the other drawing has; px of the reference.
+    /// Length by pen of lines in the reference only, and of lines in the other drawing only; px of the
+    /// reference.
     pub gone: BTreeMap<String, f64>,
     pub new: BTreeMap<String, f64>,
-    /// A place in the reference where they differ.
+    /// A point of the reference drawing where they differ.
     pub at: Point,
 }
 
@@ -51,6 +52,7 @@ fn width(mark: &Mark) -> f64 {
     }
 }
 
+/// The classes and width of a mark.
 fn pen(mark: &Mark) -> String {
     format!("{} {}", mark.provenance.classes.join(" "), width(mark))
 }
@@ -64,7 +66,7 @@ impl Pens {
         Self(pens)
     }
 
-    /// The visible lines of a drawing by the width of their pen alone, whatever their kind.
+    /// The visible lines of a drawing, grouped by pen width only.
     pub fn by_width(drawing: &Drawing) -> Self {
         let mut pens: BTreeMap<String, Vec<[Point; 2]>> = BTreeMap::new();
         for mark in ink_marks(drawing) {
@@ -73,13 +75,13 @@ impl Pens {
         Self(pens)
     }
 
-    /// The lines with each point moved.
+    /// The lines with `place` applied to each point.
     pub fn moved(mut self, place: impl Fn(Point) -> Point) -> Self {
         self.0.values_mut().flatten().flatten().for_each(|point| *point = place(*point));
         self
     }
 
-    /// What differs by more than `tolerance` px.
+    /// The lines that differ by more than `tolerance` px.
     pub fn difference(&self, other: &Self, tolerance: f64) -> Difference {
         let mut at = None;
         let mut lost = |of: &Self, by: &Self| {

@@ -11,6 +11,7 @@ use super::text_files::{Digits, obj, obj_in_groups, ply};
 use crate::support::scenes::random_dice::Dice;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+/// A way to write a model that must not change its drawing.
 pub enum Relation {
     AllReversed,
     SomeReversed,
@@ -41,19 +42,19 @@ pub enum Relation {
     PictureSize,
 }
 
-/// A model file, the camera, and how its drawing lies to that of the exact file.
+/// A model file, its camera, and the map from its drawing to the reference drawing.
 pub struct Rewritten {
     pub bytes: Vec<u8>,
     pub format: ModelFormat,
     pub camera: Camera,
     /// Whether the picture is mirrored left to right.
     pub is_mirrored: bool,
-    /// How much larger the picture is.
+    /// Scale of the picture relative to the reference.
     pub scale: f64,
 }
 
 impl Rewritten {
-    /// The ending of the model's file.
+    /// The extension of the model's file.
     pub fn ending(&self) -> &'static str {
         match self.format {
             ModelFormat::Obj => "obj",
@@ -127,7 +128,7 @@ impl Relation {
         }
     }
 
-    /// The model with which the rewritten one is compared. Formats without parts and colours are compared with one part.
+    /// The model to compare with: in one part if the format has neither parts nor colours.
     pub fn reference(self, model: &Model) -> Model {
         if self.is_in_one_part() { model.clone().in_one_part() } else { model.clone() }
     }
@@ -137,7 +138,7 @@ impl Relation {
         matches!(self, Self::Stl | Self::Ply | Self::PlySinglePrecision)
     }
 
-    /// Writes the reference in another way; `None` where the relation does not apply.
+    /// Writes the reference in another way; `None` if the relation does not apply.
     pub fn rewrite(self, model: &Model, dice: &mut Dice) -> Option<Rewritten> {
         let mut other = model.clone();
         match self {
@@ -189,7 +190,7 @@ impl Relation {
     }
 }
 
-/// The exact file of a model.
+/// The reference file of a model: OBJ with all digits.
 pub fn exact(model: &Model) -> Rewritten {
     written(model, obj(model, Digits::All), ModelFormat::Obj)
 }
@@ -198,7 +199,7 @@ fn written(model: &Model, bytes: Vec<u8>, format: ModelFormat) -> Rewritten {
     Rewritten { bytes, format, camera: model.camera, is_mirrored: false, scale: 1.0 }
 }
 
-/// Moves model and camera.
+/// Transforms model and camera.
 fn place(model: &mut Model, by: DAffine3) {
     model.world_from_model = by * model.world_from_model;
     let camera = &mut model.camera;
@@ -210,7 +211,7 @@ fn place(model: &mut Model, by: DAffine3) {
     }
 }
 
-/// A camera with the decimals that people copy.
+/// A camera rounded to nine decimals.
 fn rounded(camera: &Camera) -> Camera {
     let short = |number: f64| (number * 1e9).round() / 1e9;
     let point = |p: DVec3| DVec3::new(short(p.x), short(p.y), short(p.z));
@@ -222,7 +223,7 @@ fn rounded(camera: &Camera) -> Camera {
     Camera { eye, target, up, projection, ..*camera }
 }
 
-/// The azimuth and elevation of views that have whole ones, or nearly.
+/// Azimuth and elevation of a named view, degrees; `None` for views without simple angles.
 fn angles(view: NamedView) -> Option<(f64, f64)> {
     Some(match view {
         NamedView::Front => (0.0, 0.0),
@@ -236,7 +237,7 @@ fn angles(view: NamedView) -> Option<(f64, f64)> {
     })
 }
 
-/// A named view by its angles.
+/// The camera of a named view, built from its angles.
 fn by_angles(model: &Model) -> Option<Camera> {
     let Sight::Named(view) = model.sight else { return None };
     let (azimuth, elevation) = angles(view)?;
@@ -244,7 +245,7 @@ fn by_angles(model: &Model) -> Option<Camera> {
     Some(camera.with_projection(Projection::Orthographic { height: 1.0 }).fit(&model.scene()))
 }
 
-/// The model turned by a right angle about the vertical, so that another named view shows the same.
+/// Turns the model by a right angle about the vertical, and uses the next named view, which shows the same.
 fn by_name(model: &mut Model) -> Option<()> {
     let Sight::Named(view) = model.sight else { return None };
     let next = match view {

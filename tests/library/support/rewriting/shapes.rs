@@ -1,4 +1,4 @@
-//! Bodies with short coordinates: boxes, prisms, plates, stairs, houses, sheets, and rounded bodies.
+//! Bodies with short coordinates: boxes, prisms, plates, stairs, houses, sheets and rounded bodies.
 
 use glam::{DMat3, DVec3};
 use ligne::geometry::numbers::portable_math::{cos, sin};
@@ -10,7 +10,7 @@ fn face(corners: impl IntoIterator<Item = u32>) -> Face {
     Face { corners: corners.into_iter().collect(), colour: 0 }
 }
 
-/// A polygon of the xy plane, counter-clockwise, extruded along z from 0.
+/// A prism over a counter-clockwise polygon of the xy plane, from z = 0 to `height`.
 pub fn extruded(outline: &[(f64, f64)], height: f64, core: [DVec3; 2]) -> Body {
     let count = outline.len() as u32;
     let ring = |z: f64| outline.iter().map(move |&(x, y)| DVec3::new(x, y, z));
@@ -23,13 +23,13 @@ pub fn extruded(outline: &[(f64, f64)], height: f64, core: [DVec3; 2]) -> Body {
     Body { points, faces, is_closed: true, core: Some(core), ..Body::default() }
 }
 
-/// An upright box with a corner at the origin.
+/// An axis-aligned box with one corner at the origin.
 pub fn cuboid(size: DVec3) -> Body {
     let outline = [(0.0, 0.0), (size.x, 0.0), (size.x, size.y), (0.0, size.y)];
     extruded(&outline, size.z, [size * 0.25, size * 0.75])
 }
 
-/// A length of half units.
+/// A random multiple of 0.5, from `least` to `most` halves.
 fn length(dice: &mut Dice, least: usize, most: usize) -> f64 {
     0.5 * (least + dice.below(most - least + 1)) as f64
 }
@@ -38,7 +38,7 @@ pub fn any_cuboid(dice: &mut Dice) -> Body {
     cuboid(DVec3::new(length(dice, 1, 8), length(dice, 1, 8), length(dice, 1, 8)))
 }
 
-/// The core of an extruded outline: a box in the rectangle from `low` to `high`, clear of its sides.
+/// The core of a prism: the middle half of the box over the rectangle from `low` to `high`.
 fn core(low: (f64, f64), high: (f64, f64), height: f64) -> [DVec3; 2] {
     let (a, b) = (DVec3::new(low.0, low.1, 0.0), DVec3::new(high.0, high.1, height));
     [a + (b - a) * 0.25, a + (b - a) * 0.75]
@@ -64,7 +64,7 @@ pub fn any_prism(dice: &mut Dice) -> Body {
     }
 }
 
-/// A plate in the form of a T, a plus, an L or a U.
+/// A plate in the shape of a T, a plus, an L or a U.
 pub fn any_plate(dice: &mut Dice) -> Body {
     let (a, b, c, h) = (length(dice, 1, 3), length(dice, 1, 3), length(dice, 1, 3), length(dice, 1, 3));
     match dice.below(4) {
@@ -116,7 +116,7 @@ pub fn any_stairs(dice: &mut Dice) -> Body {
     extruded(&outline, h, core((0.0, 0.0), (wide, rise), h))
 }
 
-/// A house: an extruded gable, its ridge along z.
+/// A house: an extruded gable with its ridge along z.
 pub fn any_house(dice: &mut Dice) -> Body {
     let (half, wall, roof, h) =
         (length(dice, 2, 4), length(dice, 2, 5), length(dice, 1, 4), length(dice, 3, 8));
@@ -125,7 +125,7 @@ pub fn any_house(dice: &mut Dice) -> Body {
     extruded(&outline, h, core((0.0, 0.0), (wide, wall), h))
 }
 
-/// An open sheet: a rectangle, or two that meet in a fold.
+/// An open sheet: a rectangle, or two rectangles that meet in a fold.
 pub fn any_sheet(dice: &mut Dice) -> Body {
     let (x, y, z) = (length(dice, 2, 8), length(dice, 2, 8), length(dice, 2, 6));
     let mut points: Vec<DVec3> =
@@ -138,8 +138,10 @@ pub fn any_sheet(dice: &mut Dice) -> Body {
     Body { points, faces, ..Body::default() }
 }
 
-/// A solid of revolution about z. The profile lists radius and height, from the axis outwards, up, and back to the axis, or closes
-/// into a ring.
+/// A solid of revolution about z. The profile lists radius and height, from the axis outwards, up and back to
+/// it.
+///
+/// A profile that never reaches the axis closes into a ring.
 pub fn lathe(profile: &[(f64, f64)], sides: u32) -> Body {
     let mut body = Body { is_closed: true, is_round: true, ..Body::default() };
     let mut rings: Vec<Vec<u32>> = Vec::new();
@@ -156,7 +158,7 @@ pub fn lathe(profile: &[(f64, f64)], sides: u32) -> Body {
     for k in 0..rings.len() - usize::from(!is_ring) {
         let (low, high) = (&rings[k], &rings[(k + 1) % rings.len()]);
         let [(low_radius, low_z), (high_radius, high_z)] = [profile[k], profile[(k + 1) % profile.len()]];
-        // A flat end is one polygon.
+        // A flat end becomes one polygon.
         if low_z == high_z && low_radius == 0.0 {
             body.faces.push(face(high.iter().rev().copied()));
             continue;
@@ -175,7 +177,7 @@ pub fn lathe(profile: &[(f64, f64)], sides: u32) -> Body {
             body.faces.push(face(corners));
         }
     }
-    // A flat end needs no point on the axis.
+    // A flat end uses no point on the axis.
     body.without_unused_points()
 }
 
@@ -231,7 +233,7 @@ pub fn any_round(dice: &mut Dice) -> Body {
     }
 }
 
-/// One of the 24 rotations that keep boxes upright.
+/// One of the 24 rotations that keep boxes axis-aligned.
 pub fn right_turn(dice: &mut Dice) -> DMat3 {
     let axes = [DVec3::X, DVec3::Y, DVec3::Z];
     let first = dice.below(3);

@@ -1,4 +1,4 @@
-//! [`Table`]: for each relation, how many drawings were compared, how many differ, and by how much.
+//! [`Table`]: number of drawings compared per relation, number that differ, and largest difference.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -9,11 +9,11 @@ use super::trial::{Outcome, Trial};
 #[derive(Debug, Clone, Default)]
 pub struct Row {
     pub made: usize,
-    /// Of scenes of flat bodies alone.
+    /// Different drawings of scenes without rounded bodies.
     pub flat_different: usize,
-    /// Of scenes with rounded bodies.
+    /// Different drawings of scenes with rounded bodies.
     pub round_different: usize,
-    /// The most that differs in one drawing, px of length.
+    /// Largest difference of one drawing, px of length.
     pub longest: f64,
 }
 

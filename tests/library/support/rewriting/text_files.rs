@@ -1,4 +1,4 @@
-//! Models written as text: OBJ, and PLY with coordinates in double precision.
+//! Writers for models as text: OBJ, and PLY with coordinates in double precision.
 
 use std::fmt::Write as _;
 
@@ -6,13 +6,13 @@ use glam::DVec3;
 
 use super::model::Model;
 
-/// How coordinates are written.
+/// Precision of written coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Digits {
-    /// All that tell a number in double precision from its neighbours.
+    /// The shortest decimal that identifies the number in double precision.
     All,
     Six,
-    /// Those that tell the nearest number in single precision from its neighbours.
+    /// The shortest decimal that identifies the number rounded to single precision.
     Single,
 }
 
@@ -30,12 +30,12 @@ impl Digits {
     }
 }
 
-/// An object for each part.
+/// An OBJ file with one object per part.
 pub fn obj(model: &Model, digits: Digits) -> Vec<u8> {
     obj_with(model, digits, false)
 }
 
-/// A group for each face.
+/// An OBJ file with one group per face.
 pub fn obj_in_groups(model: &Model) -> Vec<u8> {
     obj_with(model, Digits::All, true)
 }

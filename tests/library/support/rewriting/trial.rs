@@ -1,4 +1,4 @@
-//! [`Trial`]: a model compared with one way to write it, reduced to fewer bodies where the drawings differ, and kept as files.
+//! [`Trial`]: compares a model's drawing with that of a rewritten file, and reduces and saves failures.
 
 use std::cell::OnceCell;
 use std::fs;
@@ -15,21 +15,21 @@ use super::pens::{Difference, Pens};
 use super::relations::{Relation, Rewritten, exact};
 use crate::support::scenes::random_dice::Dice;
 
-/// Lines of flat bodies may lie this far apart, px.
+/// Maximum distance between lines of flat bodies, px.
 const FLAT_PX: f64 = 0.06;
-/// Lines of rounded bodies may lie this far apart, px.
+/// Maximum distance between lines of rounded bodies, px.
 const ROUND_PX: f64 = 0.5;
-/// Drawings are the same if no more than this differs, px of length: the round ends of a line.
+/// Maximum differing length of equal drawings, px: the round caps of a line.
 const SLACK_PX: f64 = 1.0;
 
-/// What came of a comparison.
+/// Result of a comparison.
 #[derive(Debug, Clone)]
 pub enum Outcome {
-    /// The relation says nothing of this model.
+    /// The relation does not apply to the model.
     NotMade,
     Same,
     Different(Difference),
-    /// A file was refused, or drawing it failed.
+    /// A file was rejected, or drawing it failed.
     Failed(String),
 }
 
@@ -38,7 +38,7 @@ impl Outcome {
         matches!(self, Self::Different(_) | Self::Failed(_))
     }
 
-    /// The length that differs, px; infinite where nothing was drawn.
+    /// The length that differs, px; infinite if drawing failed.
     pub fn length(&self) -> f64 {
         match self {
             Self::Different(difference) => difference.length(),
@@ -58,13 +58,14 @@ impl Outcome {
 }
 
 #[derive(Debug, Clone)]
+/// A model, a relation, and the result of their comparison.
 pub struct Trial {
     pub model: Model,
     pub relation: Relation,
     pub outcome: Outcome,
 }
 
-/// Reads a file and draws it.
+/// Reads a file and draws it; a panic becomes an error.
 fn draw(file: &Rewritten) -> Result<Pens, String> {
     let draw = || {
         let scene = Scene::from_bytes(&file.bytes, file.format).map_err(|error| error.to_string())?;
@@ -74,14 +75,14 @@ fn draw(file: &Rewritten) -> Result<Pens, String> {
     catch_unwind(AssertUnwindSafe(draw)).unwrap_or_else(|_| Err("drawing panics".into()))
 }
 
-/// The exact file, and the same model written otherwise.
+/// The reference file and the rewritten file; `None` if the relation does not apply.
 fn files(model: &Model, relation: Relation) -> Option<[Rewritten; 2]> {
     let reference = relation.reference(model);
     let other = relation.rewrite(&reference, &mut Dice::new(model.seed))?;
     Some([exact(&reference), other])
 }
 
-/// Drawings of the exact file, with parts and in one part, each made when it is first needed.
+/// Cached drawings of the reference file, with parts and in one part.
 #[derive(Default)]
 struct References([OnceCell<Result<Pens, String>>; 2]);
 
@@ -114,7 +115,7 @@ impl Trial {
         Self { model: model.clone(), relation, outcome }
     }
 
-    /// A trial of each relation; the exact file is drawn once for all of them.
+    /// Runs all relations; the reference file is drawn once.
     pub fn run_all(model: &Model, relations: &[Relation]) -> Vec<Self> {
         let references = References::default();
         let run = |relation: &Relation| {
@@ -124,14 +125,14 @@ impl Trial {
         relations.iter().map(run).collect()
     }
 
-    /// The name of the scene, its seed, the relation, and what differs.
+    /// One line with the scene, its seed, the relation and the difference.
     pub fn words(&self) -> String {
         let (kind, seed) = (&self.model.kind, self.model.seed);
         let (relation, words) = (self.relation.name(), self.outcome.words());
         format!("{kind}, seed {seed}, {relation}: {words}")
     }
 
-    /// The same fault with as few bodies as it takes.
+    /// The failure reduced to as few bodies as possible.
     pub fn reduced(&self) -> Self {
         let mut least = self.clone();
         let mut k = 0;
@@ -141,7 +142,7 @@ impl Trial {
             let kept = Self::run(&model, self.relation);
             model.frame();
             let framed = Self::run(&model, self.relation);
-            // A closer picture if the fault is in it.
+            // Prefer the refitted view if it still fails.
             match [framed, kept].into_iter().find(|trial| trial.outcome.is_fault()) {
                 Some(fewer) => least = fewer,
                 None => k += 1,
@@ -150,7 +151,7 @@ impl Trial {
         least
     }
 
-    /// Writes both files, both cameras and what differs into a folder of their own.
+    /// Writes both files, both cameras and the difference into a separate folder.
     pub fn keep_in(&self, folder: &Path) {
         let Some(files) = files(&self.model, self.relation) else { return };
         let word = |text: &str| text.replace(", ", "-").replace(' ', "-");

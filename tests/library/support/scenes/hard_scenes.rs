@@ -1,4 +1,4 @@
-//! Random scenes of several closed and open parts that are hard to see right, each piece a part.
+//! Random scenes with difficult visibility: several closed and open parts, each a connected surface.
 
 use glam::{DMat3, DVec3};
 use ligne::geometry::numbers::portable_math::{cos, sin};
@@ -9,14 +9,16 @@ use super::round_solids::icosphere;
 use super::solids::{Solid, cuboid, torus, tube};
 use crate::support::pipeline::{orthographic, perspective, scene};
 
+/// Kinds of scenes with difficult visibility.
 pub const HARD_SCENES: [&str; 6] =
     ["rods in bores", "shells in shells", "slivers", "sheets", "one-ring cylinders", "figures behind plates"];
 
-/// A random scene of the kind named, about two units across.
+/// A random scene of one of the kinds in [`HARD_SCENES`], about two units across.
 pub fn hard_scene(kind: &str, dice: &mut Dice) -> Scene {
     scene(hard_parts(kind, dice))
 }
 
+/// The solids of [`hard_scene`].
 pub fn hard_parts(kind: &str, dice: &mut Dice) -> Vec<Solid> {
     let turn = dice.turn();
     let parts = match kind {
@@ -30,7 +32,7 @@ pub fn hard_parts(kind: &str, dice: &mut Dice) -> Vec<Solid> {
     parts.into_iter().map(|part| part.moved(|p| turn * p)).collect()
 }
 
-/// A camera from any side, perspective or parallel.
+/// A camera from a random direction, perspective or orthographic.
 pub fn any_camera(dice: &mut Dice) -> Camera {
     let direction = dice.direction();
     if dice.below(2) == 0 {
@@ -40,8 +42,10 @@ pub fn any_camera(dice: &mut Dice) -> Camera {
     }
 }
 
-/// A solid turned about z: the profile lists (radius, z) from the axis outwards and up and back to it, or closes
-/// into a ring; each step is one ring of faces.
+/// A solid of revolution about z. The profile lists (radius, z) from the axis outwards, up and back to the
+/// axis.
+///
+/// A profile that never reaches the axis closes into a ring. Each step gives one ring of faces.
 pub fn lathe(profile: &[(f64, f64)], sides: usize) -> Solid {
     let mut solid = Solid::default();
     let mut rings: Vec<Vec<u32>> = Vec::new();
@@ -68,7 +72,7 @@ pub fn lathe(profile: &[(f64, f64)], sides: usize) -> Solid {
     solid
 }
 
-/// A closed rod along z with chamfers of 45 degrees, in one ring or few.
+/// A closed rod along z with chamfers of 45 degrees; `rings` is the number of face rings along its side.
 fn rod(radius: f64, half: f64, sides: usize, rings: usize) -> Solid {
     let chamfer = 0.2 * radius;
     let (low, high) = (chamfer - half, half - chamfer);
@@ -79,19 +83,19 @@ fn rod(radius: f64, half: f64, sides: usize, rings: usize) -> Solid {
 }
 
 fn any_rod(dice: &mut Dice) -> Solid {
-    // Nine sides turn by 40 degrees, where creases begin.
+    // Nine sides would turn by 40 degrees each, which makes creases.
     let sides = 10 + dice.below(38);
     let rings = [1, 1, 1, 3][dice.below(4)];
     rod(dice.between(0.08, 0.3), dice.between(0.4, 1.2), sides, rings)
 }
 
-/// A solid turned and moved at random.
+/// The solid with a random rotation and translation.
 fn placed(solid: Solid, spread: f64, dice: &mut Dice) -> Solid {
     let (turn, place) = (dice.turn(), dice.point(spread));
     solid.moved(|p| turn * p + place)
 }
 
-/// Housings with a bore, rods through them with room between, and a rod in a blind hole.
+/// Housings with a bore and a rod through it with clearance, and a rod in a blind hole.
 fn rods_in_bores(dice: &mut Dice) -> Vec<Solid> {
     let mut parts = Vec::new();
     for x in [-0.75, 0.75] {
@@ -112,7 +116,7 @@ fn rods_in_bores(dice: &mut Dice) -> Vec<Solid> {
     parts
 }
 
-/// Closed shells around others, and bowls in bowls.
+/// Nested closed shells, and nested bowls.
 fn shells_in_shells(dice: &mut Dice) -> Vec<Solid> {
     let mut parts = Vec::new();
     let squeeze = DVec3::new(dice.between(0.6, 0.8), dice.between(0.6, 0.8), dice.between(0.6, 0.8));
@@ -136,7 +140,7 @@ fn shells_in_shells(dice: &mut Dice) -> Vec<Solid> {
     parts
 }
 
-/// Needles and strips of a thousand to one, before and behind a ball.
+/// Needles and strips with aspect ratios up to 1000, in front of and behind a ball.
 fn slivers(dice: &mut Dice) -> Vec<Solid> {
     let mut parts = vec![icosphere(2).moved(|p| p * 0.6)];
     for _ in 0..5 {
@@ -151,7 +155,7 @@ fn slivers(dice: &mut Dice) -> Vec<Solid> {
     parts
 }
 
-/// Open arched sheets: single ones, ones that stand twice, back to back or the same way, and tubes.
+/// Open arched sheets, single or duplicated with the same or the opposite winding, and an open tube.
 fn sheets(dice: &mut Dice) -> Vec<Solid> {
     let mut parts = vec![placed(icosphere(2).moved(|p| p * 0.4), 0.4, dice)];
     for k in 0..5 {
@@ -184,7 +188,7 @@ fn arched(dice: &mut Dice) -> Solid {
     solid
 }
 
-/// A figure of a ball, a ring and rods behind a plate and behind a frame.
+/// A figure of balls, a ring and rods, behind a plate and behind a frame.
 fn figures_behind_plates(dice: &mut Dice) -> Vec<Solid> {
     let mut parts = vec![
         icosphere(2).moved(|p| p * DVec3::new(0.4, 0.5, 0.4)),

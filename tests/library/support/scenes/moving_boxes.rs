@@ -1,4 +1,4 @@
-//! Boxes that move, and the motion lines in their drawings.
+//! Animated boxes, and the motion lines of their drawings.
 
 use glam::{DAffine3, DQuat, DVec3};
 use kurbo::{ParamCurve, PathSeg, Point};
@@ -11,23 +11,23 @@ use ligne::{Camera, Scene, Style, motion, render};
 use super::solids::{Solid, cuboid};
 use crate::support::pipeline::{geometry, orthographic, scene_of_geometries};
 
-/// How long clips last, and how long lines go back by default, seconds.
+/// Duration of a clip, and default time span of motion lines, seconds.
 pub const LASTS: f64 = 4.0;
 pub const BACK: f64 = 20.0 / 24.0;
 
-/// A channel of a node, linear between keys.
+/// An animation channel of a node, linear between keys.
 pub fn channel(node: usize, property: Property, times: &[f64], values: &[f64]) -> Channel {
     let track = Track::new(times.into(), values.into(), Interpolation::Linear).unwrap();
     Channel { target: Target::Node(node, property), track }
 }
 
-/// A node that goes evenly.
+/// A channel that translates a node at constant speed, in world units per second.
 pub fn going(node: usize, speed: DVec3) -> Channel {
     let ends = [DVec3::ZERO, speed * LASTS].concat_all();
     channel(node, Property::Translation, &[0.0, LASTS], &ends)
 }
 
-/// A node that turns evenly about z, by so many degrees a second.
+/// A channel that turns a node about z at constant speed, in degrees per second.
 pub fn turning(node: usize, degrees: f64) -> Channel {
     let times: Vec<f64> = (0..=40).map(|k| f64::from(k) / 10.0).collect();
     let turn = |time: &f64| {
@@ -38,7 +38,7 @@ pub fn turning(node: usize, degrees: f64) -> Channel {
     channel(node, Property::Rotation, &times, &values)
 }
 
-/// Coordinates one after the other.
+/// Concatenates the coordinates of vectors.
 pub trait ConcatAll {
     fn concat_all(self) -> Vec<f64>;
 }
@@ -49,14 +49,14 @@ impl ConcatAll for [DVec3; 2] {
     }
 }
 
-/// A node at rest.
+/// A node with the identity transform.
 pub fn node(name: &str, parent: Option<usize>) -> Node {
     let (translation, rotation, scale) = (DVec3::ZERO, DQuat::IDENTITY, DVec3::ONE);
     let rest = Placement::Parts { translation, rotation, scale };
     Node { name: name.to_owned(), leaves_lines: false, parent, rest, weights: Vec::new(), visible: true }
 }
 
-/// Solids that hang on a node each, and what moves these.
+/// A rigged scene with one node per solid, and one clip of `channels`.
 pub fn rigged(solids: Vec<Solid>, channels: Vec<Channel>) -> Rigged {
     let count = solids.len();
     let scene = scene_of_geometries(solids.into_iter().map(geometry).collect());
@@ -67,18 +67,18 @@ pub fn rigged(solids: Vec<Solid>, channels: Vec<Channel>) -> Rigged {
     Rigged { scene, rig: Rig { nodes, order: (0..count).collect(), forms, parts, clips, ..Rig::default() } }
 }
 
-/// Ink with motion lines, changed.
+/// The ink style with motion lines and overrides.
 pub fn style(changes: &[&str]) -> Style {
     let all = [&["motion.enabled=true"], changes].concat();
     Style::load("ink", &all.iter().map(|change| (*change).to_owned()).collect::<Vec<_>>()).unwrap()
 }
 
-/// The scene at a moment, with what moves in it.
+/// The scene posed at a time, with its motion.
 pub fn scene_at(rigged: &Rigged, time: f64, style: &Style) -> Scene {
     motion::posed(rigged, &[Playing::all(0, time)], &style.motion, style.seed).unwrap()
 }
 
-/// The drawing of a moment.
+/// The drawing of the scene at a time.
 pub fn drawn(rigged: &Rigged, time: f64, camera: &Camera, style: &Style) -> Drawing {
     render(&scene_at(rigged, time, style), camera, style).unwrap()
 }
@@ -89,7 +89,7 @@ pub fn lines(drawing: &Drawing) -> Vec<&Mark> {
     marks.inspect(|mark| assert_eq!(mark.provenance.classes, ["motion"])).collect()
 }
 
-/// Points along a path, close together.
+/// Points along the centre line of a mark, 1001 per curve segment.
 pub fn along(mark: &Mark) -> Vec<Point> {
     let path = match &mark.paint {
         Paint::Outline(outline) => &outline.axis,
@@ -98,22 +98,22 @@ pub fn along(mark: &Mark) -> Vec<Point> {
     path.segments().flat_map(|s: PathSeg| (0..=1000).map(move |k| s.eval(f64::from(k) / 1000.0))).collect()
 }
 
-/// Where a line begins and ends; the way that it shows goes back along `back`.
+/// The two ends of a motion line, ordered so that it runs in the direction `back`.
 pub fn ends(mark: &Mark, back: kurbo::Vec2) -> [Point; 2] {
     let points = along(mark);
     let (first, last) = (points[0], points[points.len() - 1]);
     if (last - first).dot(back) > 0.0 { [first, last] } else { [last, first] }
 }
 
-/// To the left: what comes from there shows it.
+/// The direction of motion lines of objects that move to the right.
 pub const LEFT: kurbo::Vec2 = kurbo::Vec2::new(-1.0, 0.0);
 
-/// A camera before the x-y plane, 100 px a unit, the origin in the middle.
+/// An orthographic camera in front of the xy plane, at 100 px per unit, with the origin in the middle.
 pub fn before() -> Camera {
     orthographic(DVec3::Z * 50.0, DVec3::ZERO, 10.0)
 }
 
-/// A box with sides of one, about the origin.
+/// A unit cube about the origin.
 pub fn unit_box() -> Solid {
     cuboid(DVec3::splat(-0.5), DVec3::splat(0.5))
 }

@@ -1,4 +1,4 @@
-//! [`Board`]: a small glTF file whose clip moves what pointers lead to.
+//! [`Board`]: a small glTF file with an animation that uses `KHR_animation_pointer`.
 
 use std::path::PathBuf;
 
@@ -6,13 +6,14 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde_json::{Value, json};
 
-/// A file of two squares side by side, each of a material of its own, seen by two cameras and lit by two lights.
+/// A temporary file with two squares of different materials, two cameras and two lights.
 pub struct Board(pub PathBuf);
 
-/// A pointer, how its keys go over, and these at 0, 1 and 3 s.
+/// A pointer, its interpolation, and its values at 0, 1 and 3 s.
 pub type Moved<'a> = (&'a str, &'a str, &'a [f32]);
 
 impl Board {
+    /// Writes the file with one channel per entry of `moved`, after `change` has edited the document.
     pub fn new(name: &str, moved: &[Moved], change: impl FnOnce(&mut Value)) -> Self {
         let mut bytes: Vec<u8> = Vec::new();
         let (mut views, mut accessors) = (Vec::new(), Vec::new());
@@ -76,7 +77,7 @@ impl Drop for Board {
     }
 }
 
-/// Adds an accessor of so many numbers each to a file; gives its number.
+/// Adds an accessor of vectors with `width` components to a document; returns its index.
 pub fn add_accessor(file: &mut Value, width: usize, numbers: &[f32]) -> usize {
     let bytes: Vec<u8> = numbers.iter().flat_map(|value| value.to_le_bytes()).collect();
     let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(&bytes));

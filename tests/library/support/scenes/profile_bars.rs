@@ -1,14 +1,14 @@
-//! Bars of any profile: what is the same all along is told by its corners.
+//! Bars of constant cross-section along z, so an edge is determined by a corner of the profile.
 
 use glam::DVec3;
 use ligne::geometry::numbers::portable_math::{cos, sin};
 
 use super::solids::Solid;
 
-/// How long bars are, along z.
+/// Length of the bars along z, world units.
 pub const LENGTH: f64 = 6.0;
 
-/// A bar of a convex or star-shaped profile around the origin, counter-clockwise.
+/// A bar with a convex or star-shaped profile around the origin, counter-clockwise.
 pub fn bar(profile: &[[f64; 2]]) -> Solid {
     let mut solid = Solid::default();
     let count = profile.len() as u32;
@@ -24,7 +24,7 @@ pub fn bar(profile: &[[f64; 2]]) -> Solid {
     solid
 }
 
-/// A profile that starts at a place and goes on by steps of so much length, turning by so many degrees after each.
+/// A profile from a start point and steps, each a length followed by a turn in degrees.
 pub fn steps(start: [f64; 2], steps: &[(f64, f64)]) -> Vec<[f64; 2]> {
     let (mut at, mut heading, mut profile) = (start, 0.0f64, vec![start]);
     for (length, turn) in steps {

@@ -1,8 +1,8 @@
-//! Seeded chance for random scenes.
+//! Seeded random generator for scenes.
 
 use glam::{DMat3, DQuat, DVec3};
 
-/// A small generator (splitmix64): the same numbers for the same seed, everywhere.
+/// A splitmix64 generator: the same seed gives the same numbers on every machine.
 pub struct Dice(u64);
 
 impl Dice {
@@ -18,23 +18,23 @@ impl Dice {
         z ^ (z >> 31)
     }
 
-    /// A number from `low` to `high`.
+    /// A number from `low` to `high`, uniformly distributed.
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * ((self.word() >> 11) as f64 / (1_u64 << 53) as f64)
     }
 
-    /// One of `0..count`.
+    /// An integer in `0..count`.
     pub fn below(&mut self, count: usize) -> usize {
         (self.word() % count as u64) as usize
     }
 
-    /// A point in the cube from −`reach` to `reach`.
+    /// A point in the cube from −`reach` to `reach`, uniformly distributed.
     pub fn point(&mut self, reach: f64) -> DVec3 {
         let mut next = || self.between(-reach, reach);
         DVec3::new(next(), next(), next())
     }
 
-    /// A direction, none preferred.
+    /// A direction, uniformly distributed.
     pub fn direction(&mut self) -> DVec3 {
         loop {
             let p = self.point(1.0);
@@ -44,7 +44,7 @@ impl Dice {
         }
     }
 
-    /// A rotation, none preferred.
+    /// A rotation, uniformly distributed.
     pub fn turn(&mut self) -> DMat3 {
         loop {
             let q = glam::DVec4::from((self.point(1.0), self.between(-1.0, 1.0)));

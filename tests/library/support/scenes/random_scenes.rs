@@ -1,4 +1,4 @@
-//! Random scenes, and cameras that look at them.
+//! Random scenes and random cameras for them.
 
 use glam::DVec3;
 use ligne::scene::{Camera, Projection, Scene};
@@ -7,10 +7,11 @@ use super::random_dice::Dice;
 use super::solids::{Solid, cuboid, sphere, torus};
 use crate::support::pipeline::{orthographic, perspective, scene};
 
+/// Kinds of random scenes.
 pub const SCENES: [&str; 7] =
     ["boxes", "tetrahedra", "spheres", "tori", "soup", "interpenetrating", "mixture"];
 
-/// A random scene of the kind named, about two units across.
+/// A random scene of one of the kinds in [`SCENES`], about two units across.
 pub fn random_scene(kind: &str, dice: &mut Dice) -> Scene {
     match kind {
         "boxes" => many(dice, 8, 0.9, a_box),
@@ -27,20 +28,21 @@ pub fn random_scene(kind: &str, dice: &mut Dice) -> Scene {
     }
 }
 
+/// Kinds of random cameras.
 pub const CAMERAS: [&str; 5] = ["perspective", "orthographic", "inside", "cutting", "near"];
 
-/// A random camera of the kind named for scenes about the origin.
+/// A random camera of one of the kinds in [`CAMERAS`], for scenes about the origin.
 pub fn random_camera(kind: &str, dice: &mut Dice) -> Camera {
     let direction = dice.direction();
     let target = dice.point(0.1);
     match kind {
         "perspective" => perspective(direction * dice.between(4.0, 7.0), target, 35.0),
         "orthographic" => orthographic(direction * 5.0, target, 3.0),
-        // The eye stands in the middle of things, without a near plane of its own.
+        // A camera inside the scene, without an explicit near plane.
         "inside" => perspective(dice.point(0.5), direction * 2.0, 80.0),
-        // A near plane through the middle of the scene.
+        // A near plane that cuts through the scene.
         "cutting" => Camera { near: Some(5.0), ..perspective(direction * 5.0, target, 30.0) },
-        // The same in a parallel view.
+        // A near plane that cuts through the scene in an orthographic view.
         _ => Camera {
             near: Some(4.8),
             projection: Projection::Orthographic { height: 2.0 },
@@ -58,7 +60,7 @@ fn many(dice: &mut Dice, count: usize, spread: f64, make: impl Fn(&mut Dice) -> 
     scene(solids)
 }
 
-/// A solid turned and moved at random.
+/// The solid with a random rotation and translation.
 pub fn placed(solid: Solid, spread: f64, dice: &mut Dice) -> Solid {
     let (turn, place) = (dice.turn(), dice.point(spread));
     solid.moved(|p| turn * p + place)

@@ -1,22 +1,24 @@
-//! Random small drawings over what SVG readers read, and pairs of them: one picture written in two ways, or one property changed.
+//! Random small SVG drawings, and pairs of them: equal pictures written in two ways, or different pictures.
 
 use super::random_dice::Dice;
 
-/// An element: its name, and attributes with values.
+/// An SVG element: its name and its attributes.
 #[derive(Clone)]
 pub struct Mark {
     name: &'static str,
     attributes: Vec<(&'static str, String)>,
 }
 
-/// A drawing of 160 x 120 px.
+/// A drawing of 160 × 120 px.
 #[derive(Clone)]
 pub struct Scene {
     marks: Vec<Mark>,
-    /// Numbers in the definitions: a gradient's end, a pattern's cell, a blur, a clip's side, a mask's radius.
+    /// Numbers in the definitions: a gradient's end, a pattern's width, a blur radius, a clip path's side, a
+    /// mask's radius.
     numbers: [f64; 5],
 }
 
+/// Five colours in four notations each.
 const COLOURS: [[&str; 4]; 5] = [
     ["#ff0000", "red", "rgb(255,0,0)", "#f00"],
     ["#008000", "green", "rgb(0,128,0)", "rgb(0, 128, 0)"],
@@ -157,7 +159,7 @@ fn page(definitions: &str, marks: &[String]) -> String {
     )
 }
 
-/// One picture written in two ways, and the way.
+/// Two SVG texts that show the same picture, and the name of the rewriting.
 pub fn same_pair(scene: &Scene, dice: &mut Dice) -> (String, String, &'static str) {
     let before = scene.svg();
     let mut definitions = scene.definitions();
@@ -268,7 +270,7 @@ pub fn same_pair(scene: &Scene, dice: &mut Dice) -> (String, String, &'static st
     (before, page(&definitions, &marks), way)
 }
 
-/// A drawing, and the same with one property changed; and which.
+/// A drawing, the drawing with one property changed, and the name of the change.
 pub fn seen_pair(scene: &Scene, dice: &mut Dice) -> (String, String, &'static str) {
     let before = scene.svg();
     let mut scene = scene.clone();

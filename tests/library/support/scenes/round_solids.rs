@@ -1,4 +1,4 @@
-//! Rounded solids in several tessellations.
+//! Rounded solids, each in a family of tessellations.
 
 use std::collections::HashMap;
 
@@ -25,7 +25,7 @@ pub fn icosphere(level: u32) -> Solid {
             positions.push(p.normalize());
         }
     }
-    // Its faces are the triples of vertices that are neighbours of one another.
+    // Its faces are the triples of vertices that are pairwise neighbours.
     let side = 1.06;
     let mut triangles = Vec::new();
     for a in 0..12 {
@@ -42,7 +42,7 @@ pub fn icosphere(level: u32) -> Solid {
     blown_up(Solid { positions, triangles }, level)
 }
 
-/// Each triangle cut in four, `level` times, with new vertices on the unit sphere.
+/// Splits each triangle into four, `level` times, with new vertices on the unit sphere.
 fn blown_up(mut solid: Solid, level: u32) -> Solid {
     for _ in 0..level {
         let mut middles: HashMap<[u32; 2], u32> = HashMap::new();
@@ -62,7 +62,7 @@ fn blown_up(mut solid: Solid, level: u32) -> Solid {
     solid
 }
 
-/// The unit sphere of `2 * around` meridians and `around` − 1 parallels.
+/// The unit sphere with `2 * around` meridians and `around` − 1 parallels.
 pub fn globe(around: u32) -> Solid {
     let mut solid = Solid { positions: vec![DVec3::Z, DVec3::NEG_Z], ..Solid::default() };
     let meridians = 2 * around;
@@ -87,7 +87,7 @@ pub fn globe(around: u32) -> Solid {
     solid
 }
 
-/// z = x² − y² over the square from −1 to 1, open.
+/// The open saddle z = x² − y² over the square from −1 to 1, with `cells` × `cells` squares.
 pub fn saddle(cells: u32) -> Solid {
     let mut solid = Solid::default();
     let at = |i: u32| 2.0 * f64::from(i) / f64::from(cells) - 1.0;
@@ -105,8 +105,7 @@ pub fn saddle(cells: u32) -> Solid {
     solid
 }
 
-/// A cylinder about the z axis of radius 1 from z = −1 to 1, with caps, and normals that are split at
-/// the rims.
+/// A capped cylinder about the z axis with radius 1, from z = −1 to 1, whose normals are split at the rims.
 pub fn cylinder(around: u32, along: u32) -> Geometry {
     let mut geometry = Geometry::default();
     let angle = |i: u32| std::f64::consts::TAU * f64::from(i) / f64::from(around);

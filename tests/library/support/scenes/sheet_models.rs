@@ -1,4 +1,4 @@
-//! Models of technical sheets as files, and what is read off a composed sheet.
+//! Model files for technical sheets, and queries of a composed sheet.
 
 use std::fs;
 use std::path::PathBuf;
@@ -9,14 +9,14 @@ use ligne::page::Composed;
 
 use super::solids::{Solid, cuboid};
 
-/// A folder of a test's own.
+/// A temporary folder for one test.
 pub fn folder(name: &str) -> PathBuf {
     let folder = std::env::temp_dir().join(format!("ligne-sheets-{}-{name}", std::process::id()));
     fs::create_dir_all(&folder).expect("a folder");
     folder
 }
 
-/// An OBJ file of named solids.
+/// The text of an OBJ file with one object per named solid.
 pub fn obj(parts: &[(String, Solid)]) -> String {
     let mut text = String::new();
     let mut first = 1;
@@ -33,34 +33,36 @@ pub fn obj(parts: &[(String, Solid)]) -> String {
     text
 }
 
-/// A box between two corners.
+/// The axis-aligned box between two corners.
 pub fn block(low: [f64; 3], high: [f64; 3]) -> Solid {
     cuboid(low.into(), high.into())
 }
 
-/// What of a composed page has that name.
+/// The item of a composed page with this name.
 pub fn item<'a>(composed: &'a Composed, name: &str) -> &'a Item {
     let found = composed.composition.items.iter().find(|item| item.name == name);
     found.unwrap_or_else(|| panic!("no {name}"))
 }
 
-/// The marks of an item, with where it stands on the page.
+/// The marks of an item, each with the item's placement on the page.
 pub fn marks(item: &Item) -> impl Iterator<Item = (Affine, &Mark)> {
     item.drawing.layers.iter().flat_map(|layer| &layer.marks).map(|mark| (item.place, mark))
 }
 
-/// The box around the middles of all lines of an item.
+/// The bounding box of the marks' paths.
 pub fn bounds(item: &Item) -> Rect {
     let boxes = marks(item).map(|(place, mark)| (place * mark.path.clone()).bounding_box());
     boxes.reduce(|a, b| a.union(b)).expect("something drawn")
 }
 
-/// All texts of an item.
+/// All text labels of an item.
 pub fn words(item: &Item) -> Vec<String> {
     marks(item).filter_map(|(_, mark)| Some(mark.provenance.text.as_ref()?.words.to_string())).collect()
 }
 
-/// A plate from the origin with a hole through it in each of several columns side by side: its middle and radius.
+/// A plate from the origin, divided into columns along x, each with a through hole.
+///
+/// `size` is width, depth and height; each hole is given by its centre and radius.
 pub fn drilled(size: [f64; 3], holes: &[([f64; 2], f64)]) -> Solid {
     use ligne::geometry::numbers::portable_math::{cos, sin};
     let mut plate = Solid::default();
@@ -92,7 +94,7 @@ pub fn drilled(size: [f64; 3], holes: &[([f64; 2], f64)]) -> Solid {
             quad(a + 2, a + 3, b + 3, b + 2);
             quad(b, b + 1, a + 1, a);
         }
-        // The triangles at the corners of the column, which the fan cuts off.
+        // The fan leaves out the triangles at the corners of the column.
         for (cx, cy) in [(x0, 0.0), (x1, 0.0), (x1, depth), (x0, depth)] {
             for (z, up) in [(0.0, false), (height, true)] {
                 let on = |p: &&glam::DVec3| {

@@ -1,4 +1,4 @@
-//! Closed-form solids for tests and benchmarks.
+//! Solids in closed form, for tests and benchmarks.
 
 use glam::DVec3;
 
@@ -10,21 +10,21 @@ pub struct Solid {
 }
 
 impl Solid {
-    /// Adds another solid beside this one, sharing no vertex.
+    /// Adds another solid without sharing vertices.
     pub fn add(&mut self, other: Solid) {
         let first = self.positions.len() as u32;
         self.positions.extend(other.positions);
         self.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + first)));
     }
 
-    /// The solid with each point moved.
+    /// The solid with `place` applied to each point.
     pub fn moved(mut self, place: impl Fn(DVec3) -> DVec3) -> Solid {
         self.positions.iter_mut().for_each(|p| *p = place(*p));
         self
     }
 }
 
-/// An upright box of twelve triangles.
+/// An axis-aligned box of twelve triangles.
 pub fn cuboid(low: DVec3, high: DVec3) -> Solid {
     let corner = |i: u32| {
         let pick = |bit: u32, low: f64, high: f64| if i >> bit & 1 == 0 { low } else { high };
@@ -37,7 +37,7 @@ pub fn cuboid(low: DVec3, high: DVec3) -> Solid {
     }
 }
 
-/// A torus about the z axis.
+/// A torus about the z axis, with `around` × `along` quads.
 pub fn torus(around: usize, along: usize, radius: f64, tube: f64) -> Solid {
     grid(around, along, true, |u, v| {
         let (cos_u, sin_u) = turn(u);
@@ -59,7 +59,7 @@ pub fn tube(around: usize, along: usize, radius: f64, half: f64) -> Solid {
 pub fn sphere(around: usize, radius: f64) -> Solid {
     let mut sphere = grid(2 * around, around, false, |u, v| {
         let (cos_u, sin_u) = turn(u);
-        // The first and the last parallel lie a little off the poles, for the fans.
+        // The first and last parallels are slightly off the poles, which are closed by fans.
         let (cos_v, sin_v) = turn((v * 0.98 + 0.01) / 2.0);
         radius * DVec3::new(sin_v * cos_u, sin_v * sin_u, cos_v)
     });
@@ -78,7 +78,7 @@ fn turn(fraction: f64) -> (f64, f64) {
     (ligne::geometry::numbers::portable_math::cos(angle), ligne::geometry::numbers::portable_math::sin(angle))
 }
 
-/// A grid closed in u, and in v if `closed`.
+/// A grid of quads that is closed in u, and in v if `closed`; `place` maps the unit square to points.
 fn grid(us: usize, vs: usize, closed: bool, place: impl Fn(f64, f64) -> DVec3) -> Solid {
     let rows = if closed { vs } else { vs + 1 };
     let mut solid = Solid::default();
