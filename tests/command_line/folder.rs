@@ -1,11 +1,11 @@
-//! What the tests of the command line share: running the program in a folder of its own.
+//! Support for the command-line tests: running the program in a temporary folder.
 
 use std::fs;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// A cube of side 2 with a second, smaller one on top, each a part of its own.
+/// A cube of side 2 and a cube of side 1 above it, as two parts.
 pub const CUBES: &str = "\
 o base
 v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1
@@ -15,11 +15,11 @@ v -.5 1.5 -.5\nv .5 1.5 -.5\nv .5 2.5 -.5\nv -.5 2.5 -.5\nv -.5 1.5 .5\nv .5 1.5
 f 12 11 10 9\nf 13 14 15 16\nf 9 10 14 13\nf 11 12 16 15\nf 10 11 15 14\nf 12 9 13 16
 ";
 
-/// A folder that is removed at the end of the test.
+/// A temporary folder, removed when it is dropped.
 pub struct Folder(PathBuf);
 
 impl Folder {
-    /// An empty folder, no other test's; `name` tells whose it is.
+    /// An empty folder with a unique path that contains `name`.
     pub fn new(name: &str) -> Self {
         static FOLDERS: AtomicUsize = AtomicUsize::new(0);
         let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
@@ -29,7 +29,7 @@ impl Folder {
         Self(folder)
     }
 
-    /// The same with the cubes in `cubes.obj`.
+    /// An empty folder with the cubes in `cubes.obj`.
     pub fn with_cubes(name: &str) -> Self {
         let folder = Self::new(name);
         folder.write("cubes.obj", CUBES);
@@ -50,12 +50,12 @@ impl Folder {
         String::from_utf8(self.read(name)).expect("text")
     }
 
-    /// Names of the files in it, in the order of the alphabet.
+    /// Names of the files in the folder, sorted.
     pub fn names(&self) -> Vec<String> {
         self.names_in("")
     }
 
-    /// The same of a folder in it.
+    /// Names of the files in a subfolder, sorted.
     pub fn names_in(&self, inner: &str) -> Vec<String> {
         let entries = fs::read_dir(self.0.join(inner)).expect("the folder of the test");
         let mut names: Vec<String> =
@@ -64,33 +64,33 @@ impl Folder {
         names
     }
 
-    /// Runs `ligne` in the folder; arguments are parted by blanks.
+    /// Runs `ligne` in the folder, with arguments separated by spaces.
     pub fn ligne(&self, line: &str) -> Run {
         self.run(&line.split_whitespace().collect::<Vec<_>>())
     }
 
-    /// Runs `ligne` in the folder.
+    /// Runs `ligne` in the folder with these arguments.
     pub fn run(&self, args: &[&str]) -> Run {
         let output = self.command(args).output().expect("the program runs");
         Run::new(output)
     }
 
-    /// Runs `ligne` in the folder, with environment variables.
+    /// Runs `ligne` in the folder with additional environment variables.
     pub fn run_with(&self, variables: &[(&str, &str)], line: &str) -> Run {
         let mut command = self.command(&line.split_whitespace().collect::<Vec<_>>());
         Run::new(command.envs(variables.iter().copied()).output().expect("the program runs"))
     }
 
-    /// The path of a file in it.
+    /// The path of a file in the folder.
     pub fn path(&self, name: &str) -> PathBuf {
         self.0.join(name)
     }
 
-    /// `ligne`, not yet started.
+    /// A command that runs `ligne` in the folder.
     pub fn command(&self, args: &[&str]) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_ligne"));
         command.args(args).current_dir(&self.0);
-        // What the machine that runs the tests prefers is no matter of theirs.
+        // Settings of the machine must not affect the tests.
         for variable in ["LIGNE_STYLE", "LIGNE_THREADS", "CI", "SLURM_ARRAY_TASK_ID", "JOB_COMPLETION_INDEX"]
             .iter()
             .chain(&["LIGNE_STEP_CONVERTER", "LIGNE_STEP_SECONDS", "LIGNE_STEP_MB"])
@@ -107,7 +107,7 @@ impl Drop for Folder {
     }
 }
 
-/// What a run left.
+/// Exit status and output of a run.
 #[derive(Debug)]
 pub struct Run {
     pub status: Option<i32>,
@@ -124,27 +124,26 @@ impl Run {
         }
     }
 
-    /// Checks that the call was refused, that nothing went to standard output, and that standard
-    /// error holds `what`.
+    /// Checks exit status 2, no standard output, and `what` in standard error.
     pub fn refused(&self, what: &str) {
         assert_eq!(self.status, Some(2), "{self:?}");
         assert!(self.err.contains(what), "no `{what}` in {self:?}");
         assert!(self.out.is_empty() && !self.err.contains("panicked"), "{self:?}");
     }
 
-    /// Checks the exit status.
+    /// Checks the exit status, and that there was no panic.
     pub fn ends(&self, status: i32) -> &Self {
         assert!(self.status == Some(status) && !self.err.contains("panicked"), "{self:?}");
         self
     }
 
-    /// Checks that standard output or standard error holds `what`.
+    /// Checks that standard output or standard error contains `what`.
     pub fn says(&self, what: &str) -> &Self {
         assert!(self.out.contains(what) || self.err.contains(what), "no `{what}` in {self:?}");
         self
     }
 
-    /// Checks that all went well.
+    /// Checks exit status 0.
     pub fn done(&self) -> &Self {
         assert_eq!(self.status, Some(0), "{self:?}");
         self

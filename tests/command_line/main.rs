@@ -1,4 +1,4 @@
-//! Tests of the program `ligne`, a file for each command or matter.
+//! Tests of the program `ligne`, in folders by subject.
 
 mod commands;
 mod compare;

@@ -1,4 +1,4 @@
-//! A second opinion on model files: what other readers make of the shared models.
+//! Model readers agree with independent readers (the crates `gltf` and `tobj`) on the shared models.
 #![cfg(test)]
 
 use std::path::{Path, PathBuf};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use ligne::scene::Scene;
 
-/// The folder of shared models, if this machine has it.
+/// The folder of shared models, if it exists.
 fn models() -> Option<PathBuf> {
     let beside = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/models");
     let folder = std::env::var_os("LIGNE_MODELS").map_or_else(beside, PathBuf::from);
@@ -17,6 +17,7 @@ fn models() -> Option<PathBuf> {
     Some(folder)
 }
 
+/// All glTF and GLB files under a folder, except those in folders called `bad`.
 fn gltf_files(folder: &Path) -> Vec<PathBuf> {
     let (mut folders, mut found) = (vec![folder.to_path_buf()], Vec::new());
     while let Some(folder) = folders.pop() {
@@ -34,11 +35,12 @@ fn gltf_files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
+/// Number of triangles, counting every instance of a geometry.
 fn triangles(scene: &Scene) -> usize {
     scene.parts.iter().map(|part| scene.geometries[part.geometry].triangles.len()).sum()
 }
 
-/// The `gltf` crate reads the same world positions, where it reads a file at all.
+/// Sums of the world positions equal those of the `gltf` crate, for files that the crate reads.
 #[test]
 fn a_second_reader_agrees() {
     let Some(folder) = models() else { return };
@@ -94,7 +96,7 @@ fn a_second_reader_agrees() {
     assert!(compared >= 15, "only {compared} files were compared");
 }
 
-/// tobj as a second opinion, on files of plain triangles.
+/// Triangle positions equal those of the `tobj` crate, for OBJ files that contain triangles only.
 #[test]
 fn another_reader_sees_the_same() {
     let Some(folder) = models() else { return };

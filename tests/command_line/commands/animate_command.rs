@@ -1,10 +1,11 @@
-//! `ligne animate`: frames as files and as films, shared and resumed, and what is refused.
+//! `ligne animate`: numbered frames, films, shards, `--resume`, fading, levels of detail, and refused calls.
 
 use crate::folder::Folder;
 
 const CRANE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/crane.glb");
 const GEAR: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/gear.obj");
 
+/// Runs `ligne animate` at 160 px.
 fn animate(folder: &Folder, model: &str, out: &str, more: &str) -> crate::folder::Run {
     let more: Vec<&str> = more.split_whitespace().collect();
     folder.run(&[&["animate", model, out, "--size", "160"], &more[..]].concat())
@@ -19,7 +20,7 @@ fn frames_are_files_with_numbers() {
     assert_eq!(folder.names_in("f").len(), 8);
     assert!(folder.text("f/003.svg").contains(" data-id=\""));
     assert_ne!(folder.text("f/000.svg"), folder.text("f/003.svg"));
-    // On twos every drawing stands twice.
+    // `--hold 2` writes every drawing twice.
     animate(&folder, CRANE, "held/%d.svg", "--fps 4 --hold 2 --quiet").done();
     assert_eq!(folder.names_in("held").len(), 16);
     for frame in 0..8 {
@@ -49,7 +50,7 @@ fn shards_and_resumed_runs_make_the_frames_of_one_run() {
     for name in folder.names_in("all") {
         assert_eq!(folder.text(&format!("all/{name}")), folder.text(&format!("parts/{name}")), "{name}");
     }
-    // What is there stays; what is missing is drawn.
+    // Existing files are kept. Missing ones are drawn.
     folder.write("parts/4.svg", "drawn already");
     std::fs::remove_file(folder.path("parts/5.svg")).unwrap();
     let run = animate(&folder, CRANE, "parts/%d.svg", "--fps 3 --style sketch --resume");
@@ -78,10 +79,10 @@ fn strokes_fade_by_the_frames_around_in_any_shard() {
     assert!((0..24).filter(|frame| other(*frame)).count() > 4);
     animate(&folder, CRANE, "again/%d.svg", fade).done();
     assert_eq!(folder.text("again/7.svg"), folder.text("all/7.svg"));
-    // Held drawings look at drawings, not at frames.
+    // With `--hold`, fading counts drawings, not frames.
     animate(&folder, CRANE, "held/%d.svg", &format!("--fps 12 --hold 2 {}", &fade[8..])).done();
     assert_eq!(folder.text("held/15.svg"), folder.text("all/7.svg"));
-    // One moment has no neighbours.
+    // A single moment has no neighbours, so nothing fades.
     for (name, more) in [("a.svg", ""), ("b.svg", "--set motion.fade=2")] {
         folder.ligne(&format!("draw {CRANE} {name} --time 1 --size 160 {more}")).done();
     }
@@ -105,7 +106,7 @@ fn a_turn_fades_from_its_last_frame_to_its_first() {
     turn("shard", "--set motion.fade=1 --shard 1/12");
     assert_eq!(folder.text("once/0.svg"), folder.text("shard/0.svg"));
     turn("plain", "");
-    // Thinner strokes have a width of their own.
+    // Faded strokes are thinner and need more `stroke-width` attributes.
     let thin = |frame: usize| folder.text(&format!("once/{frame}.svg")).matches("stroke-width").count();
     let plain = |frame: usize| folder.text(&format!("plain/{frame}.svg")).matches("stroke-width").count();
     assert!((0..12).any(|frame| thin(frame) > plain(frame)));
@@ -116,15 +117,14 @@ fn weights_change_from_frame_to_frame() {
     let folder = Folder::new("weights");
     animate(&folder, CRANE, "fade/%d.svg", "--fps 1 --to 8 --repeat --animation lift:0..1 --view iso").done();
     assert_eq!(folder.names_in("fade").len(), 8);
-    // Frames are those of the weight of their moment, over all frames, alone and in any shard.
-    // A frame is that of its moment, alone and in any shard.
+    // A range without times spans all frames. Each frame depends on its moment only, in any shard.
     let all = "--fps 1 --to 8 --repeat --animation lift:0@0..1@8 --view iso";
     animate(&folder, CRANE, "shard/%d.svg", &format!("{all} --shard 3/4 --threads 1")).done();
     assert_eq!(folder.names_in("shard"), ["2.svg", "6.svg"]);
     for name in ["2.svg", "6.svg"] {
         assert_eq!(folder.text(&format!("fade/{name}")), folder.text(&format!("shard/{name}")));
     }
-    // The clip is at 2 s in both.
+    // With `--repeat` the animation is at 2 s in both frames, so only the weight differs.
     assert_ne!(folder.text("fade/2.svg"), folder.text("fade/6.svg"));
     animate(&folder, CRANE, "no.svg", "--animation lift:1@2..0@1").refused("do not rise");
 }
@@ -171,7 +171,7 @@ fn levels_that_a_budget_chose_are_repeated() {
     let levels: serde_json::Value = serde_json::from_str(&folder.text("levels.json")).unwrap();
     assert_eq!(levels["faces"].as_array().map(Vec::len), Some(6));
     animate(&folder, horn, "b/%d.svg", "--turntable 6 --levels levels.json --threads 2").done();
-    // Each drawing has its own.
+    // Each drawing has its own face count.
     folder.write("mine.json", "{\"faces\": [100000, 100000, 300, 300, 200, 100000]}");
     animate(&folder, horn, "c/%d.svg", "--turntable 6 --levels mine.json").done();
     for frame in 0..6 {
@@ -270,7 +270,7 @@ fn without_ffmpeg_a_video_is_refused_clearly() {
     assert_eq!(folder.read("a.mp4").get(4..8), Some(&b"ftyp"[..]));
 }
 
-/// Browsers that are asked what they show of an animated SVG.
+/// Browsers that can play an animated SVG.
 const BROWSERS: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
 #[test]

@@ -1,4 +1,4 @@
-//! The program's memory is one heap in large pages, as `src/heap.rs` asks.
+//! The heap of `ligne` uses huge pages, as set up in `src/heap.rs`.
 #![cfg(all(target_os = "linux", target_env = "gnu", target_pointer_width = "64"))]
 
 use std::fs;
@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use crate::folder::Folder;
 
-/// Bytes of the heap of a running program whose pages are to be large ones, as the system tells its mappings.
+/// Bytes of the heap that are marked for huge pages (`hg`) in `/proc/<process>/smaps`.
 fn in_large_pages(process: u32) -> u64 {
     let maps = fs::read_to_string(format!("/proc/{process}/smaps")).unwrap_or_default();
     let (mut heap, mut size, mut large) = (false, 0, 0);
@@ -32,7 +32,7 @@ fn the_heap_is_in_large_pages() {
     }
     let folder = Folder::new("heap");
     let mut command = folder.command(&["draw", "-", "a.svg", "--format", "obj"]);
-    // It waits for a model that does not come.
+    // The program waits for a model on standard input.
     let mut child =
         command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     let start = Instant::now();

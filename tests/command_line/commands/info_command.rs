@@ -1,4 +1,4 @@
-//! `ligne info --all`: everything in full, with the precision of each part.
+//! `ligne info --all`: all parts with bounds and coordinate precision, for models of known precision.
 
 #[path = "../../library/support/readers/glb_writer.rs"]
 mod glb;
@@ -26,15 +26,15 @@ const SIDES: [[usize; 3]; 12] = [
     [1, 7, 5],
 ];
 
-/// Single precision: the distance between neighbouring numbers, as a share of the number.
+/// Distance between neighbouring single-precision numbers, relative to the number.
 const SINGLE: f64 = 1.0 / 8_388_608.0;
 
-/// Cosine and sine of 0.3.
+/// Cosine and sine of 0.3 rad.
 const TURNED: [f64; 2] = [0.955_336_489_125_606, 0.295_520_206_661_339_6];
 
 const STRAIGHT: [f64; 2] = [1.0, 0.0];
 
-/// Corners of a box of 20 x 12 x 8, turned around z by an angle with this cosine and sine.
+/// Corners of a box of 20 x 12 x 8, turned about z by an angle with this cosine and sine.
 fn corners([cos, sin]: [f64; 2]) -> [[f64; 3]; 8] {
     std::array::from_fn(|k| {
         let side = |bit: usize, length: f64| if k >> bit & 1 == 1 { length } else { 0.0 };
@@ -43,12 +43,12 @@ fn corners([cos, sin]: [f64; 2]) -> [[f64; 3]; 8] {
     })
 }
 
-/// The largest coordinate.
+/// The largest absolute coordinate.
 fn largest(corners: &[[f64; 3]; 8]) -> f64 {
     corners.as_flattened().iter().fold(0.0, |most, x| most.max(x.abs()))
 }
 
-/// The box as OBJ.
+/// The box as OBJ text with this number of decimals.
 fn obj(corners: &[[f64; 3]; 8], decimals: usize) -> String {
     let mut text = "o box\n".to_owned();
     for [x, y, z] in corners {
@@ -75,7 +75,8 @@ fn stl(corners: &[[f64; 3]; 8]) -> Vec<u8> {
     bytes
 }
 
-/// A box as GLB: positions of a component type, each corner in 12 bytes; the node's matrix is a scale and a move along x.
+/// A box as GLB, from the bytes of its eight positions, their component type, and their bounds.
+/// The node scales the box and moves it along x.
 fn glb_of(positions: &[u8], component: u32, [low, high]: [[f64; 3]; 2], [scale, shift]: [f64; 2]) -> Vec<u8> {
     let mut bin = positions.to_vec();
     let indices = bin.len();
@@ -103,6 +104,7 @@ fn glb_of(positions: &[u8], component: u32, [low, high]: [[f64; 3]; 2], [scale, 
     glb(document.to_string(), &bin)
 }
 
+/// Smallest and largest coordinates of the corners.
 fn bounds(corners: &[[f64; 3]; 8]) -> [[f64; 3]; 2] {
     let along = |axis: usize| corners.iter().map(move |corner| corner[axis]);
     [0, 1].map(|end| {
@@ -114,7 +116,7 @@ fn bounds(corners: &[[f64; 3]; 8]) -> [[f64; 3]; 2] {
     })
 }
 
-/// The first part as `info` lists it: the end of its line with `--all`, and its entry in JSON.
+/// The first part in `ligne info`: its precision in the text of `--all`, and its JSON entry.
 fn first_part(folder: &Folder, model: &str) -> (String, Value) {
     let plain = folder.ligne(&format!("info {model}")).done().out.clone();
     assert!(!plain.contains("step") && !plain.contains("exact"), "{plain}");
@@ -129,7 +131,7 @@ fn first_part(folder: &Folder, model: &str) -> (String, Value) {
     (said.to_owned(), json["parts"][0].clone())
 }
 
-/// Checks the step of a part, its source, and how far rounding reaches, in steps.
+/// Checks the step of a part, the source of the step, and the reach of rounding in steps.
 fn check(part: &Value, step: f64, source: &str, rounding: f64) {
     let is_near = |found: &Value, wanted: f64| {
         found.as_f64().is_some_and(|found| (found - wanted).abs() <= 1e-6 * wanted)
@@ -157,7 +159,7 @@ fn single_precision_has_the_step_of_its_largest_coordinate() {
     assert_eq!(said, "step 2.28e-6 (single precision), rounding 3.99e-6");
     check(&part, SINGLE * largest(&corners), "single-precision", 1.75);
 
-    // The node makes the box larger and moves it away.
+    // The node scales the box by 10 and moves it by 5000.
     let positions: Vec<u8> = corners.as_flattened().iter().flat_map(|x| (*x as f32).to_le_bytes()).collect();
     let model = glb_of(&positions, 5126, bounds(&corners), [10.0, 5000.0]);
     fs::write(folder.path("box.glb"), model).expect("a model");
@@ -174,7 +176,7 @@ fn quantised_coordinates_have_the_step_of_their_whole_numbers() {
     let mut positions = Vec::new();
     for corner in &corners {
         positions.extend(corner.iter().flat_map(|x| (*x as u16).to_le_bytes()));
-        // Strides are multiples of four.
+        // Byte strides are multiples of four.
         positions.extend([0; 2]);
     }
     let model = glb_of(&positions, 5123, bounds(&corners), [0.001, 0.0]);
@@ -228,7 +230,7 @@ fn all_lists_every_part_and_everything_left_out() {
             "{full}"
         );
     }
-    // Programs get everything, with the option or without.
+    // JSON output is complete with and without `--all`.
     let json = |options: &str| folder.ligne(&format!("info many.obj --json {options}")).done().out.clone();
     assert_eq!(json(""), json("--all"));
 }

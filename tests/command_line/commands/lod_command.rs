@@ -1,8 +1,8 @@
-//! Levels of detail on the command line: written beside the model, taken from there, and found anew where they do not fit.
+//! `ligne lod`: level-of-detail files are stored next to the model, reused, and ignored if they do not match.
 
 use crate::folder::Folder;
 
-/// A folder with a goose of 390 faces and two cubes.
+/// A folder with a goose of 390 faces and the cubes.
 fn with_goose(name: &str) -> Folder {
     let folder = Folder::with_cubes(name);
     let example = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/goose.obj");

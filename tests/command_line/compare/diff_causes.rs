@@ -1,10 +1,10 @@
-//! `ligne diff`: one cause is one sentence. Edits of two models, and of their drawings, as people make them.
+//! `ligne diff`: one edit of a model or a drawing is reported as one finding.
 
 use serde_json::{Value, json};
 
 use crate::folder::Folder;
 
-/// A model of the project with something changed in it.
+/// Writes `<name>-new.glb`: an example model with its glTF document edited.
 fn model(folder: &Folder, name: &str, edit: impl Fn(&mut Value)) {
     let path = format!("{}/examples/models/{name}.glb", env!("CARGO_MANIFEST_DIR"));
     let bytes = std::fs::read(path).unwrap();
@@ -23,11 +23,13 @@ fn model(folder: &Folder, name: &str, edit: impl Fn(&mut Value)) {
     std::fs::write(folder.path(&format!("{name}-new.glb")), out).unwrap();
 }
 
+/// Index of the named entry in a list of the glTF document.
 fn place(document: &Value, list: &str, name: &str) -> usize {
     let list = document[list].as_array().unwrap();
     list.iter().position(|entry| entry["name"] == name).unwrap()
 }
 
+/// An edit that moves a node.
 fn moved(name: &str, by: [f64; 3]) -> impl Fn(&mut Value) {
     move |document| {
         let node = place(document, "nodes", name);
@@ -37,6 +39,7 @@ fn moved(name: &str, by: [f64; 3]) -> impl Fn(&mut Value) {
     }
 }
 
+/// An edit that removes the mesh of a node.
 fn gone(name: &str) -> impl Fn(&mut Value) {
     move |document| {
         let node = place(document, "nodes", name);
@@ -45,6 +48,7 @@ fn gone(name: &str) -> impl Fn(&mut Value) {
     }
 }
 
+/// An edit that changes the base colour of a material.
 fn recoloured(name: &str, colour: [f64; 3]) -> impl Fn(&mut Value) {
     move |document| {
         let material = place(document, "materials", name);
@@ -53,7 +57,7 @@ fn recoloured(name: &str, colour: [f64; 3]) -> impl Fn(&mut Value) {
     }
 }
 
-/// The lines that tell what differs; the last one sums up.
+/// The findings in the output, one per line, without the summary at the end.
 fn sentences(told: &str) -> Vec<&str> {
     let mut lines: Vec<&str> = told.lines().collect();
     lines.pop();

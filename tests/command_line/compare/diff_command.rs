@@ -1,4 +1,4 @@
-//! `ligne diff`: what it compares, tells, draws, and its exit status.
+//! `ligne diff`: exit status, findings, JSON and Markdown output, difference pictures, models and folders.
 
 use crate::folder::Folder;
 
@@ -6,6 +6,8 @@ const OLD: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" width="100" height
 <path class="crease" data-part="lid" d="M10 10H90"/>
 <path class="contour" data-part="bolt" d="M10 50H90"/></g></svg>"##;
 
+/// A folder with the cubes and three drawings: `old.svg`, an equivalent `same.svg`, and `new.svg` with a bolt
+/// 2 px lower.
 fn folder(name: &str) -> Folder {
     let folder = Folder::with_cubes(name);
     folder.write("old.svg", OLD);

@@ -1,4 +1,4 @@
-//! `ligne diff` and `ligne test`: verdicts, causes, cases and approval.
+//! `ligne diff` and `ligne test`: findings, causes, cases and approval.
 
 mod diff_causes;
 mod diff_command;

@@ -1,4 +1,4 @@
-//! `ligne test`: cases, verdicts, blessing, reports.
+//! `ligne test`: approved drawings, detected changes, tolerances, and JUnit and HTML reports.
 
 use crate::folder::{Folder, Run};
 use usvg::roxmltree::{Document, Node};
@@ -16,13 +16,13 @@ fn approved(name: &str) -> Folder {
     folder
 }
 
-/// The cubes with a red base and a knob of another material.
+/// The cubes as OBJ, with a red base and a knob of the given material.
 fn painted(knob: &str) -> String {
     let text = crate::folder::CUBES.replacen("o base", "mtllib cubes.mtl\no base\nusemtl red", 1);
     text.replacen("o knob", &format!("o knob\nusemtl {knob}"), 1)
 }
 
-/// Checks that some drawings differ and nothing worse, and gives what was said.
+/// Checks that some drawings differ without errors, and returns standard output.
 fn failing(run: &Run) -> &str {
     assert_eq!((run.status, run.err.as_str()), (Some(1), ""), "{run:?}");
     &run.out
@@ -48,7 +48,7 @@ fn what_is_blessed_passes() {
     assert_eq!(folder.ligne("test cases").done().out, "passed   ink\n1 case: 1 passed\n");
     assert_eq!(folder.ligne("test cases --quiet").done().out, "");
     assert_eq!(folder.ligne("test cases/ink.toml").done().out, "passed   ink\n1 case: 1 passed\n");
-    // What passes is not written again.
+    // Drawings that pass are not rewritten.
     let touched = folder.text("cases/ink.svg") + "<!-- mine -->";
     folder.write("cases/ink.svg", &touched);
     assert_eq!(folder.ligne("test cases --bless").done().out, "passed   ink\n1 case: 1 passed\n");
@@ -77,7 +77,7 @@ fn a_camera_moved_by_a_fifth_of_a_degree_is_seen() {
     assert!(out.contains("passed   deep/toon\ndiffers  ink: "), "{out}");
     assert!(out.contains("base") && out.contains("knob"), "{out}");
     assert!(out.contains("2 cases: 1 passed, 1 differs\n"), "{out}");
-    // Within a tolerance of its own it is the same.
+    // The tolerance of a case applies to that case.
     folder.write("cases/ink.toml", &(VIEW.replace("= 30\n", "= 30.2\n") + "tolerance = '5px'\n"));
     folder.ligne("test cases").done();
     folder.write(
@@ -91,7 +91,7 @@ fn a_camera_moved_by_a_fifth_of_a_degree_is_seen() {
 fn the_tolerance_of_the_project_counts() {
     let folder = approved("test-project");
     folder.write("cases/ink.toml", &VIEW.replace("= 30\n", "= 30.2\n"));
-    // Defaults of drawing do not reach into cases.
+    // Drawing defaults in `ligne.toml` do not apply to cases.
     folder.write(
         "ligne.toml",
         "[draw]\nstyle = 'technical'\nazimuth = 5\n[diff]\ntolerance = { lines = '5px' }\n",
@@ -132,7 +132,7 @@ fn a_part_left_out_is_named() {
     assert!(out.lines().any(|line| line.starts_with("         ") && line.contains("knob")), "{out}");
 }
 
-/// Sees both cubes whole, whatever is left out.
+/// A camera that frames both cubes, even when one is hidden.
 const CAMERA: &str = r#"{"type":"perspective","eye":[6,5,9],"target":[0,0.75,0],"up":[0,1,0],"fov_y_deg":35,
     "width_px":300,"height_px":300}"#;
 
@@ -216,7 +216,7 @@ fn only_some_and_what_is_passed_over() {
     folder.write("cases/deep/old.svg", "<svg/>");
     let run = folder.ligne("test cases");
     assert!(run.done().err.starts_with("warning: cases/deep/old.svg: no case uses this drawing"), "{run:?}");
-    // A case may name its drawing.
+    // A case may name its drawing file.
     folder.write(
         "cases/deep/named.toml",
         "model = '../../cubes.obj'\nstyle = 'toon'\nsize = 200\ndrawing = 'old.svg'\n",
@@ -225,6 +225,7 @@ fn only_some_and_what_is_passed_over() {
     assert_eq!(folder.ligne("test cases").done().err, "");
 }
 
+/// Child elements with this name.
 fn children<'a>(node: Node<'a, 'a>, name: &str) -> Vec<Node<'a, 'a>> {
     node.children().filter(|child| child.has_tag_name(name)).collect()
 }

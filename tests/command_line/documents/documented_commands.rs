@@ -1,10 +1,10 @@
-//! Runs the commands of the pages: every block marked `sh`, as a reader would type it in a clone.
+//! Commands in the documentation run as written: every `sh` block, in a copy of the example files.
 //!
-//! The blocks of a page run in order, in one folder that holds a copy of `examples/`. A block of another language with
-//! `file=NAME` after it is written to that file first. Words after `sh` limit a block:
+//! The blocks of a page run in order, in one folder with a copy of `examples/`. A block of another language
+//! with `file=NAME` is written to that file first. Words after `sh` limit a block:
 //!
 //! - `slow`: runs in the nightly tests only.
-//! - `needs=PROGRAM`: is skipped, with a message, where the program is missing.
+//! - `needs=PROGRAM`: is skipped with a message if the program is missing.
 
 use std::env::{self, join_paths, split_paths};
 use std::fs;
@@ -23,6 +23,7 @@ struct Block<'a> {
     text: String,
 }
 
+/// All fenced blocks of a Markdown page, in order.
 fn blocks(page: &str) -> Vec<Block<'_>> {
     let mut found: Vec<Block> = Vec::new();
     let mut is_open = false;
@@ -47,6 +48,7 @@ fn blocks(page: &str) -> Vec<Block<'_>> {
     found
 }
 
+/// Copies a folder with all subfolders.
 fn copy(from: &Path, to: &Path) {
     fs::create_dir_all(to).unwrap();
     for entry in fs::read_dir(from).unwrap().flatten() {
@@ -59,19 +61,20 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// The variable PATH with the folder of the program first.
+/// The variable `PATH` with the folder of `ligne` first.
 fn path_with_program() -> std::ffi::OsString {
     let folder = Path::new(env!("CARGO_BIN_EXE_ligne")).parent().unwrap().to_owned();
     let others = env::var_os("PATH").unwrap_or_default();
     join_paths([folder].into_iter().chain(split_paths(&others))).unwrap()
 }
 
+/// Whether a program is in one of the folders of `PATH`.
 fn is_installed(program: &str) -> bool {
     let folders: Vec<PathBuf> = split_paths(&env::var_os("PATH").unwrap_or_default()).collect();
     folders.iter().any(|folder| folder.join(program).is_file())
 }
 
-/// Runs the blocks of a page; returns what went wrong and how many blocks ran.
+/// Runs the blocks of a page. Returns the failures and the number of blocks that ran.
 fn run_page(page: &str, with_slow: bool) -> (Vec<String>, usize) {
     let text = read(page);
     let blocks = blocks(&text);
@@ -111,6 +114,7 @@ fn run_page(page: &str, with_slow: bool) -> (Vec<String>, usize) {
     (faults, count)
 }
 
+/// Runs all pages on four threads and checks that no block fails.
 fn run_all(with_slow: bool) {
     let pages = documents();
     let pages = std::sync::Mutex::new(pages.iter());

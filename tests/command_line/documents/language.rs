@@ -1,6 +1,6 @@
-//! Plain words in documents and help: sentence length, and phrases that are hard to read.
+//! Documents and help are in plain language: sentence length and hard phrases stay below the limits.
 //!
-//! `docs/dev/style-guide.md` explains the rules. A failing test names the worst documents, or the line of help.
+//! `docs/dev/style-guide.md` explains the rules. A failing test names the worst documents or help line.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,10 +12,10 @@ const MAX_MEAN_WORDS: f64 = 15.0;
 const MAX_LONG_SHARE: f64 = 0.04;
 const MAX_PHRASES_PER_1000: f64 = 1.0;
 
-/// A sentence with more words is long.
+/// Longer sentences count as long.
 const LONG_SENTENCE: usize = 30;
 
-/// A sentence with fewer words is a label.
+/// Shorter sentences are labels and do not count.
 const SHORTEST_SENTENCE: usize = 3;
 
 /// Phrases that have a plain equivalent. Words are separated by single spaces.
@@ -74,12 +74,13 @@ const PHRASES: [&str; 52] = [
     "most of it",
 ];
 
-/// Words that may follow `What` at the begin of a sentence: questions.
+/// Words that may follow `What` at the start of a sentence, because they form a question.
 const QUESTIONS: [&str; 9] = ["is", "are", "does", "do", "happens", "if", "to", "can", "should"];
 
-/// Pages directly in docs/ that belong to the present documentation.
+/// Pages directly in `docs/` that are measured.
 const TOP_PAGES: [&str; 4] = ["index.md", "gallery.md", "troubleshooting.md", "glossary.md"];
 
+/// Counts of a text.
 #[derive(Debug, Default, Clone, Copy)]
 struct Measure {
     words: usize,
@@ -111,13 +112,13 @@ impl Measure {
     }
 }
 
-/// A text without what is between two marks; `with` takes its place.
+/// Replaces every text between two marks with `with`.
 fn without(text: &str, mark: &str, with: &str) -> String {
     let parts = text.split(mark).enumerate();
     parts.map(|(number, part)| if number % 2 == 0 { part } else { with }).collect()
 }
 
-/// The paragraphs, list items and table cells of a page, without code, pictures and targets of links.
+/// The paragraphs, list items and table cells of a page, without code, pictures and link targets.
 fn paragraphs(markdown: &str) -> Vec<String> {
     let text = without(&without(markdown, "```", ""), "`", "x");
     // The target of a link is between `](` and `)`.
@@ -147,12 +148,14 @@ fn paragraphs(markdown: &str) -> Vec<String> {
     paragraphs
 }
 
+/// The words of a text, in lower case.
 fn words(text: &str) -> Vec<String> {
     let is_part = |c: char| c.is_alphabetic() || matches!(c, '\'' | '’' | '-');
     let words = text.split(|c| !is_part(c)).filter(|word| word.starts_with(char::is_alphabetic));
     words.map(str::to_lowercase).collect()
 }
 
+/// The sentences of a paragraph.
 fn sentences(paragraph: &str) -> Vec<&str> {
     let mut sentences = Vec::new();
     let mut from = 0;
@@ -170,7 +173,7 @@ fn sentences(paragraph: &str) -> Vec<&str> {
     sentences
 }
 
-/// The phrases in a sentence.
+/// The hard phrases in a sentence.
 fn phrases(sentence: &str) -> Vec<String> {
     let words = words(sentence);
     let text = format!(" {} ", words.join(" "));
@@ -206,6 +209,7 @@ fn measure(markdown: &str) -> Measure {
     all
 }
 
+/// Adds all Markdown pages under a folder.
 fn pages_in(folder: &Path, pages: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let path = entry.path();
@@ -217,7 +221,7 @@ fn pages_in(folder: &Path, pages: &mut Vec<PathBuf>) {
     }
 }
 
-/// README, CHANGELOG and the pages in docs/.
+/// README, CHANGELOG and the measured pages in `docs/`.
 fn documents() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let docs = root.join("docs");

@@ -1,21 +1,23 @@
-//! What the documents say is there: links, options, examples, and the tests that rules name.
+//! Names in the documentation exist: link targets, options, examples and tests.
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Programs whose calls the pages show.
+/// Other programs in the documentation. Their lines are not checked for options.
 const OTHER_PROGRAMS: [&str; 8] = ["axicli", "cargo ", "vpype", "pip ", "git ", "npm ", "sbatch", "parallel"];
 
-/// Options that no help of a command lists: of Slurm, `ligne --version`, and the hidden one that writes the reference of style keys.
+/// Options that no help page lists: of Slurm, `ligne --version`, and a hidden option of `ligne styles`.
 const OTHER_OPTIONS: [&str; 7] =
     ["--array", "--cpus-per-task", "--job-name", "--open-mode", "--reference", "--requeue", "--version"];
 
+/// The root of the repository.
 pub fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
 }
 
+/// The text of a file, by its path from the root.
 pub fn read(path: impl AsRef<Path>) -> String {
     let path = root().join(path);
     fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
@@ -42,7 +44,7 @@ pub fn documents() -> Vec<String> {
     pages
 }
 
-/// What stands in a text between each `open` and the next `close`.
+/// The texts between each `open` and the next `close`.
 fn between<'a>(text: &'a str, open: &'a str, close: char) -> impl Iterator<Item = &'a str> {
     text.split(open).skip(1).filter_map(move |rest| rest.split_once(close)).map(|(inner, _)| inner)
 }
@@ -63,7 +65,7 @@ fn sources(folder: &str) -> String {
     text
 }
 
-/// How links name a heading: small letters, digits, and hyphens for spaces.
+/// The anchor of a heading: lower-case letters, digits, and hyphens for spaces.
 fn anchor(heading: &str) -> String {
     let text = heading.trim_start_matches('#').trim().to_lowercase();
     let kept = text.chars().filter(|c| c.is_alphanumeric() || matches!(c, ' ' | '-' | '_'));
@@ -78,7 +80,7 @@ fn links_lead_to_files() {
         let text = read(document);
         for link in between(&text, "](", ')').filter(|link| !link.contains("://")) {
             let (link, heading) = link.split_once('#').unwrap_or((link, ""));
-            // A link of a heading alone leads to the same page.
+            // A link with a heading only leads to the same page.
             let target = if link.is_empty() { PathBuf::from(document) } else { folder.join(link) };
             assert!(root().join(&target).exists(), "{document}: {link}");
             let is_there =
@@ -90,7 +92,7 @@ fn links_lead_to_files() {
     assert!(links > 15, "{links} links found");
 }
 
-/// Links lead from the index to every page, directly or over other pages.
+/// Every page is reachable by links from the README.
 #[test]
 fn every_page_can_be_reached() {
     let mut reached = vec![root().join("README.md").canonicalize().unwrap()];
@@ -129,7 +131,7 @@ fn tests_that_documents_name_are_there() {
     let mut names = 0;
     for document in ["docs/dev/architecture.md", "docs/explanation/exactness.md"] {
         let text = read(document);
-        // Names of tests are sentences; nothing else between back-ticks has three underscores.
+        // Between backticks, only test names have three underscores or more.
         let spans = text.split('`').skip(1).step_by(2);
         for name in spans.clone().filter(|span| span.matches('_').count() > 2 && !span.contains(['/', ' '])) {
             assert!(code.contains(&format!("fn {name}(")), "{document}: there is no test {name}");
@@ -154,7 +156,7 @@ fn options_in_the_pages_are_there() {
     let mut options = 0;
     for document in documents().iter().filter(|document| !document.starts_with("docs/dev/")) {
         let text = read(document);
-        // Lines that call another program hold its options.
+        // Lines that call another program contain its options.
         let own = text.lines().filter(|line| !OTHER_PROGRAMS.iter().any(|name| line.contains(name)));
         for line in own {
             let words = line.split(|c: char| !(c.is_ascii_alphanumeric() || c == '-'));

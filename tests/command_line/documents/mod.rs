@@ -1,4 +1,4 @@
-//! Documents: links, examples, commands that run, pictures, generated pages, and plain words.
+//! Documents: links, examples, runnable commands, pictures, generated references, and plain language.
 
 mod documented_commands;
 mod language;

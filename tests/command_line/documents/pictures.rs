@@ -1,6 +1,6 @@
-//! The SVG pictures of the documents are what ligne draws, and changes of a real model are told by the names of its parts.
+//! Pictures in the documentation are current, and `ligne test` names the parts that changed in a real model.
 //!
-//! Where a picture is meant to change, look at it, then approve it: `ligne test docs/pictures/cases --bless`.
+//! To approve an intended change, look at the picture, then run `ligne test docs/pictures/cases --bless`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -33,7 +33,7 @@ fn every_svg_picture_of_the_pages_is_a_case() {
         let text = fs::read_to_string(root().join(&page)).expect("a page");
         let links = text.split("](").skip(1).filter_map(|rest| rest.split_once(')'));
         let names = links.filter_map(|(link, _)| link.split_once("pictures/").map(|(_, name)| name));
-        // Differences and stages are no drawings of a model.
+        // Difference and stage pictures are not drawings of a model.
         let is_drawing =
             |name: &&str| name.ends_with(".svg") && !name.starts_with("diff-") && !name.starts_with("stage-");
         for name in names.filter(is_drawing) {
@@ -44,13 +44,13 @@ fn every_svg_picture_of_the_pages_is_a_case() {
     assert!(pictures > 6, "{pictures} pictures found");
 }
 
-/// The pump seen by a camera that does not depend on which parts there are.
+/// A case that draws the pump, with angles or with a camera that stays fixed when parts are hidden.
 const CASE: &str = "model = '../pump.glb'\nprecision = 2\n";
 const ANGLES: &str = "azimuth = 35\nelevation = 22\nsize = 500\n";
 const CAMERA: &str = r#"{"type":"perspective","eye":[1.1,0.55,1.25],"target":[0.2,-0.03,0],"up":[0,1,0],"fov_y_deg":26,
     "width_px":500,"height_px":500}"#;
 
-/// A folder with an approved drawing of the pump, which is then to be drawn by `case`.
+/// A folder whose drawing is approved with one case file, which is then replaced by `case`.
 fn pump(name: &str, approved: &str, case: &str) -> Folder {
     let folder = Folder::new(name);
     fs::copy(root().join("examples/models/pump.glb"), folder.path("pump.glb")).expect("the pump");
@@ -61,7 +61,7 @@ fn pump(name: &str, approved: &str, case: &str) -> Folder {
     folder
 }
 
-/// What a test says of its one case that differs, a line a finding, all of them.
+/// All findings of the one case that differs, one per line.
 fn findings(folder: &Folder) -> Vec<String> {
     let run = folder.ligne("test cases --junit results.xml");
     assert_eq!(run.status, Some(1), "{run:?}");

@@ -1,4 +1,4 @@
-//! The generated reference of the command line is current.
+//! The command-line reference in `docs/reference` equals the generated page.
 
 use std::fs;
 use std::path::Path;

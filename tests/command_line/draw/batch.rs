@@ -1,4 +1,4 @@
-//! Many models at once: names, views, shards, runs that are killed and resumed, watching, standard input.
+//! Batches of `ligne draw` give the files of single runs: shards, `--resume`, `--watch`, standard input.
 
 use std::fs;
 use std::io::Write;
@@ -7,16 +7,16 @@ use std::time::{Duration, Instant};
 
 use crate::folder::{CUBES, Folder, Run};
 
-/// Models, and how many of them come to one that is broken: 2 %.
+/// Models in a batch. One model in `EACH` is broken: 2 %.
 const MODELS: usize = 100;
 const EACH: usize = 50;
 
-/// The cubes, each time a little wider.
+/// The cubes as OBJ, with the base stretched to this width along x.
 fn cubes(width: f64) -> String {
     CUBES.replace("v 1 ", &format!("v {width} "))
 }
 
-/// Models in `models/`, 2 % of them broken; and their names.
+/// A folder with models in `models/`, 2 % of them broken, and the names of the models.
 fn with_models(name: &str) -> (Folder, Vec<String>) {
     let folder = Folder::new(name);
     let names: Vec<String> = (0..MODELS).map(|i| format!("models/m{i:03}.obj")).collect();
@@ -28,12 +28,13 @@ fn with_models(name: &str) -> (Folder, Vec<String>) {
     (folder, names)
 }
 
+/// Arguments of a call that draws these models at 200 px, followed by `more`.
 fn draw<'a>(models: &'a [String], more: &'a str) -> Vec<&'a str> {
     let models = models.iter().map(String::as_str);
     ["draw"].into_iter().chain(models).chain(["--size", "200"]).chain(more.split_whitespace()).collect()
 }
 
-/// Waits for what is to come about soon.
+/// Waits until the condition holds, at most 60 s, and returns the time it took.
 fn until(what: &str, mut is_so: impl FnMut() -> bool) -> Duration {
     let started = Instant::now();
     while !is_so() {
@@ -43,6 +44,7 @@ fn until(what: &str, mut is_so: impl FnMut() -> bool) -> Duration {
     started.elapsed()
 }
 
+/// Checks that two folders hold the same files with the same bytes.
 fn same_files(folder: &Folder, one: &str, other: &str) {
     assert_eq!(folder.names_in(one), folder.names_in(other));
     for name in folder.names_in(one) {
@@ -62,7 +64,7 @@ fn shards_of_which_one_is_killed_and_resumed_make_what_one_run_makes() {
     assert_eq!(folder.names_in("one").len(), 98);
     assert_eq!(folder.run(&draw(&models, "--out-dir one --quiet")).ends(2).err.lines().count(), 2);
 
-    // The shards with broken models (numbers 7 and 57) tell it; the job array says which is which.
+    // Models 7 and 57 are broken, so their shards end with status 2. SLURM variables select shard 4.
     for (shard, status) in [("1/4", 0), ("2/4", 2)] {
         let run = folder.run(&draw(&models, &format!("--out-dir four --threads 1 --shard {shard}")));
         run.ends(status).says(&format!("four: shard {shard}, "));
@@ -85,7 +87,7 @@ fn shards_of_which_one_is_killed_and_resumed_make_what_one_run_makes() {
             "half a file: {name}"
         );
     }
-    // What a kill may leave, surely left; and a drawing that is older than its model.
+    // A temporary file that a kill may leave, one of another run, and a drawing that is older than its model.
     folder.write("four/.m002.svg.99999-0.tmp", "<svg");
     folder.write("four/.other.svg.99999-0.tmp", "not of this run");
     let _ = fs::remove_file(folder.path("four/m002.svg"));
@@ -108,7 +110,7 @@ fn views_and_formats_are_those_of_calls_of_their_own() {
     run.done().says("d: 2 models drawn, 8 files, ");
     assert_eq!(folder.names_in("d").len(), 8);
     for (model, view) in [("cubes", "front"), ("cubes", "top"), ("gear", "top")] {
-        // A drawing says the model's name, whatever its own.
+        // The title is the name of the model, not of the output file.
         for ending in ["svg", "png"] {
             let alone = format!("{model}-{view}.{ending}");
             folder.ligne(&format!("draw {model}.obj {alone} --view {view} --style toon --quiet")).done();
@@ -137,7 +139,7 @@ fn no_drawing_of_another_model_is_written_over() {
     assert_eq!(folder.names(), ["a", "b"]);
     folder.ligne(&format!("{both} --folders")).done();
     assert_ne!(folder.text("d/a/m.svg"), folder.text("d/b/m.svg"));
-    // The same model twice is one.
+    // Two paths of the same model count once.
     folder.ligne("draw a/m.obj ./a/m.obj --out-dir e").done().says("e: 1 model drawn, 1 file, ");
     folder.write("a/m.stl", "solid");
     folder.ligne("draw a/m.obj a/m.stl --out-dir d").refused("rename one");
@@ -174,7 +176,7 @@ fn statuses_tell_what_is_worth_another_call() {
     let folder = Folder::with_cubes("many-status");
     folder.write("broken.obj", "v 0 0 0\nf 1 2 3\n");
     folder.ligne("draw cubes.obj broken.obj --out-dir d").ends(2);
-    // Where a folder cannot be made nobody is to blame but the disc.
+    // A folder that cannot be created is a write error: status 75, try again.
     folder.write("d/sub", "in the way");
     folder.write("sub/cubes.obj", CUBES);
     let run = folder.ligne("draw sub/cubes.obj broken.obj cubes.obj --out-dir d --folders");
@@ -188,12 +190,12 @@ fn statuses_tell_what_is_worth_another_call() {
     }
 }
 
-/// Runs with a model on standard input.
+/// Runs `ligne` with a model on standard input.
 fn piped(folder: &Folder, model: &[u8], line: &str) -> Run {
     let mut command = folder.command(&line.split_whitespace().collect::<Vec<_>>());
     let mut child =
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    // A call that is refused reads nothing.
+    // A refused call closes standard input without reading it, so the write may fail.
     let _ = child.stdin.take().unwrap().write_all(model);
     Run::new(child.wait_with_output().unwrap())
 }
@@ -257,7 +259,7 @@ fn what_does_not_go_together_is_refused() {
     task("draw cubes.obj --out-dir e").done();
 }
 
-/// A child that ends with the test.
+/// A child process that is killed when the guard is dropped.
 struct Watching(Child);
 
 impl Drop for Watching {
@@ -279,7 +281,7 @@ fn watched_files_are_drawn_again_when_they_change() {
     let mut last = folder.text("a.svg");
     let mut changes = |what: &str| {
         let took = until(what, || folder.text("a.svg") != last);
-        // On a machine at rest it takes some 0.2 s; where others test as well, only that it comes about is sure.
+        // Takes about 0.2 s on an idle machine. Other tests may run at the same time, so the limit is higher.
         println!("{what}: drawn again within {took:?}");
         last = folder.text("a.svg");
     };
@@ -287,7 +289,7 @@ fn watched_files_are_drawn_again_when_they_change() {
     changes("a wider model");
     folder.write("mine.toml", "extends = \"ink\"\npage.background = \"#ff0000\"\n");
     changes("a style");
-    // Saved by a file in its place, as editors do.
+    // Editors save by renaming a new file over the old one.
     folder.write("cubes.obj.new", &cubes(3.5));
     fs::rename(folder.path("cubes.obj.new"), folder.path("cubes.obj")).unwrap();
     changes("another file in its place");

@@ -1,8 +1,8 @@
-//! Contact sheets: views with their angles, styles with their names, moments with their times.
+//! Contact sheets: several views, styles or times on one sheet, each with a caption.
 
 use crate::folder::Folder;
 
-/// The captions of a sheet, in their order.
+/// The captions of a sheet, in order.
 fn captions(svg: &str) -> Vec<String> {
     let (_, callouts) = svg.split_once("id=\"callouts\"").expect("captions");
     let titles = callouts.split("<title>").skip(1).filter_map(|rest| rest.split('<').next());
@@ -17,6 +17,7 @@ fn size(svg: &str) -> [f64; 2] {
     })
 }
 
+/// Checks that no id occurs twice.
 fn assert_ids_are_unique(svg: &str) {
     let mut ids: Vec<&str> = svg.split(" id=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
     let count = ids.len();
@@ -25,7 +26,7 @@ fn assert_ids_are_unique(svg: &str) {
     assert_eq!(ids.len(), count, "ids that are given twice");
 }
 
-/// The drawing of a sheet's picture: the path data of its layers.
+/// The path data of the picture with this label.
 fn paths_of<'a>(svg: &'a str, label: &str) -> Vec<&'a str> {
     let group =
         svg.split("<g ").find(|group| group.contains(&format!("label=\"{label}\"")) && group.contains(" d="));
@@ -43,11 +44,11 @@ fn views_go_around_the_model_with_angles_to_paste_back() {
     assert_eq!(found[4], "--azimuth 35 --elevation 22");
     assert_eq!(size(&svg), [3.0 * 340.0 + 20.0, 3.0 * 354.0 + 20.0]);
     assert_ids_are_unique(&svg);
-    // Each caption repeats its view.
+    // A caption is a list of options that draws the same view.
     folder.ligne(&format!("draw cubes.obj one.svg --size 320 {}", found[1])).done();
     let (one, label) = (folder.text("one.svg"), "azimuth--100-elevation-22");
     assert_eq!(paths_of(&svg, label).len(), paths_of(&one, "lines").len());
-    // The view that is given is in the middle of its neighbours, and other options hold for all.
+    // A given view is in the centre of the grid. Other options apply to all views.
     let line = "draw cubes.obj near.svg --contact-sheet --azimuth -35 --elevation 10 --only base --size 100x80 --ortho";
     folder.ligne(line).done();
     let svg = folder.text("near.svg");
@@ -88,7 +89,7 @@ fn sheets_are_written_in_all_formats_and_nothing_contradicts_them() {
         .ligne("draw cubes.obj b.svg --contact-sheet --only kn*b --strict --hide x")
         .refused("'x' fits no part");
     assert!(!folder.names().contains(&"b.svg".to_owned()));
-    // A view of the project does not stand against it.
+    // A view in `ligne.toml` does not conflict with a contact sheet.
     folder.write("ligne.toml", "[draw]\nview = 'iso'\nstyle = 'technical'\n");
     folder.ligne("draw cubes.obj b.svg --contact-sheet --size 60").done();
 }
@@ -111,7 +112,7 @@ fn styles_are_compared_by_pose_camera_parts_and_size() {
     assert!(!svg.contains("data-part=\"base\""));
     assert_ids_are_unique(&svg);
     assert_eq!(size(&svg)[0], found.len().min(6) as f64 * 140.0 + 20.0);
-    // From the right the cube is a square, which fills the frame.
+    // From the right the knob is a square, drawn as one path.
     let [ink] = paths_of(&svg, "ink")[..] else { panic!("{:?}", paths_of(&svg, "ink")) };
     folder.ligne("draw cubes.obj one.svg --azimuth 90 --elevation 0 --ortho --only knob --size 120").done();
     assert_eq!(paths_of(&folder.text("one.svg"), "lines").len(), 1, "{ink}");
@@ -120,7 +121,7 @@ fn styles_are_compared_by_pose_camera_parts_and_size() {
     folder.ligne("styles --sheet a.svg cubes.obj --page A4").refused("--page");
     assert_eq!(folder.ligne("styles ink --azimuth 20").status, Some(2));
     assert!(!folder.names().contains(&"a.svg".to_owned()));
-    // A variable changes neither the list nor the sheet.
+    // Environment variables change neither the list nor the sheet.
     let with = |line: &str| folder.run_with(&[("LIGNE_STYLE", "toon"), ("LIGNE_THREADS", "1")], line);
     with("styles").done();
     with("styles --sheet v.svg cubes.obj --style ink --size 60").done();

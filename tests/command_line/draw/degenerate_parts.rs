@@ -1,14 +1,14 @@
-//! What is left out of a model: faces without area, lines without length, corners without a place. It counts in nothing, and
-//! drawings without a mark say why.
+//! Degenerate geometry: dropped faces, lines and vertices do not affect framing.
+//! Empty drawings report the reason, and textures are found by file name.
 
 use serde_json::Value;
 
 use crate::folder::{CUBES, Folder};
 
-/// Far away from the cubes: a face on a line, one of one place, and a line without length.
+/// Far from the cubes: a face with collinear vertices, one with a repeated vertex, and a line without length.
 const FAR: &str = "v 5000 10 3\nv 5001 11 4\nv 5002 12 5\nf 17 18 19\nf 17 17 18\nl 19 19\n";
 
-/// The drawing without its title.
+/// An SVG drawing without its title.
 fn body(svg: &str) -> String {
     svg.lines().filter(|line| !line.starts_with("<title>")).collect::<Vec<_>>().join("\n")
 }
@@ -28,7 +28,7 @@ fn what_is_left_out_counts_in_no_frame() {
     ] {
         folder.ligne(&format!("draw cubes.obj a.svg {options}")).done();
         let run = folder.ligne(&format!("draw far.obj b.svg {options}"));
-        // The section takes away the side that they are on, and what is not there is not told.
+        // The section removes the side with the degenerate faces, so no warning is expected.
         let is_told = run.done().err.contains("without area");
         assert_eq!(is_told, !options.starts_with("--section"), "{run:?}");
         assert_eq!(body(&folder.text("a.svg")), body(&folder.text("b.svg")), "{options}");
@@ -38,7 +38,7 @@ fn what_is_left_out_counts_in_no_frame() {
         (0..3).map(|k| body(&folder.text(&format!("{model}-{k}.svg")))).collect::<Vec<_>>()
     };
     assert_eq!(film("cubes.obj"), film("far.obj"));
-    // A sheet bears the name of its model.
+    // A sheet shows the name of its model, so both models are called `m.obj`.
     let page = "[page]\nkind = \"sheet\"\nsize = \"A4\"\nmodel = { file = \"m.obj\", up = \"z\" }\n\
                 views = [\"front\", \"top\", \"left\"]\nparts_list = true\n";
     let sheet = |name: &str, model: &str| {
@@ -112,7 +112,7 @@ fn empty_drawings_say_why() {
     }
 }
 
-/// The cubes, behind some vertices of another part.
+/// The cubes as OBJ, with indices that start after some vertices of another part.
 fn cubes_after(vertices: usize) -> String {
     let moved = |line: &str| match line.strip_prefix("f ") {
         Some(face) => {

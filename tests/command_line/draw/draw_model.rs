@@ -1,15 +1,16 @@
-//! The command line with the whole pipeline behind it: what is drawn, written and said.
+//! Tests of `ligne draw` on one model, through the whole pipeline: drawings, reports and messages.
 
 use crate::folder::Folder;
 use ligne::pipeline::Stage;
 use serde_json::Value;
 
-/// The numbers of an attribute of the root element.
+/// An attribute of the root element, empty if it is missing.
 fn root(svg: &str, attribute: &str) -> String {
     let document = usvg::roxmltree::Document::parse(svg).expect("valid XML");
     document.root_element().attribute(attribute).unwrap_or_default().to_owned()
 }
 
+/// A JSON report in the folder.
 fn report(folder: &Folder, name: &str) -> Value {
     serde_json::from_str(&folder.text(name)).expect("a report in JSON")
 }
@@ -119,7 +120,7 @@ fn camera_records_are_obeyed() {
     );
     let run = folder.ligne("draw cubes.obj a.svg --camera camera.json");
     assert!(run.done().err.starts_with("a.svg: 600 x 400 px, "), "{run:?}");
-    // 40 px to the unit, the origin in the middle.
+    // 40 px per unit, with the origin in the centre.
     let [left, top, right, bottom] = extent(&folder.text("a.svg"));
     let expected = [260.0, 100.0, 340.0, 240.0];
     let apart = [left, top, right, bottom].into_iter().zip(expected).map(|(a, b)| (a - b).abs());
@@ -199,7 +200,7 @@ fn maps_go_into_a_folder_all_or_none() {
     for name in ["normal", "depth", "edges", "parts"] {
         let bytes = folder.read(&format!("maps/{name}.png"));
         assert!(bytes.starts_with(b"\x89PNG"), "{name}");
-        // Width and height in the header of the file.
+        // Width and height in the PNG header.
         assert_eq!(bytes[16..24], [0, 0, 0, 180, 0, 0, 0, 120], "{name}");
     }
     assert_eq!(folder.text("a.svg"), folder.text("b.svg"));
@@ -217,7 +218,7 @@ fn maps_go_into_a_folder_all_or_none() {
 #[test]
 fn warnings_are_named_and_strict_refuses_them() {
     let folder = Folder::with_cubes("warnings");
-    // A face given twice is dropped once.
+    // A repeated face is dropped with a warning.
     folder.write("doubled.obj", &format!("{}f 13 14 15 16\n", crate::folder::CUBES));
     let run = folder.ligne("draw doubled.obj a.svg --report r.json");
     assert!(run.done().err.starts_with("warning: doubled.obj: "), "{run:?}");
@@ -351,7 +352,7 @@ fn a_moment_of_an_animation_is_drawn() {
         .run(&["draw", crane, "no.svg", "--animation", "walk"])
         .refused("no animation `walk`; its animations are lift");
     folder.run(&["draw", crane, "no.svg", "--time", "soon"]).refused("a number of seconds");
-    // All of a clip is itself, none of it is the stored pose, and half of it is neither.
+    // Weight 1 gives the animated pose, weight 0 the stored pose, and 0.5 neither.
     let weighed =
         |weight: &str| drawn("weighed.svg", &["--animation", &format!("lift:{weight}"), "--time", "1.5"]);
     assert_eq!(weighed("1"), lifted);

@@ -1,8 +1,8 @@
-//! What comes into the frame and how large: units, records of the view, steps that register; and warnings where a person would wonder.
+//! Framing in `ligne draw`: units, stored cameras, aligned instruction steps, and warnings.
 
 use crate::folder::Folder;
 
-/// Left, top, right and bottom of all that a drawing shows, user units.
+/// Left, top, right and bottom of everything in a drawing, in user units.
 fn extent(svg: &str) -> [f64; 4] {
     let tree = usvg::Tree::from_str(svg, &usvg::Options::default()).expect("valid SVG");
     let bounds = tree.root().abs_bounding_box();
@@ -12,6 +12,7 @@ fn extent(svg: &str) -> [f64; 4] {
     [bounds.left(), bounds.top(), bounds.right(), bounds.bottom()].map(|side| f64::from(side) * unit)
 }
 
+/// Whether two lengths differ by less than 0.02.
 fn near(a: f64, b: f64) -> bool {
     (a - b).abs() < 0.02
 }
@@ -91,7 +92,7 @@ fn a_parallel_record_takes_a_scale_and_a_middle() {
     folder
         .ligne("draw cubes.obj b.svg --background none --camera front.json --page 100x100mm --scale 10:1 --centre 1,1,0")
         .done();
-    // The right upper corner of the base is in the middle of the page.
+    // The upper right corner of the base is at the centre of the page.
     let [left, _, right, bottom] = extent(&folder.text("b.svg"));
     assert!(near(left, 30.0) && near(right, 50.0) && near(bottom, 70.0), "{left} {right} {bottom}");
     folder.ligne("draw cubes.obj c.svg --save-camera eye.json").done();
@@ -122,7 +123,7 @@ fn what_a_person_would_wonder_about_is_told() {
     ] {
         let run = folder.ligne(&format!("draw cubes.obj a.svg {options}"));
         assert!(run.done().err.contains(told), "{options}: {run:?}");
-        // Under --strict it is an error.
+        // With `--strict`, the warning is an error.
         folder.ligne(&format!("draw cubes.obj a.svg --strict {options}")).refused(told);
     }
     let run = folder.ligne("draw cubes.obj a.svg -o a.png --page A6");

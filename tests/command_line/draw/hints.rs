@@ -2,7 +2,7 @@
 
 use crate::folder::Folder;
 
-/// A box from one corner to another as OBJ, as an object with this name; `first` is the number of its first vertex.
+/// A box between two opposite corners, as an OBJ object. `first` is the index of its first vertex.
 fn block(name: &str, low: [f64; 3], high: [f64; 3], first: usize) -> String {
     let mut text = format!("o {name}\n");
     for corner in 0..8 {
@@ -17,6 +17,7 @@ fn block(name: &str, low: [f64; 3], high: [f64; 3], first: usize) -> String {
     text
 }
 
+/// The notes that a run prints, joined by newlines.
 fn notes(folder: &Folder, line: &str) -> String {
     let run = folder.ligne(line);
     run.done();

@@ -1,4 +1,4 @@
-//! `ligne draw`: what is framed, written and reported, for one model, many, and several views.
+//! Tests of `ligne draw`: single models, batches, several views, framing and reports.
 
 mod batch;
 mod contact_sheets;

@@ -1,4 +1,4 @@
-//! Models cut open and taken apart by `ligne draw`, and sheets to start from.
+//! Sections and exploded views of `ligne draw` and `ligne animate`, and `ligne page --new sheet`.
 
 use crate::folder::Folder;
 
@@ -16,14 +16,14 @@ fn sections_are_hatched_and_closed() {
     folder.ligne("draw cubes.obj one.svg --view front --section z --uncut knob").done();
     let svg = folder.text("one.svg");
     assert!(hatched(&svg, "base") && !hatched(&svg, "knob"), "{svg}");
-    // Both sides of a plane may go.
+    // A sign selects the side that is removed. Every notation of a plane is accepted.
     for plane in ["x=0.5", "+x=0.5", "-x=0.5", "y=20%", "x=1mm", "normal:1,1,0@0.2"] {
         folder.ligne(&format!("draw cubes.obj a.svg --section {plane}")).done();
     }
     assert_ne!(folder.text("a.svg"), svg);
 }
 
-/// The middle of the outlines of a drawing.
+/// Centre of the bounding box around the silhouettes of a drawing.
 fn middle(folder: &Folder, name: &str) -> [f64; 2] {
     use ligne::kurbo::Shape as _;
     let svg = folder.text(name);
@@ -46,14 +46,14 @@ fn the_frame_holds_what_a_section_leaves() {
          f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
     );
     let centred = |[x, y]: [f64; 2]| (x - 500.0).abs() < 1.0 && (y - 500.0).abs() < 1.0;
-    // Along x two thirds of the bar go; from the front its left third is left.
+    // `+x=3` removes two thirds of the bar. The remaining third is centred in the frame.
     folder.ligne("draw bar.obj a.svg --view front --up z --section +x=3 --style technical").done();
     assert!(centred(middle(&folder, "a.svg")), "{:?}", middle(&folder, "a.svg"));
     folder
         .ligne("draw bar.obj b.svg --view front --up z --section +x=3 --style technical --frame all")
         .done();
     assert!(!centred(middle(&folder, "b.svg")), "{:?}", middle(&folder, "b.svg"));
-    // A record of the view is kept as it is.
+    // A stored camera is not framed again.
     folder.ligne("draw bar.obj whole.svg --view front --up z --save-camera camera.json").done();
     folder.ligne("draw bar.obj c.svg --camera camera.json --section +x=3 --style technical").done();
     assert!(!centred(middle(&folder, "c.svg")), "{:?}", middle(&folder, "c.svg"));

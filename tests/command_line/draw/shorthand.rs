@@ -1,11 +1,11 @@
-//! Short forms and renamed options: `ligne MODEL`, several outputs, clips by pattern, and the older spellings.
+//! Short forms and older option names: `ligne MODEL`, several outputs, and animations selected by pattern.
 
 use crate::folder::{CUBES, Folder, Run};
 
-/// A model with one clip, `lift`.
+/// A model with one animation, `lift`.
 const CRANE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/crane.glb");
 
-/// A node that moves, with two clips, as glTF.
+/// A glTF model with a moving node and two animations.
 fn two_clips() -> String {
     let positions: Vec<u8> =
         [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0].iter().flat_map(|x| x.to_le_bytes()).collect();
@@ -36,6 +36,7 @@ fn two_clips() -> String {
     )
 }
 
+/// Checks that two files have the same text.
 fn same(folder: &Folder, one: &str, other: &str) {
     assert_eq!(folder.text(one), folder.text(other), "{one} and {other}");
 }
@@ -50,7 +51,7 @@ fn a_model_as_the_first_word_is_drawn() {
     same(&folder, "long.svg", "short.svg");
     same(&folder, "long.svg", "first.svg");
     assert_eq!(folder.names(), ["cubes.obj", "cubes.svg", "first.svg", "long.svg", "short.svg"]);
-    // ligne.toml and variables apply as for `ligne draw`.
+    // `ligne.toml` applies as it does for `ligne draw`.
     folder.write("ligne.toml", "[draw]\nstyle = 'toon'\n");
     folder.ligne("cubes.obj toon.svg --view iso").done();
     assert_ne!(folder.text("toon.svg"), folder.text("long.svg"));

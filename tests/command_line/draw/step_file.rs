@@ -1,19 +1,20 @@
-//! A tiny STEP file, and the GLB that a converter would make of it.
+//! A small STEP file, and the GLB file that a converter would return for it.
 
 use std::fmt::Write;
 
-/// A box of a STEP file: its product's name, its largest corner (the smallest is the origin), and its colour.
+/// A box in a STEP file: product name, corner opposite to the origin, and colour.
 pub struct StepBox {
     pub name: &'static str,
     pub size: [f64; 3],
     pub colour: [f64; 3],
 }
 
-/// The lines of a file; each gets the next number.
+/// The entities of a STEP file, numbered from 1.
 #[derive(Default)]
 struct Lines(Vec<String>);
 
 impl Lines {
+    /// Appends an entity and returns its number, such as `#7`.
     fn add(&mut self, text: &str) -> String {
         let number = format!("#{}", self.0.len() + 1);
         self.0.push(format!("{number}={text};"));
@@ -24,11 +25,13 @@ impl Lines {
         self.add(&format!("CARTESIAN_POINT('',({x:?},{y:?},{z:?}))"))
     }
 
+    /// A direction along an axis. The sign of `length` is the sign of the direction.
     fn axis(&mut self, axis: usize, length: f64) -> String {
         let [x, y, z] = [0, 1, 2].map(|other| if other == axis { length } else { 0.0 });
         self.add(&format!("DIRECTION('',({x:?},{y:?},{z:?}))"))
     }
 
+    /// A box between the origin and `size`, as a boundary representation.
     fn solid(&mut self, size: [f64; 3]) -> String {
         let corner = |corner: usize| [0, 1, 2].map(|a| if corner >> a & 1 == 1 { size[a] } else { 0.0 });
         let points: Vec<String> = (0..8).map(|i| self.point(corner(i))).collect();
@@ -78,6 +81,7 @@ impl Lines {
         self.add(&format!("MANIFOLD_SOLID_BREP('',{shell})"))
     }
 
+    /// Assigns a colour to a solid.
     fn coloured(&mut self, solid: &str, [r, g, b]: [f64; 3]) -> String {
         let mut last = self.add(&format!("COLOUR_RGB('',{r:?},{g:?},{b:?})"));
         for around in [
@@ -93,7 +97,7 @@ impl Lines {
         self.add(&format!("STYLED_ITEM('',({last}),{solid})"))
     }
 
-    /// A product with its shape.
+    /// A product and its shape. Returns the numbers of the definition and of the representation.
     fn product(
         &mut self,
         name: &str,
@@ -111,7 +115,7 @@ impl Lines {
     }
 }
 
-/// An assembly `stand` of boxes; lengths are in mm, or in inches.
+/// An assembly `stand` of boxes, with lengths in mm or in inches.
 pub fn step(boxes: &[StepBox], in_inches: bool) -> String {
     let mut lines = Lines::default();
     let application = lines.add("APPLICATION_CONTEXT('automotive design')");
@@ -144,7 +148,7 @@ pub fn step(boxes: &[StepBox], in_inches: bool) -> String {
         styled.push(lines.coloured(&solid, *colour));
         let items = [frame.clone(), solid];
         let [part, of_part] = lines.product(name, contexts, &items, "ADVANCED_BREP_SHAPE_REPRESENTATION");
-        // Without a name of its own, as many programs write it.
+        // Many programs leave the name of the occurrence empty.
         let occurrence = format!("NEXT_ASSEMBLY_USAGE_OCCURRENCE('NAUO{number}','','',{stand},{part},$)");
         let occurrence = lines.add(&occurrence);
         let shape = lines.add(&format!("PRODUCT_DEFINITION_SHAPE('','',{occurrence})"));
@@ -169,7 +173,8 @@ pub fn step(boxes: &[StepBox], in_inches: bool) -> String {
     text + "ENDSEC;\nEND-ISO-10303-21;\n"
 }
 
-/// A GLB as Open CASCADE writes it: a box of this size in metres, its node called by a reference below the product's node.
+/// A box of this size in metres, as GLB in the layout of Open CASCADE: the mesh is in a child of the
+/// product's node, and that child is named by a reference.
 pub fn glb(product: &str, size: [f32; 3]) -> Vec<u8> {
     let corner = |corner: usize| [0, 1, 2].map(|axis| if corner >> axis & 1 == 1 { size[axis] } else { 0.0 });
     let positions = (0..8).flat_map(corner).flat_map(f32::to_le_bytes);

@@ -1,4 +1,4 @@
-//! STEP models: which converter runs, how often, within which bounds, and that units, names and colours survive.
+//! STEP models: converter choice, cache and limits, and the sizes, names and colours of the results.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -11,18 +11,18 @@ const BLOCK: StepBox = StepBox { name: "block", size: [40.0, 30.0, 20.0], colour
 /// A box of 10 x 10 x 60 mm, blue.
 const POST: StepBox = StepBox { name: "post", size: [10.0, 10.0, 60.0], colour: [0.0, 0.0, 1.0] };
 
-/// A folder with `part.step`, and a converter in `bin/convert` that makes a box of 40 x 30 x 20 mm of everything. Of each call it
-/// writes its name and the tolerance to `calls`.
+/// A folder with `part.step`, and a converter `bin/convert` that returns the same 40 x 30 x 20 mm box
+/// for every input. The converter appends its name and the tolerance of each call to `calls`.
 fn with_part(name: &str) -> Folder {
     let folder = Folder::new(name);
     folder.write("part.step", &step(&[BLOCK, POST], false));
-    // 40 mm along x, 20 mm up, 30 mm towards the viewer, as glTF has it.
+    // glTF has y up: 40 mm along x, 20 mm up, 30 mm towards the viewer.
     std::fs::write(folder.path("box.glb"), glb("block", [0.04, 0.02, 0.03])).expect("a model");
     script(&folder, "bin/convert", "cp \"$home/box.glb\" \"$2\"");
     folder
 }
 
-/// A program of the folder: `body` is what it does once the call is noted.
+/// Writes an executable shell script. It logs the call to `calls`, then runs `body`.
 fn script(folder: &Folder, name: &str, body: &str) {
     let home = folder.path("");
     folder.write(
@@ -40,11 +40,12 @@ fn script(folder: &Folder, name: &str, body: &str) {
     }
 }
 
+/// The path as text.
 fn text(path: PathBuf) -> String {
     path.to_string_lossy().into_owned()
 }
 
-/// Runs `ligne` with a cache of the folder, no other programs than those in `bin`, and further variables.
+/// Runs `ligne` with further variables. Its cache is in the folder, and `PATH` holds `bin` only.
 fn run(folder: &Folder, variables: &[(&str, &str)], line: &str) -> Run {
     let (cache, path) = (text(folder.path("cache")), text(folder.path("bin")));
     let all = [&[("LIGNE_CACHE", &*cache), ("PATH", &*path)], variables].concat();
@@ -53,12 +54,12 @@ fn run(folder: &Folder, variables: &[(&str, &str)], line: &str) -> Run {
 
 const CONVERT: [(&str, &str); 1] = [("LIGNE_STEP_CONVERTER", "bin/convert")];
 
-/// The calls of converters so far.
+/// The logged converter calls, in order.
 fn calls(folder: &Folder) -> Vec<String> {
     std::fs::read_to_string(folder.path("calls")).unwrap_or_default().lines().map(str::to_owned).collect()
 }
 
-/// The box around the ink of a drawing.
+/// Width and height of the bounding box around all paths of an SVG drawing.
 fn extent(svg: &str) -> [f64; 2] {
     use ligne::kurbo::Shape as _;
     let paths = svg.split(" d=\"").skip(1).filter_map(|rest| rest.split('"').next());
@@ -94,7 +95,7 @@ fn results_are_cached_by_content_tolerance_and_converter() {
     let draw = |line: &str| run(&folder, &CONVERT, &format!("draw {line} - --quiet")).done().out.clone();
     let first = draw("part.step");
     assert_eq!(calls(&folder), ["bin/convert 0.1"]);
-    // By content, and not by name or time.
+    // The cache key uses the content, not the file name or time.
     folder.write("copy.stp", &folder.text("part.step"));
     assert_eq!(draw("copy.stp"), first.replace("<title>part<", "<title>copy<"));
     assert_eq!(draw("part.step --step-tolerance 0.1mm"), first);
@@ -107,11 +108,11 @@ fn results_are_cached_by_content_tolerance_and_converter() {
     script(&folder, "bin/other", "cp \"$home/box.glb\" \"$2\"");
     draw("part.step --step-converter other");
     assert_eq!(calls(&folder)[3..], ["bin/other 0.1"]);
-    // A converter that was changed converts again.
+    // A changed converter runs again.
     script(&folder, "bin/other", "cp \"$home/box.glb\" \"$2\"; exit 0");
     draw("part.step --step-converter other");
     assert_eq!(calls(&folder).len(), 5);
-    // Damaged entries are made anew, and nothing else is left in the folder.
+    // Damaged entries are replaced, and the cache folder holds nothing else.
     let entries = folder.names_in("cache/step");
     assert!(entries.len() == 5 && entries.iter().all(|name| name.ends_with(".step-glb")), "{entries:?}");
     for name in &entries {
@@ -176,7 +177,7 @@ fn converters_are_found_in_order_and_their_lack_names_the_remedy() {
     let refused = run(&folder, &[], "draw part.step");
     refused.refused("part.step: STEP is read through a converter, and none was found; install one with `pip install cascadio`");
     assert!(!folder.names().contains(&"part.svg".to_owned()));
-    // Interpreters are called with a script; the model and the result come after it.
+    // A Python or Node converter gets script arguments first, then the model and the result.
     script(&folder, "bin/python3", "exit 91");
     run(&folder, &[], "draw part.step").refused("`pip install cascadio`");
     run(&folder, &[], "draw part.step --step-converter cascadio").refused("cascadio (");
@@ -242,7 +243,7 @@ fn what_a_converter_does_wrong_is_reported() {
     assert_eq!(calls(&folder).len(), 3);
 }
 
-/// A Python that has cascadio: that of the variable `LIGNE_STEP_CONVERTER`, or `python3`.
+/// A Python with cascadio: that of the variable `LIGNE_STEP_CONVERTER`, or `python3`.
 fn cascadio() -> Option<String> {
     let python = std::env::var("LIGNE_STEP_CONVERTER").unwrap_or_else(|_| "python3".to_owned());
     let probe = Command::new(&python).args(["-c", "import cascadio"]).output();

@@ -1,4 +1,4 @@
-//! Drawings for web pages: hot-spots, what readers of screens are told, ink of the page's own colour, `.svgz`.
+//! Drawings for web pages: hot-spots, titles for screen readers, ink in the text colour, and `.svgz`.
 
 use std::process::Command;
 
@@ -6,7 +6,7 @@ use ligne::diff::canonical_svg;
 
 use crate::folder::Folder;
 
-/// The areas of a drawing and what is left without them.
+/// The hot-spot layer of a drawing, and the drawing without that layer.
 fn parted(svg: &str) -> (&str, String) {
     let begin = svg.find("<g id=\"hotspots\"").expect("hot-spots");
     let end = begin + svg[begin..].find("</g>\n").expect("an end") + 5;
@@ -32,7 +32,7 @@ fn hotspots_are_a_layer_on_top_and_change_nothing_else() {
             assert_eq!(layer.matches(&format!("<title>{part}</title>")).count(), 1, "{style}");
         }
         assert_eq!(canonical_svg(&spots, None).as_deref(), Ok(spots.as_str()), "{style}");
-        // They are nothing that one sees.
+        // Hot-spots are invisible: they change neither the comparison nor the pixels.
         folder.ligne("diff plain.svg spots.svg").done();
         draw("plain.png", "");
         draw("spots.png", "--hotspots");
@@ -64,7 +64,7 @@ fn the_browser_finds_the_part_under_each_point() {
         return;
     };
     let page = String::from_utf8_lossy(&output.stdout);
-    // The front view: the base below, 2 wide; the knob on a gap above it, 1 wide.
+    // Front view: the base, 2 wide, is at the bottom. The knob, 1 wide, is above a gap.
     assert!(page.contains(">base knob base none none</p>"), "{}", &page[page.len().saturating_sub(600)..]);
 }
 
@@ -82,7 +82,7 @@ fn hotspots_of_a_drawing_with_a_title_are_buttons() {
     assert!(!plain.contains("role=") && !plain.contains("tabindex="));
     for more in ["--title Cubes", "--desc Cubes --id-prefix x-", "--title Cubes --group part"] {
         let svg = drawn(more);
-        // What is in a picture has no role: the drawing is a group.
+        // An element inside `role="img"` cannot have a role, so the drawing has the role `group`.
         assert!(
             svg.contains(" role=\"group\" aria-labelledby=\"") && !svg.contains("role=\"img\""),
             "{more}"
@@ -97,12 +97,12 @@ fn hotspots_of_a_drawing_with_a_title_are_buttons() {
     }
 }
 
-/// The script of the documentation answers clicks and keys in drawings whose ids have a prefix.
+/// The script in the documentation handles clicks and keys in drawings with id prefixes.
 #[test]
 fn the_recipe_of_the_documentation_works_with_prefixes() {
     let folder = Folder::with_cubes("hotspots-recipe");
     let documentation = include_str!("../../../docs/how-to/web.md");
-    // The page is given as its beginning and its end; drawings stand between them.
+    // The page is given as its head and its tail. The drawings go between them.
     let part = |name: &str| {
         let fence = format!("```html file={name}\n");
         let begin = documentation.find(&fence).expect("a part of the page") + fence.len();
@@ -196,7 +196,7 @@ fn ink_takes_the_colour_of_the_text_around_it() {
         assert!(current.contains("=\"currentColor\""), "{style}");
         assert!(!current.contains(&format!("=\"{ink}\"")), "{style}");
         let back = current.replace("=\"currentColor\"", &format!("=\"{ink}\""));
-        // Black is what fills have anyway.
+        // Black is the default fill, so the attribute may be missing.
         let without = |svg: &str| svg.replace(" fill=\"#000\"", "");
         assert_eq!(without(&back), without(&plain), "{style}");
     }

@@ -1,7 +1,8 @@
-//! Advice in errors about style keys and options: suggestions, both spellings, and messages in plain words.
+//! Errors about style keys and options: suggestions, both spellings of "colour", and no internal type names.
 
 use crate::folder::{Folder, Run};
 
+/// Draws the cubes with one style key set.
 fn draw(folder: &Folder, set: &str) -> Run {
     folder.run(&["draw", "cubes.obj", "a.svg", "--set", set])
 }
@@ -60,7 +61,7 @@ fn unknown_options_lead_to_keys() {
         folder.run(&["draw", "cubes.obj", "a.svg", option]).refused(wanted);
         folder.run(&["animate", "cubes.obj", "a.svg", option]).refused(wanted);
     }
-    // Other commands have no styles, and other words no keys.
+    // Commands without styles and unknown words get no such suggestion.
     let plain = |words: &[&str]| assert!(!folder.run(words).err.contains("key of the style"), "{words:?}");
     plain(&["info", "cubes.obj", "--hidden"]);
     plain(&["draw", "cubes.obj", "a.svg", "--veiw"]);
@@ -82,7 +83,7 @@ fn american_spelling_is_accepted_everywhere() {
     let centred = svg("");
     folder.write("ligne.toml", "");
     assert_eq!(svg("--center 0,0,0 --page A5 --scale 10:1"), centred);
-    // Case files and page files.
+    // Test cases and page files.
     folder.write("cases/a.toml", "model = '../cubes.obj'\nset = { pen.color = '#ff0000' }\n");
     folder.ligne("test cases --bless").done();
     assert!(folder.text("cases/a.svg").contains("#ff0000") || folder.text("cases/a.svg").contains("#f00"));

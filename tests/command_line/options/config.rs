@@ -1,8 +1,8 @@
-//! `ligne.toml` and environment variables: who wins, what is refused, and where errors point.
+//! `ligne.toml` and environment variables: same bytes as options, precedence, and positions of errors.
 
 use crate::folder::{Folder, Run};
 
-/// Draws with options in one folder and configured in another: the bytes must be the same.
+/// Checks that keys in `ligne.toml` and options on the command line give the same bytes.
 fn same_as_typed(name: &str, config: &str, typed: &str) {
     let folder = Folder::with_cubes(name);
     folder.ligne(&format!("draw cubes.obj typed.svg {typed}")).done();
@@ -49,7 +49,7 @@ fn keys_mean_what_options_mean() {
     }
 }
 
-/// Draws the cubes, with variables and words; the text of the drawing.
+/// The SVG text of the cubes, drawn with these variables and options.
 fn drawn(folder: &Folder, variables: &[(&str, &str)], words: &str) -> String {
     folder.run_with(variables, &format!("draw cubes.obj {words} - --quiet")).done().out.clone()
 }
@@ -73,7 +73,7 @@ fn a_flag_wins_over_a_variable_and_that_over_the_file() {
     folder
         .run_with(&[("LIGNE_STYLE", "inc")], "draw cubes.obj a.svg")
         .refused("LIGNE_STYLE: there is no style `inc`");
-    // A variable that a flag displaces is not looked at.
+    // A variable that an option overrides is not validated.
     folder.run_with(&[("LIGNE_THREADS", "many")], "draw cubes.obj a.svg --threads 1").done();
 }
 
@@ -129,7 +129,7 @@ fn the_file_is_found_upward_and_its_paths_are_its_own() {
     assert_eq!(folder.text("above.svg"), folder.text("deep/er/below.svg"));
     assert!(folder.text("above.svg").contains("viewBox=\"0 0 60 40\""));
     assert!(folder.text("above.svg").contains("data-axis"), "a brush draws outlines");
-    // The nearest one counts, alone.
+    // Only the nearest file applies.
     folder.write("deep/ligne.toml", "");
     below(&["draw", "cubes.obj", "plain.svg"]).done();
     assert!(folder.text("deep/er/plain.svg").contains("viewBox=\"0 0 1000 1000\""));
@@ -174,11 +174,11 @@ fn faults_are_shown_with_file_line_and_caret() {
         let run = folder.ligne("draw cubes.obj a.svg");
         run.refused(&format!("ligne.toml: {wanted}"));
     }
-    // What is wrong inside a sheet is told of the sheet.
+    // Errors inside a style sheet name the style sheet.
     folder.write("ligne.toml", "[draw]\nstyle = 'sheet.toml'\n");
     folder.ligne("draw cubes.obj a.svg").refused("error: sheet.toml: line 1: ");
     folder.ligne("draw cubes.obj a.svg --no-config").done();
-    // Help and other commands need no sound file.
+    // Help and `ligne info` work with a broken file.
     folder.ligne("draw --help").done();
     folder.ligne("info cubes.obj").done();
 }
@@ -194,7 +194,7 @@ fn comparisons_take_the_tolerance_and_how_models_are_drawn() {
     assert_eq!(status("a.svg b.svg"), Some(0));
     assert_eq!(status("a.svg b.svg --no-config"), Some(1));
     assert_eq!(status("a.svg b.svg --tolerance 0.1px"), Some(1));
-    // The drawing is compared with the model, drawn as the project draws; what differs is said aloud.
+    // `[draw]` sets how the model is drawn for the comparison. `quiet` does not hide the findings.
     let draw = "[draw]\nquiet = true\nazimuth = 30\nsize = 300\n";
     folder.write("ligne.toml", draw);
     assert_eq!(status("a.svg cubes.obj"), Some(0));

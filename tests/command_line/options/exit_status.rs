@@ -1,4 +1,4 @@
-//! The command line by itself: help, exit status, what is refused and what stays as it was.
+//! Help, exit status and refused calls of `ligne`; after an error all files are as before.
 
 use crate::folder::Folder;
 

@@ -1,4 +1,4 @@
-//! Options, `ligne.toml`, style keys, exit status, and advice in errors.
+//! Options, `ligne.toml`, style keys, exit status, and suggestions in errors.
 
 mod advice;
 mod config;

@@ -1,4 +1,4 @@
-//! Style keys from the terminal: lists, complete sheets, the reference, completions, and numbers without a unit.
+//! Style keys on the command line: `ligne styles --keys`, complete sheets, completions and missing units.
 
 use std::fs;
 use std::path::Path;
@@ -19,7 +19,7 @@ fn keys_are_listed_with_type_default_and_values() {
     let lines: Vec<&str> = pens.lines().collect();
     assert_eq!(lines.len(), 17, "{pens}");
     assert!(lines[0].starts_with("pen.contour.width ") && lines[0].contains(" as pen "), "{pens}");
-    // Columns are aligned.
+    // All rows align their columns.
     let column = |line: &&str| line.find("length");
     assert!(lines.iter().all(|line| column(line) == column(&lines[0])), "{pens}");
     let all = folder.ligne("styles --keys").done().out.clone();
@@ -90,7 +90,7 @@ fn the_reference_of_style_keys_is_current() {
     );
     let words = page.split_whitespace().count();
     assert!(words < 7000, "{words} words");
-    // Every key is in it, those of single pens by the line that names their tables.
+    // The page contains every key. One line covers the keys of all single pens.
     for key in
         ["`pen.swell.taper_to`", "`pen.silhouette`", "`light.sources[].falloff`", "`hatching.layer[].lpi`"]
     {
@@ -108,7 +108,7 @@ fn shells_complete_the_keys_of_set() {
         }
         assert!(!script.contains("rule[].pen.width="), "{shell}");
     }
-    // Where there is a bash, it completes a key, and writes no space behind it.
+    // In bash, a completed key is not followed by a space.
     let script = folder.ligne("completions bash").out;
     assert!(script.contains("--set)\n                    compopt -o nospace"));
     folder.write("ligne.bash", &script);
@@ -118,7 +118,7 @@ fn shells_complete_the_keys_of_set() {
     if let Ok(output) = bash {
         assert_eq!(String::from_utf8_lossy(&output.stdout).trim(), "lines.crease_deg=");
     }
-    // The help does not list them.
+    // The help does not list style keys.
     assert!(!folder.ligne("draw --help").done().out.contains("pen.silhouette.hand"));
 }
 
@@ -139,7 +139,7 @@ fn bare_lengths_on_a_page_in_mm_raise_one_warning() {
     let two = warnings("--page A4 --set pen.width=0.35 --set pen.contour.width=1 --set pen.dash=[3,2]");
     assert_eq!(two.len(), 1, "{two:?}");
     assert!(two[0].ends_with("; so are pen.contour.width and 1 more"), "{two:?}");
-    // Not in px, not with a unit, not for numbers that are no lengths, not for 0.
+    // No warning for drawings in px, for values with a unit, for numbers that are not lengths, or for 0.
     for words in [
         "--set pen.width=0.35",
         "--page A4 --set pen.width=0.35mm",
@@ -151,7 +151,7 @@ fn bare_lengths_on_a_page_in_mm_raise_one_warning() {
     ] {
         assert_eq!(warnings(words), [""; 0], "{words}");
     }
-    // Sheets of one's own, but not numbers that were copied from a built-in one, and not defaults.
+    // User sheets raise the warning. Numbers equal to those of a built-in style do not.
     folder.write("mine.toml", "extends = 'ink'\n[pen.contour]\nwidth = 0.5\n");
     assert!(warnings("--page A4 --style mine.toml")[0].contains("pen.contour.width: 0.5 is px"));
     for name in ["ink", "pencil", "comic"] {
@@ -161,7 +161,8 @@ fn bare_lengths_on_a_page_in_mm_raise_one_warning() {
             assert_eq!(warnings("--page A4 --style copy.toml"), [""; 0], "{name} {all}");
         }
     }
-    // Warnings are errors under --strict, are said once for many models, and come from ligne.toml and page files as well.
+    // With `--strict` the warning is an error. It is raised once per call.
+    // Settings in `ligne.toml` and in page files raise it, too.
     folder
         .ligne("draw cubes.obj b.svg --page A4 --set pen.width=0.35 --strict")
         .refused("pen.width: 0.35 is px");

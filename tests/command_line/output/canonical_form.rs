@@ -1,15 +1,16 @@
-//! `ligne fmt`, and what `ligne draw` writes in its form.
+//! `ligne fmt`, and the canonical form of SVG files that `ligne draw` writes.
 
 use std::fs;
 
 use crate::folder::Folder;
 use ligne::diff::canonical_svg;
 
+/// An SVG document of 40 x 40 px with this content.
 fn svg(inside: &str) -> String {
     format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"40\" height=\"40\">{inside}</svg>")
 }
 
-/// Lines that would change places and begin elsewhere, and the same in the form.
+/// Two lines out of canonical order and direction, then the same lines in canonical form.
 const TWO: &str = "<path d=\"M9 20L1 20\"/><path d=\"M9 10L1 10\"/>";
 const FORM: &str = "<path d=\"M1 10h8\"/><path d=\"M1 20h8\"/>";
 
@@ -57,7 +58,7 @@ fn the_command_rewrites_checks_and_refuses() {
     folder.ligne("fmt a.svg -o c.svg").done();
     assert_eq!((folder.text("a.svg"), folder.text("c.svg")), (before.clone(), after.clone()));
 
-    // All or none.
+    // One bad file leaves all files unchanged.
     folder.write("bad.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"><path d=\"M1 1");
     folder.ligne("fmt a.svg bad.svg").refused("bad.svg: line 1");
     folder.ligne("fmt --check a.svg bad.svg").refused("bad.svg");

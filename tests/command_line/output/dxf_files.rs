@@ -1,4 +1,4 @@
-//! `ligne draw MODEL OUT.dxf`: releases, lengths, what is left out, and what other programs say of the files.
+//! DXF output of `ligne draw`: releases, lengths and dropped fills, audited with ezdxf.
 
 use std::process::Command;
 
@@ -15,14 +15,14 @@ fn releases_and_lengths_are_as_asked() {
     assert_ne!(folder.text("a.dxf"), modern);
     folder.ligne("draw cubes.obj c.dxf --view iso --threads 1").done();
     assert_eq!(folder.read("a.dxf"), folder.read("c.dxf"));
-    // In perspective nothing has the lengths of the model.
+    // A perspective drawing has no true lengths.
     let run = folder.ligne("draw cubes.obj d.dxf --dxf-length model");
     assert_eq!(run.status, Some(2));
     assert!(run.err.contains("--ortho"), "{}", run.err);
     assert!(!folder.path("d.dxf").exists());
 }
 
-/// Drawings of one part and of all, in lengths of the model, lie over each other.
+/// Drawings in model lengths line up: lines of a part have the same coordinates as in the whole model.
 #[test]
 fn lengths_of_the_model_are_from_its_origin() {
     let folder = Folder::with_cubes("dxf-origin");
@@ -56,7 +56,7 @@ fn what_is_left_out_is_told() {
     assert!(!run.err.contains("warning"), "{}", run.err);
 }
 
-/// A reader that many programs use finds nothing to mend.
+/// The audit of ezdxf finds no errors and fixes nothing.
 #[test]
 fn ezdxf_finds_no_error() {
     let folder = Folder::with_cubes("dxf-audit");

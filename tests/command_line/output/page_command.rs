@@ -1,5 +1,4 @@
-//! `ligne page`: pages are drawn alike on any number of threads, wrong ones are told with line and caret, and page files to start from
-//! draw at once.
+//! `ligne page`: equal bytes for any thread count, errors with line and caret, and new page files that draw.
 
 use crate::folder::Folder;
 
@@ -19,6 +18,7 @@ break = ['a/base']
 sound = [{ text = 'Clack', size = 6 }]
 ";
 
+/// A folder with the cubes and `page.toml`.
 fn with_page(name: &str) -> Folder {
     let folder = Folder::with_cubes(name);
     folder.write("page.toml", PAGE);
@@ -117,7 +117,7 @@ fn pages_are_compared_panel_by_panel_and_kept_under_test() {
     folder.ligne("page page.toml new.svg --quiet").done();
     let run = folder.ligne("diff old.svg new.svg --all");
     let told = &run.ends(1).says(" of `b/base` in `panel-2` ").out;
-    // The other panel is the same.
+    // The other panel is unchanged.
     assert!(!told.contains("`panel-1`"), "{told}");
     folder.write("cases/page.toml", "page-file = '../page.toml'\nview = 'iso'\n");
     folder.ligne("test cases").ends(2).says("a page file already contains all other settings");

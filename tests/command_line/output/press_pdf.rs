@@ -1,10 +1,11 @@
-//! `ligne draw MODEL OUT.pdf` for presses and archives: inks, plates, marks, standards, and what contradicts itself.
+//! PDF for presses and archives: inks, separations, marks, PDF/X and PDF/A, and contradicting options.
 
 use crate::folder::Folder;
 
-/// The profile of a press, which comes with Ghostscript.
+/// A CMYK profile that comes with Ghostscript.
 const PRESS: &str = "/usr/share/color/icc/ghostscript/default_cmyk.icc";
 
+/// Whether the bytes of a file contain a text.
 fn holds(folder: &Folder, name: &str, what: &str) -> bool {
     folder.read(name).windows(what.len()).any(|part| part == what.as_bytes())
 }

@@ -1,4 +1,4 @@
-//! The glTF reader, for text and GLB alike.
+//! Fuzzing of the glTF and GLB reader: any bytes give an error, or finite positions with valid indices.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,4 +1,5 @@
-//! The OBJ reader, with the same bytes as material library.
+//! Fuzzing of the OBJ reader: any bytes give an error, or finite positions with valid indices.
+//! The same bytes are also the material library.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

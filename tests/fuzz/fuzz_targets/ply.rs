@@ -1,4 +1,4 @@
-//! The PLY reader.
+//! Fuzzing of the PLY reader: any bytes give an error, or finite positions with valid indices.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

@@ -1,4 +1,4 @@
-//! The reader of drawings that are compared, and the comparison of what was read with an empty page.
+//! Fuzzing of `ligne::diff`: any readable drawing equals itself and can be compared with an empty page.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

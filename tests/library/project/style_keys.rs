@@ -1,19 +1,19 @@
-//! The table of style keys: it lists every key that style sheets accept, and states what the program does.
+//! The table of style keys matches the parser: keys, allowed values, defaults and texts.
 
 use std::collections::BTreeSet;
 
 use ligne::style::{KeyType, Style, StyleKey};
 
-/// A word that is no key and near to none.
+/// A word that is not a key and not similar to one.
 const NONE: &str = "qqqqqqqqqqqq";
 
-/// Keys that are accepted only to say where they belong.
+/// Keys without a row in the table: they are accepted only to report where they belong.
 const NOT_LISTED: [&str; 1] = ["fills.material[].highlight.near"];
 
-/// A sheet that sets a key, with the keys around it that it needs.
+/// A style sheet that sets one key, with the other keys that its table requires.
 fn sheet(path: &str, value: &str) -> String {
-    // Tables that need more than the key itself: the end of their path, the keys in question (all, if none is named), and the
-    // fields that stand beside them.
+    // Tables that require more keys: the end of the table's path, the keys that this entry applies to
+    // (empty: all), and the required fields.
     const BRUSH: &str = "path = \"M0 0L10 1L0 2Z\"";
     let needs: [(&str, &[&str], &str); 14] = [
         ("fills.material[].gooch", &[], "enabled = true"),
@@ -41,7 +41,7 @@ fn sheet(path: &str, value: &str) -> String {
         let (name, is_list) = (part.trim_end_matches("[]"), part.ends_with("[]"));
         let written = if is_list { format!("[{value}]") } else { value };
         let holder = parts.join(".");
-        // The shapes of turns need what a brush needs.
+        // Turn shapes require the same fields as a brush.
         let table = holder.trim_end_matches(".left").trim_end_matches(".right");
         let is_turn = table != holder;
         let fits = |(end, names, _): &&(&str, &[&str], &str)| {
@@ -51,7 +51,7 @@ fn sheet(path: &str, value: &str) -> String {
         let fields = if is_turn && fields.contains("mode") { BRUSH } else { fields };
         let others =
             fields.split(", ").filter(|field| !field.is_empty() && !field.starts_with(&format!("{name} =")));
-        // Commas within a list are written as semicolons above.
+        // Semicolons stand for commas inside lists, because `, ` separates the fields.
         let others: String = others.map(|field| format!("{}, ", field.replace(';', ","))).collect();
         if parts.is_empty() {
             return format!("{name} = {written}\n");
@@ -61,21 +61,21 @@ fn sheet(path: &str, value: &str) -> String {
     value
 }
 
-/// The first line of what is wrong with a sheet; `None` if nothing is.
+/// The first line of the error of a sheet, or `None` if the sheet is valid.
 fn fault(text: &str) -> Option<String> {
     let error = Style::from_toml(text).err()?;
-    // Files that a sheet names are not there; the sheet was understood.
+    // Files that a sheet names do not exist, so `cannot read` means that the sheet is valid.
     let is_unread = error.to_string().contains("cannot read");
     (!is_unread).then(|| error.to_string().lines().next().unwrap_or_default().to_owned())
 }
 
-/// The words in back quotes or behind "known keys:".
+/// The words after a phrase such as `known keys: ` in an error.
 fn known(fault: &str, list: &str) -> Vec<String> {
     let Some((_, words)) = fault.split_once(list) else { return Vec::new() };
     words.split(", ").map(|word| word.trim().to_owned()).collect()
 }
 
-/// Walks every path below one, by the list of keys in the error about a key that is not known.
+/// Collects the paths of all keys and tables below a path, from the lists in errors about unknown keys.
 fn walk(path: &str, leaves: &mut BTreeSet<String>, tables: &mut BTreeSet<String>) {
     let below = |form: &str| {
         let path = if path.is_empty() { NONE.to_owned() } else { format!("{path}{form}.{NONE}") };
@@ -109,13 +109,13 @@ fn the_table_lists_every_key_and_no_other() {
     assert_eq!(listed.len(), StyleKey::all().len(), "a key is listed twice");
     let lacking: Vec<&String> = leaves.iter().filter(|path| !listed.contains(*path)).collect();
     assert_eq!(lacking, NOT_LISTED, "src/style/keys/table.txt lacks keys");
-    // A table of keys is listed as well where another value may stand in its place.
+    // A key that accepts either a table or another value has a row, although it is a table.
     let is_key = |path: &&String| leaves.contains(*path) || tables.contains(*path);
     let wrong: Vec<&String> = listed.iter().filter(|path| !is_key(path)).collect();
     assert!(wrong.is_empty(), "src/style/keys/table.txt has keys that sheets do not: {wrong:?}");
 }
 
-/// Values that a key accepts, and values that it refuses.
+/// Values that a key accepts, and values that it rejects.
 fn values(key: &StyleKey) -> (Vec<String>, Vec<String>) {
     let word = |word: &str| format!("\"{word}\"");
     let mut good: Vec<String> = match key.kind {
@@ -179,7 +179,7 @@ fn values(key: &StyleKey) -> (Vec<String>, Vec<String>) {
             good.push("\"0.35mm\"".to_owned());
             bad.push("\"1 ell\"".to_owned());
         }
-        // Not every list of numbers in the range is one: dashes need a length above 0.
+        // A dash pattern needs a length above 0.
         if key.name == "dash" {
             good.retain(|value| value != "[0]");
         }
@@ -205,7 +205,7 @@ fn allowed_values_are_accepted_and_others_refused() {
                 faults.push(format!("{}: {value} is accepted", key.path));
             }
         }
-        // The words are those that the error lists.
+        // The words in the table are the words in the error.
         if key.kind == KeyType::Choice {
             let refused = fault(&sheet(&key.path, &format!("\"{NONE}\""))).unwrap_or_default();
             let words: BTreeSet<String> = known(&refused, "known values: ").into_iter().collect();
@@ -223,10 +223,10 @@ fn defaults_are_those_of_the_program() {
     let mut faults = Vec::new();
     let mut checked = 0;
     for key in StyleKey::all() {
-        // The dashes of hidden lines are a rule of their own, behind which those of the sheet come.
+        // Dashes of hidden lines are a built-in rule that precedes the rules of the sheet.
         let Some(default) = key.default.filter(|_| key.path != "pen.hidden.dash") else { continue };
         let of = |value: &str| Style::from_toml(&sheet(&key.path, value));
-        // The same sheet without the key: a neighbour keeps its table there.
+        // The same sheet without the key. Its table remains, because it holds the other required keys.
         let base = sheet(&key.path, "\u{1}").replace(&format!("{} = \u{1}", last(key)), "");
         let base = base.replace(", }", " }").replace("= \u{1}", "= []");
         let base = if key.prefix.is_empty() { String::new() } else { base };
@@ -236,7 +236,7 @@ fn defaults_are_those_of_the_program() {
             Ok(_) => faults.push(format!("{}: the default is not {default}", key.path)),
             Err(error) => faults.push(format!("{}: {error}", key.path)),
         }
-        // Some other value shows: else the comparison would prove nothing.
+        // Another value must change the style, or else the comparison proves nothing.
         let (good, _) = values(key);
         let differs = |value: &String| of(value).is_ok_and(|style| style != base);
         if key.kind != KeyType::Tables && !key.path.contains("brush") && !good.iter().any(differs) {
@@ -248,6 +248,7 @@ fn defaults_are_those_of_the_program() {
     assert!(checked > 170, "{checked} defaults");
 }
 
+/// The last word of the path of a key.
 fn last(key: &StyleKey) -> &str {
     key.path.rsplit('.').next().unwrap_or_default()
 }
@@ -306,7 +307,7 @@ fn american_spelling_is_accepted_for_every_key() {
         }
     }
     assert!(tried > 80, "{tried}");
-    // Sheets in either spelling go over each other.
+    // Sheets in both spellings can be combined.
     let style =
         Style::load("pencil", &["pen.color=#ff0000".to_owned(), "pen.colour=#00ff00".to_owned()]).unwrap();
     assert_eq!(style, Style::load("pencil", &["pen.color=#00ff00".to_owned()]).unwrap());

@@ -1,4 +1,4 @@
-//! Style sheets: built-in ones, extending, changes on the command line, and what errors say.
+//! Style sheets: built-in styles, `extends`, `--set`, complete sheets, and error messages.
 
 use std::path::{Path, PathBuf};
 
@@ -8,7 +8,7 @@ use ligne::lines::HiddenLines;
 use ligne::strokes::{Ink, LayersBy, Order};
 use ligne::style::{Style, StyleKey};
 
-/// A folder of sheets that is removed at the end of the test.
+/// A folder of style sheets, removed when it is dropped.
 struct Sheets(PathBuf);
 
 impl Sheets {
@@ -25,7 +25,7 @@ impl Sheets {
         self.0.join(file).to_str().unwrap().to_owned()
     }
 
-    /// What is said of the sheet, without the folder.
+    /// The error when a sheet is loaded, without the path of the folder.
     fn error(&self, file: &str) -> String {
         let error = Style::load(&self.path(file), &[]).unwrap_err();
         error.to_string().replace(&format!("{}/", self.0.display()), "")
@@ -38,6 +38,7 @@ impl Drop for Sheets {
     }
 }
 
+/// The style `ink` with these `--set` changes.
 fn set(changes: &[&str]) -> Result<Style, ligne::Error> {
     let changes: Vec<String> = changes.iter().map(|change| (*change).to_owned()).collect();
     Style::load("ink", &changes)
@@ -302,7 +303,7 @@ fn a_missing_sheet_is_named() {
 fn the_sheets_of_the_documentation_load() {
     let docs = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs");
     for page in ["how-to/styles.md", "explanation/fills.md", "explanation/hatching.md"] {
-        // A block that writes a file has the name of that file behind `toml`: the test of the commands runs those.
+        // Blocks that write a file have its name after `toml`. The test of documented commands runs those.
         let text = std::fs::read_to_string(docs.join(page)).unwrap_or_default();
         let sheets = text.split("```toml\n").skip(1).filter_map(|rest| rest.split("```").next());
         for text in sheets {
