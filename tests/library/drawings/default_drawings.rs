@@ -234,7 +234,7 @@ fn studs() -> Scene {
 }
 
 /// At a rim the sides face away from the camera. The refined cap bulges, so its last faces face away as well.
-/// There the cap ends: it is no ripple.
+/// That is the end of the cap, not a ripple of the surface.
 #[test]
 fn rounded_caps_keep_their_rims_before_a_wall() {
     let model = studs();

@@ -34,7 +34,7 @@ const ALL: [Contours; 3] = [Contours::Mesh, Contours::Auto, Contours::Smooth];
 /// of a rounded edge.
 const SMOOTHING_PX: f64 = 2.5;
 const ROUNDING: f64 = 0.15;
-/// Tolerated length of wrong ink, such as an overrun at a line end.
+/// Tolerated length of wrong ink, such as an overrun at a line end, px.
 const CRUMB_PX: f64 = 3.0;
 
 fn draw(scene: &Scene, camera: &Camera, contours: Contours) -> Drawing {

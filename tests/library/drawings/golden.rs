@@ -1,7 +1,7 @@
 //! Golden drawings: small drawings compared with approved SVG files.
 //!
-//! After an intended change, review the differences and renew the files with `LIGNE_BLESS=1 cargo test --test
-//! library golden`. That is refused where `CI` is set.
+//! After an intended change, review the differences and renew the files with
+//! `LIGNE_BLESS=1 cargo test --test library golden`. That is refused where `CI` is set.
 
 use std::path::Path;
 

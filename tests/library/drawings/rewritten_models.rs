@@ -1,8 +1,8 @@
 //! Random scenes give the same drawing in other formats, precisions, places, orders and triangulations.
 //!
-//! A failure names the scene by its seed. `LIGNE_SCENE=SEED` runs all relations on that scene only. With
-//! `LIGNE_CASES=FOLDER`, failing scenes are reduced to as few bodies as possible. Both files and their cameras
-//! are written to the folder:
+//! A failure names the scene by its seed. `LIGNE_SCENE=SEED` runs all relations on that scene only.
+//! `LIGNE_CASES=FOLDER` reduces failing scenes to the fewest bodies, and writes both files and their cameras
+//! to the folder:
 //!
 //! ```text
 //! LIGNE_SCENE=17 LIGNE_CASES=cases cargo test --test library rewritten_models::a_hundred -- --nocapture

@@ -281,8 +281,8 @@ fn a_bolt_in_a_plate_has_what_lies_in_both() {
         let section = cut(bolted(bolt_first), &plane, &[]);
         let own = section.faces.iter().map(|faces| (faces.part, faces.area));
         let areas = areas_by_name(&section.scene, own);
-        // The shank is 2 wide from z = -2 to 0.5, the head 4 wide up to z = 2. The plate has the rest of 8 x
-        // 2.
+        // The shank is 2 wide from z = -2 to 0.5, the head 4 wide up to z = 2. The plate has the rest of
+        // 8 by 2.
         assert!((areas["bolt"] - 11.0).abs() < 1e-12 && (areas["plate"] - 11.0).abs() < 1e-12, "{areas:?}");
         let kinds: Vec<usize> = section.faces.iter().map(|faces| faces.kind).collect();
         assert_ne!(kinds[0], kinds[1]);
