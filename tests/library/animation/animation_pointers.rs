@@ -1,5 +1,5 @@
-//! Values of cameras, lights and materials that clips move by pointers, and nodes that they show: as an own reader evaluates them, and
-//! as drawings show them.
+//! `KHR_animation_pointer` channels for cameras, lights, materials and visibility, against an independent
+//! glTF evaluator.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -55,7 +55,8 @@ fn lenses_are_what_an_independent_evaluation_says() {
         assert!(near(height, 2.0 * own(ymag)), "{time}: {height}");
         assert!(near(plan.width / plan.height, own(xmag) / own(ymag)), "{plan:?}");
     }
-    // Half of a clip is half way from rest, and the stored lens is that of the file.
+    // With weight 0.5 the lens is halfway between rest and the clip. Without a clip the cameras are those of
+    // the file.
     let half = rigged.cameras(&[Playing { clip: 0, time: 1.0, weight: 0.5 }]).unwrap()[0].camera.projection;
     let Projection::Perspective { fov_y_deg } = half else { panic!("{half:?}") };
     assert!(near(fov_y_deg, 0.75_f64.to_degrees()), "{fov_y_deg}");
@@ -126,7 +127,8 @@ fn materials_are_what_an_independent_evaluation_says() {
     assert_eq!(rigged.posed(&[]).unwrap().materials, Scene::open(&board.0).unwrap().materials);
 }
 
-/// The drawing of a moment by a camera of the model, alone and as a frame.
+/// SVG of a time of clip 0, seen by the first camera of the file: rendered alone, and as a frame of an
+/// `Animator`.
 fn drawn(rigged: &Rigged, style: &str, time: f64) -> [String; 2] {
     let style = Style::load(style, &[]).unwrap();
     let playing = vec![Playing::all(0, time)];
@@ -137,7 +139,7 @@ fn drawn(rigged: &Rigged, style: &str, time: f64) -> [String; 2] {
     let page = Page { width: 300.0, height: 200.0, unit: Unit::Px, background: style.background };
     let animator = Animator::new(rigged, &style);
     let frame = |time: f64| Moment { playing: vec![Playing::all(0, time)], camera, page };
-    // Another moment before does not matter.
+    // A frame drawn earlier must not change the result.
     animator.draw(&frame(2.9)).unwrap();
     [alone, svg(&animator.draw(&frame(time)).unwrap().0)]
 }
@@ -151,7 +153,7 @@ fn drawings_show_colours_lenses_and_lights() {
     let (rigged, _) = opened(&board);
     for (time, colour) in [(0.0, [255, 0, 0]), (1.0, [0, 0, 255]), (3.0, [255, 0, 255])] {
         for svg in drawn(&rigged, "flat", time) {
-            // The lights of the file take a little of it.
+            // The lights of the file darken the colour slightly.
             let is_near = |fill: Colour| {
                 [fill.r, fill.g, fill.b].iter().zip(colour).all(|(is, wanted)| is.abs_diff(wanted) < 2)
             };
@@ -170,7 +172,7 @@ fn drawings_show_colours_lenses_and_lights() {
     assert_eq!([red, blue], [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]);
 }
 
-/// The colours that a drawing is filled with.
+/// Fill colours of all paths of an SVG.
 fn fills(svg: &str) -> Vec<Colour> {
     let values = svg.split(" fill=\"").skip(1).filter_map(|rest| rest.split('"').next());
     values.filter_map(Colour::parse).collect()
@@ -209,7 +211,7 @@ fn broken_pointers_leave_the_stored_value_and_a_warning() {
         assert_eq!((posed.cameras, posed.lights), (stored.cameras, stored.lights), "{name}");
         assert_eq!(posed.materials, stored.materials, "{name}");
     }
-    // What no lens and no light can have leaves the stored value as well.
+    // Values that are invalid for a lens or a light leave the stored value as well.
     let board = Board::new(
         "beyond",
         &[
@@ -253,7 +255,7 @@ fn what_is_hidden_at_rest_is_there_while_a_clip_shows_it() {
         assert_eq!((names(&scene).len(), scene.lights.len()), (count, count), "{time}");
     }
     assert_eq!(names(&rigged.posed(&[Playing::all(0, 1.0)]).unwrap()), ["left", "right"]);
-    // A frame shows it, then and only then, and a clip that plays with no weight shows nothing.
+    // Frames contain the node only while the clip shows it. A clip with weight 0 shows nothing.
     let paths = |time: f64| drawn(&rigged, "ink", time).map(|svg| svg.matches("<path").count());
     assert!(paths(1.0).iter().zip(paths(0.0)).all(|(shown, hidden)| *shown > hidden));
     assert_eq!(paths(0.0), paths(3.0));
@@ -278,7 +280,7 @@ fn what_hangs_on_hidden_nodes_is_shown_with_them() {
     let (rigged, _) = opened(&board);
     let count = |time: f64| rigged.posed(&[Playing::all(0, time)]).unwrap().parts.len();
     assert_eq!([0.0, 1.0, 3.0].map(count), [0, 2, 0]);
-    // Where a child is hidden by itself and nothing shows it, it stays hidden.
+    // A child with its own hidden flag stays hidden when the clip shows only its parent.
     let board = Board::new("child", &[(shows, "STEP", &[0.0, 1.0, 0.0])], |file| {
         hidden(file, 0);
         hidden(file, 1);

@@ -1,4 +1,5 @@
-//! Creases in time: those of the rest and those that a pose folds, with a memory, whatever is hidden.
+//! Creases of animated meshes against closed-form fold angles: at rest, folded by a pose with hysteresis, and
+//! with hidden parts.
 
 use std::collections::BTreeSet;
 
@@ -15,8 +16,9 @@ use crate::support::scenes::pointer_board::{Board, add_accessor};
 
 const SIDE: f64 = 300.0;
 
-/// A sheet of two squares whose right one turns about their common side: it is turned by `stored` degrees at rest, by `folded` at 1 s and
-/// as at rest again at 3 s. In between its corners go straight, and it shrinks.
+/// Two squares with a common side. The right one is folded by `stored` degrees at rest, by `folded` degrees
+/// at 1 s, and by `stored` degrees again at 3 s. In between its corners move in straight lines, so it
+/// shrinks.
 fn sheet(name: &str, stored: f64, folded: f64) -> Board {
     let corners = |degrees: f64| {
         let (c, s) = (cos(degrees.to_radians()) as f32, sin(degrees.to_radians()) as f32);
@@ -34,7 +36,7 @@ fn sheet(name: &str, stored: f64, folded: f64) -> Board {
 }
 
 fn frame(animator: &Animator, time: f64) -> Drawing {
-    // Both sides of the fold are seen from their front.
+    // The camera sees the front of both squares.
     let from = Camera {
         eye: DVec3::new(-1.0, 1.2, 2.0),
         target: DVec3::ZERO,
@@ -46,7 +48,7 @@ fn frame(animator: &Animator, time: f64) -> Drawing {
     animator.draw(&Moment { playing: vec![Playing::all(0, time)], camera, page }).unwrap().0
 }
 
-/// How many strokes are creases.
+/// Number of marks of class `crease`.
 fn creases(drawing: &Drawing) -> usize {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     marks.filter(|mark| mark.provenance.classes.contains(&"crease")).count()
@@ -67,12 +69,13 @@ fn what_a_pose_folds_is_creased_while_it_is() {
     let (board, style) = (sheet("fold", 0.0, 90.0), Style::default());
     let rigged = Rigged::open(&board.0).unwrap();
     let animator = Animator::new(&rigged, &style);
-    // Its corner goes straight from (1, 0) to (0, 1): at a time t it is at (1 - t, t).
+    // The moving corner goes in a straight line from (1, 0) to (0, 1). At time t it is at (1 - t, t).
     let time = |degrees: f64| {
         let (s, c) = (sin(degrees.to_radians()), cos(degrees.to_radians()));
         s / (s + c)
     };
-    // It closes: no crease up to 45 degrees. It opens: a crease down to 35.
+    // While the fold closes, the crease appears at 45 degrees. While it opens, the crease lasts until 35
+    // degrees.
     for (degrees, closing, opening) in [(30.0, 0, 0), (36.0, 0, 1), (44.0, 0, 1), (46.0, 1, 1), (80.0, 1, 1)]
     {
         assert_eq!(creases(&frame(&animator, time(degrees))), closing, "{degrees}");
@@ -102,8 +105,8 @@ fn figures_keep_the_creases_of_their_rest() {
 
 #[test]
 fn what_hides_another_part_moves_no_crease() {
-    // The other square is hidden from 1 s on, as the sheet opens: at 2.06 s it turns by 41 degrees, which at rest were a crease, and at
-    // 2.3 s by 28.
+    // The second part is hidden from 1 s on, while the sheet opens. At 2.06 s the fold is 41 degrees, which
+    // would be a crease at rest. At 2.3 s it is 28 degrees.
     let with = |name: &str, hides: bool| {
         let shows = "/nodes/1/extensions/KHR_node_visibility/visible";
         let board = sheet(name, 0.0, 90.0);

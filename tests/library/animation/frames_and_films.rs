@@ -1,4 +1,5 @@
-//! Frames: each by itself, held, seen all round, with strokes that last, and as films that other decoders read back.
+//! Frames depend only on their moment, strokes keep their identity, and films read back equal with
+//! independent decoders.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Cursor;
@@ -24,7 +25,7 @@ fn page() -> Page {
     Page { width: SIDE, height: SIDE, unit: Unit::Px, background: None }
 }
 
-/// Moments of the crane's clip, so many a second.
+/// Moments of the crane's clip at `fps` frames per second. One camera frames all poses.
 fn moments(crane: &Rigged, fps: f64) -> Vec<Moment> {
     let [from, to] = crane.rig.clips[0].span();
     let timeline = Timeline::between(from, to, fps).unwrap();
@@ -40,7 +41,7 @@ fn drawings(moments: &[Moment], crane: &Rigged, style: &Style) -> Vec<Drawing> {
     moments.iter().map(|moment| animator.draw(moment).unwrap().0).collect()
 }
 
-/// The lengths of strokes by what they are known by.
+/// Stroke length in px by stroke identity.
 fn strokes(drawing: &Drawing) -> BTreeMap<u64, f64> {
     let mut strokes = BTreeMap::new();
     for layer in drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Lines) {
@@ -111,7 +112,8 @@ fn every_stroke_of_a_frame_has_a_name_of_its_own_and_keeps_it() {
 
 #[test]
 fn tremor_stays_on_the_model() {
-    // A square that moves over the page, and farther from the edge of what hides it: its lines shake alike wherever it is.
+    // The base of the crane does not move. In consecutive frames at least three quarters of its lines must be
+    // identical.
     let style = Style::load("ink", &["pen.hand.tremor=3".to_owned()]);
     let Ok(style) = style else { panic!("{style:?}") };
     let crane = crane();
@@ -131,7 +133,7 @@ fn tremor_stays_on_the_model() {
 #[test]
 fn strokes_that_come_and_go_fade() {
     let crane = crane();
-    // Outlines of lines by a hand, and plain strokes.
+    // Variable-width outlines and plain strokes, faded by width and by opacity.
     for (sheet, by) in [("ink", FadeBy::Width), ("sketch", FadeBy::Width), ("sketch", FadeBy::Opacity)] {
         let style = Style::load(sheet, &[]).unwrap();
         let drawings = drawings(&moments(&crane, 12.0), &crane, &style);
@@ -155,7 +157,7 @@ fn strokes_that_come_and_go_fade() {
                 let share = match (&before.paint, &after.paint, by) {
                     (Paint::Stroke(a), Paint::Stroke(b), FadeBy::Width) => b.width / a.width,
                     (Paint::Outline(a), Paint::Outline(b), FadeBy::Width) => {
-                        // The area goes with the width.
+                        // The area scales with the width.
                         let area = after.path.area().abs() / before.path.area().abs();
                         assert!(a == b || (area - b.width / a.width).abs() < 0.15, "{area}");
                         b.width / a.width
@@ -169,7 +171,7 @@ fn strokes_that_come_and_go_fade() {
                 let of_four = (share * 4.0).round() as usize;
                 assert!((share * 4.0 - of_four as f64).abs() < 0.02 && of_four > 0, "{share}");
                 match lacking {
-                    // What is there under another name is not gone.
+                    // A stroke that continues under another identity fades less.
                     Some(far) if of_four == far + 1 => faded += 1,
                     Some(far) => {
                         assert!(of_four > far + 1, "{of_four} {far}");
@@ -207,7 +209,7 @@ fn a_turntable_sees_all_of_a_model_from_all_sides() {
     assert!(touched > 0.85 * SIDE, "{touched}");
 }
 
-/// What a film of SVG shows in a frame: its text with all that is used put in its place.
+/// Paths of one frame of an SVG film, with every `<use>` resolved.
 fn resolved(film: &str, frame: usize) -> Vec<String> {
     let text = film.replace("xlink:href", "href");
     let document = usvg::roxmltree::Document::parse(&text).unwrap();
@@ -279,7 +281,7 @@ fn what_does_not_move_is_written_once() {
     assert!(SvgFilm::new(12.0, &SvgOptions::default()).finish().is_empty());
 }
 
-/// Frames as pixels, with few colours and with clear paper.
+/// Rasterised frames of the crane at 2 frames per second, with or without a background.
 fn pixels(style: &str, background: bool) -> Vec<Pixels> {
     let set = format!("page.background={}", if background { "#fdf6e3" } else { "none" });
     let (crane, style) = (crane(), Style::load(style, &[set]).unwrap());
@@ -291,7 +293,7 @@ fn pixels(style: &str, background: bool) -> Vec<Pixels> {
     drawings.iter().map(|drawing| drawing.to_pixels(&PngOptions::default()).unwrap()).collect()
 }
 
-/// What a player shows of a GIF: each picture with its delay in hundredths of a second.
+/// Canvas of a GIF player after each picture, and the delay of the picture in hundredths of a second.
 fn played(bytes: Vec<u8>) -> Vec<(Vec<u8>, u32)> {
     let mut options = gif::DecodeOptions::new();
     options.set_color_output(gif::ColorOutput::RGBA);
@@ -345,7 +347,8 @@ fn gif_is_read_back_with_its_times() {
     assert!(GifFilm::new(Vec::new(), 24.0).finish().is_err());
 }
 
-/// Each picture stands for its time, however short frames are: those without the time are left out.
+/// GIF delays are at least 0.02 s. At higher frame rates pictures are left out. The total time and the start
+/// times of the others stay exact.
 #[test]
 fn gif_lasts_as_long_as_its_frames() {
     let picture = |k: u32| {
@@ -372,7 +375,7 @@ fn gif_lasts_as_long_as_its_frames() {
         assert!(shown.iter().all(|(_, delay)| *delay >= 2), "{fps}");
         let whole: u32 = shown.iter().map(|(_, delay)| delay).sum();
         assert_eq!(whole, ((f64::from(frames) / fps * 100.0).round() as u32).max(2), "{fps}");
-        // Each begins when its own frame does.
+        // Each picture starts at the time of its frame.
         let mut at = 0;
         for (screen, delay) in shown {
             let k = (0..frames).find(|k| picture(*k).rgba == screen).expect("a frame");

@@ -1,4 +1,4 @@
-//! Clips, poses, frames and motion lines: each against a plain evaluator of glTF or against rays.
+//! Tests of animation: clips, poses, frames, films and motion lines.
 
 mod animation_pointers;
 mod folded_creases;

@@ -1,4 +1,4 @@
-//! Motion lines lie where vertices were, and are drawn where rays say that nothing hides them.
+//! Motion lines follow the paths of vertices and are hidden where ray casts find geometry in front of them.
 
 use std::f64::consts::TAU;
 
@@ -16,7 +16,7 @@ use crate::support::scenes::solids::cuboid;
 
 #[test]
 fn what_goes_straight_leaves_straight_lines_of_the_right_length() {
-    // Slightly turned, so that no two corners go behind each other.
+    // Slightly rotated: no corner travels behind another one.
     let slant = DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 0.2, 0.1);
     let solid = unit_box().moved(|p| slant * p);
     let speed = DVec3::new(1.2, 0.6, 0.0);
@@ -40,7 +40,8 @@ fn what_goes_straight_leaves_straight_lines_of_the_right_length() {
         let beside = |p: Point| (p - start).cross(way).abs() / way.hypot();
         assert!(along(mark).into_iter().all(|p| beside(p) < 1e-3), "{:?}", mark.path);
     }
-    // Where each corner was as far back as lines go, one ends; what of it is before the box begins where the corner is.
+    // One line ends where each corner was `BACK` seconds ago. A line in front of the box starts at its
+    // corner.
     let mut whole = 0;
     for corner in &solid.positions {
         let [from, to] = [time, time - BACK].map(|time| eye.image(*corner + speed * time));
@@ -61,7 +62,7 @@ fn lines_begin_where_their_body_ends() {
     let drawing = drawn(&model, 1.0, &camera, &style(&["motion.lines=8"]));
     let drawn = lines(&drawing);
     let [back, front] = [-0.5, 0.5].map(|z| eye.image(DVec3::new(1.5, 0.0, z)).x);
-    // Those of corners one behind the other along the way coincide in part, and are drawn once.
+    // Lines of corners that follow each other on the same path overlap in part and are drawn once.
     let starts: Vec<Point> = drawn.iter().map(|mark| ends(mark, LEFT)[0]).collect();
     assert!(starts.iter().all(|start| start.x < front + 2e-3), "{starts:?} {front}");
     for height in [0.5, -0.5].map(|y| eye.image(DVec3::new(1.5, y, 0.5)).y) {
@@ -95,7 +96,7 @@ fn what_turns_leaves_arcs() {
         let whole = radius * (degrees * BACK).to_radians();
         assert!((longest - whole).abs() < 0.2, "{longest} {whole}");
     }
-    // Where the way ran elsewhere than now by more than 60 degrees, lines end.
+    // Lines end where the direction of travel differs by more than 60 degrees from the current one.
     let model = rigged(vec![unit_box()], vec![turning(0, 150.0)]);
     let style = style(&["motion.over=true", "motion.turn=60", "motion.speed=0"]);
     for mark in lines(&drawn(&model, 2.0, &before(), &style)) {
@@ -103,7 +104,7 @@ fn what_turns_leaves_arcs() {
             along(mark).windows(2).map(|p| p[0].distance(p[1])).sum::<f64>() / (50.0 * 2.0_f64.sqrt());
         assert!(angle < 61_f64.to_radians(), "{}", angle.to_degrees());
     }
-    // The way of the middle of what turns about it is none.
+    // The centre of a body that rotates about it has no path.
     let own = self::style(&["motion.path=body", "motion.speed=0"]);
     assert!(lines(&drawn(&model, 2.0, &before(), &own)).is_empty());
 }
@@ -113,7 +114,8 @@ fn what_is_before_lines_hides_them_exactly() {
     let board = cuboid(DVec3::new(0.1, -3.0, 2.0), DVec3::new(0.6, 3.0, 2.1));
     let model = rigged(vec![unit_box(), board], vec![going(0, DVec3::X * 3.0)]);
     let style = style(&["motion.lines=8", "motion.speed=1", "lines.hidden=dashed"]);
-    // The box is at 3 now and was at 0.5 as far back as lines go, its left side at 0: these pass the board.
+    // The box is at x = 3 now, and was at x = 0.5 at the far end of its lines, with its left side at x = 0.
+    // The lines pass behind the board.
     let drawing = drawn(&model, 1.0, &before(), &style);
     let drawn = lines(&drawing);
     for height in [450.0, 550.0] {
@@ -138,7 +140,7 @@ fn what_is_before_lines_hides_them_exactly() {
     }
 }
 
-/// Whether a ray through a place of the image meets a triangle nearer than a depth.
+/// Whether the ray through an image point hits a triangle nearer than `depth`.
 fn is_covered(eye: &Eye, at: Point, depth: f64, triangles: &[[DVec3; 3]]) -> bool {
     let (near, far) = (eye.world(at, 0.0), eye.world(at, 1.0));
     let (from, way) = if eye.perspective { (eye.eye, far - eye.eye) } else { (near, far - near) };
@@ -192,7 +194,7 @@ fn lines_are_drawn_where_rays_say_so() {
                 if !(5.0..995.0).contains(&at.x) || !(5.0..995.0).contains(&at.y) {
                     continue;
                 }
-                // Close to where it changes, either may be.
+                // Near a change of visibility either result is accepted.
                 let covered = |at: Point| {
                     is_covered(&eye, at, depth - 1e-4, &all) || is_covered(&eye, at, f64::INFINITY, &body)
                 };
@@ -227,9 +229,9 @@ fn lines_begin_at_the_same_vertices_all_the_time() {
     assert_eq!(first.len(), 4);
     assert!([0.9, 1.7, 3.1].iter().all(|time| starts(*time, &["motion.lines=4"]) == first));
     assert!((1..6).any(|seed| starts(0.5, &["motion.lines=4", &format!("seed={seed}")]) != first));
-    // More lines leave those there are where they are.
+    // A larger line count keeps the lines of a smaller one.
     assert_eq!(starts(0.5, &[])[..4], first);
-    // How the file numbers its vertices does not matter.
+    // The vertex order of the file has no effect.
     let mut solid = unit_box();
     solid.positions.reverse();
     solid.triangles.iter_mut().for_each(|t| *t = t.map(|v| 7 - v));

@@ -1,4 +1,5 @@
-//! Motion lines as styles ask for them: of what, how many, and what they look like.
+//! Motion lines as styles set them: which parts leave them, their number, their pens, and the messages for
+//! wrong settings.
 
 use glam::{DAffine3, DVec3};
 use kurbo::ParamCurve;
@@ -14,7 +15,7 @@ use crate::support::scenes::solids::cuboid;
 
 #[test]
 fn what_is_slower_than_the_threshold_leaves_none() {
-    // One goes 2 units, 200 px, a second; one half as fast; one stands.
+    // One box moves at 2 units (200 px) per second, one at half that speed, one not at all.
     let at = |x: f64| unit_box().moved(|p| p + DVec3::new(0.0, x, 0.0));
     let model =
         rigged(vec![at(-2.0), at(0.0), at(2.0)], vec![going(0, DVec3::X * 2.0), going(1, DVec3::X * 1.0)]);
@@ -31,18 +32,18 @@ fn what_is_slower_than_the_threshold_leaves_none() {
     assert_eq!(parts(&["motion.speed=199px"]), ["part 0"]);
     assert_eq!(parts(&["motion.speed=99px"]), ["part 0", "part 1"]);
     assert_eq!(parts(&["motion.speed=53mm"]), Vec::<String>::new());
-    // By names, of parts or nodes; and either way.
+    // Selection by part or node name, alone and together with a speed.
     assert_eq!(parts(&["motion.parts=part 1"]), ["part 1"]);
     assert_eq!(parts(&["motion.parts=['node 1', '*2']"]), ["part 1"]);
     assert_eq!(parts(&["motion.parts=part 1", "motion.speed=1.5"]), ["part 0", "part 1"]);
-    // Half the model's size, 5.2 units, a second.
+    // The default threshold is half the size of the model (5.2 units) per second.
     assert!(parts(&[]).is_empty());
     assert!(parts(&["motion.enabled=false", "motion.speed=1"]).is_empty());
-    // The file says it too, of all that hangs on a node.
+    // The file can mark a node and everything below it.
     let mut told = model.clone();
     told.rig.nodes[1].leaves_lines = true;
     assert!(!lines(&drawn(&told, 1.0, &before(), &style(&[]))).is_empty());
-    // What is left out leaves none, and others keep theirs.
+    // A removed part leaves no lines. Other parts keep theirs.
     let style = style(&["motion.speed=0.5"]);
     let mut scene = scene_at(&model, 1.0, &style);
     scene.keep_parts(&[], &["part 0".to_owned()]);
@@ -51,7 +52,7 @@ fn what_is_slower_than_the_threshold_leaves_none() {
     assert!(!lines(&left).is_empty());
 }
 
-/// An arm along x of one part, whose far half a second joint swings about the origin.
+/// One skinned part along x. A second joint swings its far half about the origin.
 fn arm(upper: f64, lower: f64) -> Rigged {
     let solid = cuboid(DVec3::new(-2.0, -0.2, -0.2), DVec3::new(2.0, 0.2, 0.2));
     let mut model = rigged(vec![solid.clone()], vec![turning(1, upper), turning(2, lower)]);
@@ -80,13 +81,13 @@ fn joints_leave_lines_by_themselves() {
     assert_eq!(chosen[0].trails.len(), 4, "it has four corners");
     let drawing = render(&scene, &before(), &own).unwrap();
     assert!(!lines(&drawing).is_empty());
-    // By the name of the joint, and of one above it.
+    // Selection by the name of the joint and of its parent.
     for name in ["hand", "h?nd", "shoulder"] {
         let own = style(&[&format!("motion.parts={name}"), "motion.over=true"]);
         let named = drawn(&model, 1.0, &before(), &own);
         assert!(!lines(&named).is_empty(), "{name}");
     }
-    // Joints that move together share the lines of one body, the outermost first.
+    // Joints that move together share the lines of one body. The outermost joint comes first.
     let model = arm(50.0, 50.0);
     let own = style(&["motion.speed=0.1", "motion.over=true", "motion.lines=3", "chain.tidy=0"]);
     let both = drawn(&model, 1.0, &orthographic(DVec3::new(3.0, 5.0, 50.0), DVec3::ZERO, 10.0), &own);
@@ -112,7 +113,7 @@ fn single_lines_differ_as_the_style_says() {
     let [mark] = lines(&drawing)[..] else { panic!("one line") };
     let Paint::Stroke(stroke) = &mark.paint else { panic!("{:?}", mark.paint) };
     assert_eq!((stroke.width, stroke.colour), (3.0, ligne::colour::srgb::Colour::rgb(255, 0, 0)));
-    // A vertex that is not there is told.
+    // A missing vertex causes a warning.
     let own = style(&["motion.line=[{ start = 99 }]"]);
     let scene = scene_at(&model, 1.0, &own);
     assert!(
@@ -148,7 +149,7 @@ fn lines_are_black_and_1_px_and_may_taper() {
         assert!(far < 0.3 && near > far + 0.5, "{near} {far} {start:?} {end:?}");
     }
     assert!(!lines(&tapered).is_empty());
-    // A rule for this kind of line changes its pen; one for all kinds does not.
+    // A pen rule for motion lines changes their pen. A rule for all kinds does not.
     let ruled = drawn(&model, 1.0, &before(), &style(&["pen.motion.dash=[4, 2]", "pen.width=9"]));
     let strokes: Vec<_> = lines(&ruled)
         .iter()
@@ -176,7 +177,7 @@ fn no_other_ink_changes() {
         let others: Vec<_> =
             with.layers.iter().filter(|layer| layer.kind != LayerKind::Motion).cloned().collect();
         assert_eq!(others, without.layers);
-        // The file says that the brick leaves lines, and nothing else.
+        // In the file only the brick is marked to leave lines.
         assert!(lines(&with).iter().all(|mark| mark.provenance.part.as_deref() == Some("brick")));
     }
 }
@@ -266,7 +267,7 @@ fn a_moment_without_lines_is_explained() {
     said(1.0, &["motion.parts=door"], "motion.parts does not name");
     assert_eq!(why(1.0, &["motion.speed=0.5"]), None);
     assert_eq!(why(1.0, &["motion.enabled=false"]), None);
-    // Lines that are out of the picture.
+    // Lines outside the frame.
     let own = style(&["motion.speed=0.5"]);
     let mut aside = before();
     aside.target.y += 90.0;

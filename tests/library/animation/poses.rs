@@ -1,4 +1,4 @@
-//! Poses at a time of a clip: an own reader of glTF, which evaluates slowly and plainly, puts every vertex in the same place.
+//! Poses at times of a clip, compared vertex by vertex with a plain, independent glTF evaluator.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use crate::support::readers::plain_gltf::Plain;
 use crate::support::readers::shared_folder;
 
-/// The vertices of each part in the world.
+/// World-space vertices of each part.
 fn points(scene: &Scene) -> Vec<Vec<DVec3>> {
     let of = |part: &ligne::scene::Part| {
         let positions = &scene.geometries[part.geometry].positions;
@@ -22,7 +22,8 @@ fn points(scene: &Scene) -> Vec<Vec<DVec3>> {
     scene.parts.iter().map(of).collect()
 }
 
-/// How far poses of all clips at some times are from what is evaluated plainly, in sizes of the model, and whether anything moves.
+/// Largest distance of posed vertices from the plain evaluator, and largest motion from rest. Both are
+/// relative to the size of the model, and cover several times of each clip.
 fn farthest(path: &Path, most_clips: usize) -> (f64, f64) {
     let (rigged, plain) = (Rigged::open(path).unwrap(), Plain::open(path));
     let far = |a: &[Vec<DVec3>], b: &[Vec<DVec3>]| {
@@ -68,7 +69,8 @@ fn shared_models_are_posed_as_an_independent_evaluation_says() {
     }
 }
 
-/// A file of our own: an arm of two joints, with a swelling and a flag on it, moved in all ways there are.
+/// Temporary glTF file: an arm with two joints, a morph target and a flag. Its clips use all channel types
+/// and interpolations.
 struct Arm(PathBuf);
 
 impl Arm {
@@ -83,7 +85,7 @@ impl Arm {
             numbers.iter().for_each(|value| bytes.extend(value.to_le_bytes()));
             accessors.len() - 1
         };
-        // A strip of nine steps along x, which bends between its joints.
+        // Strip of nine quads along x that bends between the joints.
         let steps: Vec<f32> = (0..=9).map(|k| k as f32 / 3.0).collect();
         let strip = |of: &dyn Fn(f32) -> [f32; 3]| -> Vec<f32> {
             steps
@@ -131,7 +133,7 @@ impl Arm {
         );
         let scales = add("VEC3", 3, &[1., 1., 1., 1., 2., 1., 3., 1., 1.]);
         let swells = add("SCALAR", 1, &[0.0, 1.0, 0.25]);
-        // Indices and joints are whole numbers in a file.
+        // Indices and joints are stored as integers.
         for (accessor, kind) in [(index, 5125), (joints, 5125)] {
             let view = &views[accessors[accessor]["bufferView"].as_u64().unwrap() as usize];
             let begin = view["byteOffset"].as_u64().unwrap() as usize;
@@ -199,7 +201,7 @@ fn clips_that_play_together_share_what_they_move() {
     assert_eq!(at(&[]), rest);
     let (bend, swell) = (Playing::all(0, 1.3), Playing::all(1, 1.3));
     let of = |playing: Playing, weight: f64| Playing { weight, ..playing };
-    // Nothing of a clip is nothing, all of one is itself, and the order does not matter much.
+    // A clip with weight 0 has no effect. The order of clips changes rounding only.
     assert_eq!(at(&[bend, of(swell, 0.0)]), at(&[bend]));
     let far = |a: Vec<Vec<DVec3>>, b: Vec<Vec<DVec3>>| {
         a.concat().iter().zip(b.concat()).map(|(a, b)| a.distance(b)).fold(0.0, f64::max)
@@ -207,7 +209,7 @@ fn clips_that_play_together_share_what_they_move() {
     let both = [of(bend, 0.5), of(swell, 0.5)];
     assert!(far(at(&both), at(&[both[1], both[0]])) < 1e-12);
     assert!(far(at(&[bend, swell]), at(&[bend])) > 0.05);
-    // A quarter is nearer to rest than a half.
+    // Weight 0.25 stays nearer to rest than weight 0.5.
     let [quarter, half] = [0.25, 0.5].map(|weight| far(at(&[of(bend, weight)]), rest.clone()));
     assert!(quarter > 0.0 && quarter < half, "{quarter} {half}");
 }
@@ -222,7 +224,7 @@ fn broken_animations_leave_the_stored_pose_and_a_warning() {
         for clip in 0..rigged.rig.clips.len() {
             rigged.posed(&[Playing::all(clip, 1.0)]).unwrap();
         }
-        // A drawing without a time does not mind.
+        // Opening the file as a still scene gives no warning.
         assert!(Scene::open(&arm.0).unwrap().warnings.is_empty());
     };
     let channel =
@@ -253,7 +255,7 @@ fn broken_animations_leave_the_stored_pose_and_a_warning() {
     }
 }
 
-/// Adds numbers to a file, in a buffer of their own: the accessor they get.
+/// Appends numbers in a new buffer and returns the index of their accessor.
 fn append(file: &mut Value, shape: &str, width: usize, numbers: &[f32]) -> usize {
     let bytes: Vec<u8> = numbers.iter().flat_map(|value| value.to_le_bytes()).collect();
     let mut add = |list: &str, value: Value| {
@@ -285,7 +287,7 @@ fn keys_that_are_no_numbers_or_fall_back_are_left_out() {
         let rigged = Rigged::open(&arm.0).unwrap();
         let lines = rigged.scene.warnings.lines();
         assert!(lines.iter().any(|line| line.contains(expected)), "{name}: {lines:?}");
-        // The weights stay as stored, and all else moves.
+        // The weights keep their stored values. All other channels still play.
         let all = Arm::new(&format!("{name}-whole"), |file| {
             file["animations"][1]["channels"].as_array_mut().unwrap().remove(0);
         });
@@ -310,7 +312,7 @@ fn a_clip_of_no_length_and_one_of_a_million_keys_play() {
     assert_eq!(at(&rigged, 1.0), at(&rigged, 1e9));
     assert_ne!(at(&rigged, 1.0), points(&rigged.scene));
     let many = Arm::new("many-keys", |file| {
-        // A weight that grows evenly from 0 at 0 s to 1 at 10 s.
+        // Weight that grows linearly from 0 at 0 s to 1 at 10 s.
         let times: Vec<f32> = (0..1_000_000).map(|k| k as f32 * 1e-5).collect();
         let values: Vec<f32> = (0..1_000_000).map(|k| k as f32 * 1e-6).collect();
         let (time, value) = (append(file, "SCALAR", 1, &times), append(file, "SCALAR", 1, &values));

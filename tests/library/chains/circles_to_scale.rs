@@ -1,4 +1,5 @@
-//! Circles and arcs on pages to scale and in DXF: corners on one circle become it, and no point moves by more than 0.02 mm on paper.
+//! Circles and arcs on pages to scale and in DXF, against the circles of the model: no vertex is off by more
+//! than 0.02 mm.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -17,7 +18,7 @@ use crate::support::scenes::random_dice::Dice;
 use crate::support::scenes::sheet_models::obj;
 use crate::support::scenes::solids::Solid;
 
-/// An outline in the plane, and the circles that it has arcs of: radius and how much of a turn there is, with centres.
+/// Planar outline with the centres and radii of its arcs.
 #[derive(Clone)]
 struct Outline {
     corners: Vec<[f64; 2]>,
@@ -29,7 +30,7 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     Point::new(a[0], a[1]).distance(Point::new(b[0], b[1]))
 }
 
-/// A circle of `count` corners.
+/// Regular polygon with `count` corners on a circle.
 fn circle(centre: [f64; 2], radius: f64, count: u32, begin: f64) -> Outline {
     let corner = |k: u32| {
         let turn = begin + TAU * f64::from(k) / f64::from(count);
@@ -38,7 +39,7 @@ fn circle(centre: [f64; 2], radius: f64, count: u32, begin: f64) -> Outline {
     Outline { corners: (0..count).map(corner).collect(), arcs: vec![(centre, radius)], is_circle: true }
 }
 
-/// A rectangle with rounded corners, of `chords` a quarter; a slot where it is no higher than two radii.
+/// Rectangle with rounded corners of `chords` chords each. It is a slot if its height is two radii.
 fn rounded([width, height]: [f64; 2], centre: [f64; 2], radius: f64, chords: u32) -> Outline {
     let (x, y) = (width / 2.0 - radius, height / 2.0 - radius);
     let mut own = Outline { corners: Vec::new(), arcs: Vec::new(), is_circle: false };
@@ -62,7 +63,7 @@ fn rounded([width, height]: [f64; 2], centre: [f64; 2], radius: f64, chords: u32
     own
 }
 
-/// A prism over a convex outline, 5 high, closed.
+/// Closed prism of height 5 over a convex outline.
 fn prism(outline: &Outline) -> Solid {
     let mut solid = Solid::default();
     let n = outline.corners.len() as u32;
@@ -79,7 +80,7 @@ fn prism(outline: &Outline) -> Solid {
     solid
 }
 
-/// A ring between two circles of one number of corners, 5 high: a hole in a disc.
+/// Disc of height 5 with a hole. Both outlines must have the same number of corners.
 fn ring(outer: &Outline, inner: &Outline) -> Solid {
     let mut solid = Solid::default();
     let n = outer.corners.len() as u32;
@@ -101,7 +102,7 @@ fn ring(outer: &Outline, inner: &Outline) -> Solid {
     solid
 }
 
-/// A scene of solids as a file holds them: in single precision, with six, four or three decimals, or in double precision.
+/// Scene with coordinates rounded as in a file: to single precision, 6, 4 or 3 decimals, or not at all.
 fn scene(solids: &[Solid], written: usize) -> Scene {
     let decimals = |x: f64, count: i32| (x * 10_f64.powi(count)).round() / 10_f64.powi(count);
     let round = |x: f64| match written {
@@ -124,7 +125,7 @@ fn scene(solids: &[Solid], written: usize) -> Scene {
     scene
 }
 
-/// A view from above to scale on a page in mm, with where a point of the model is on it.
+/// Orthographic drawing from above at `scale` on a page in mm, and its camera.
 fn view(scene: &Scene, scale: f64, [width, height]: [f64; 2], middle: [f64; 2]) -> (Drawing, Camera) {
     let target = DVec3::new(middle[0], middle[1], 0.0);
     let camera = Camera {
@@ -141,14 +142,14 @@ fn view(scene: &Scene, scale: f64, [width, height]: [f64; 2], middle: [f64; 2]) 
     (render_reported(scene, &camera, &style, page, None).expect("a drawing").0, camera)
 }
 
-/// How far a point is from all that is drawn.
+/// Distance from a point to the nearest drawn path.
 fn off(drawing: &Drawing, p: Point) -> f64 {
     let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
     let segments = marks.flat_map(|mark| mark.path.segments());
     segments.map(|segment| segment.nearest(p, 1e-9).distance_sq).fold(f64::INFINITY, f64::min).sqrt()
 }
 
-/// Circles and arcs of a DXF file: centre, radius, and whether it is a whole circle.
+/// Circles and arcs of a DXF file: centre, radius, and whether it is a full circle.
 fn round_entities(entities: &[Entity]) -> Vec<([f64; 2], f64, bool)> {
     let mut found = Vec::new();
     let number = |entity: &Entity, code: u16| entity.number(code);
@@ -181,7 +182,8 @@ fn round_entities(entities: &[Entity]) -> Vec<([f64; 2], f64, bool)> {
     found
 }
 
-/// Draws outlines and looks for their circles, arcs and corners.
+/// Draws the solids and asserts that every corner lies on a line and that the DXF file has exactly the
+/// expected circles and arcs.
 fn check(name: &str, outlines: &[Outline], solids: &[Solid], (written, scale, page): (usize, f64, [f64; 2])) {
     let scene = scene(solids, written);
     let all = || outlines.iter().flat_map(|outline| &outline.corners);
@@ -196,7 +198,7 @@ fn check(name: &str, outlines: &[Outline], solids: &[Solid], (written, scale, pa
         let off = off(&drawing, at);
         assert!(off < 0.02, "{name}: a corner is off by {off}");
     }
-    // In lengths of the model, from its origin.
+    // In model units, relative to the origin of the model.
     let [right, up, _] = camera.axes();
     let origin = [page[0] / 2.0 - camera.eye.dot(right) * scale, page[1] / 2.0 + camera.eye.dot(up) * scale];
     let options = DxfOptions::default().with_length(DxfLength::Model(scale)).with_origin(origin);
@@ -206,7 +208,7 @@ fn check(name: &str, outlines: &[Outline], solids: &[Solid], (written, scale, pa
         .flat_map(|own| own.arcs.iter().map(|(centre, radius)| (*centre, *radius, own.is_circle)))
         .collect();
     assert_eq!(found.len(), wanted.len(), "{name}: {found:?} of {wanted:?}");
-    // Of three decimals radii of short arcs are less certain.
+    // With three decimals the radii of short arcs are less exact.
     let near = 0.002 / scale + if written == 3 { 0.004 } else { 0.0 };
     for (centre, radius, is_circle) in &wanted {
         let is_it = |(other, length, whole): &([f64; 2], f64, bool)| {
@@ -288,7 +290,7 @@ fn polygons_and_ellipses_are_no_circles() {
     }
 }
 
-/// What is left to see of a circle behind something is one arc.
+/// The visible part of a partly hidden circle is an arc.
 #[test]
 fn hidden_circles_leave_arcs() {
     let mut dice = Dice::new(34);
@@ -296,7 +298,7 @@ fn hidden_circles_leave_arcs() {
         let count = [32, 48, 64, 90][dice.below(4)];
         let radius = dice.between(1.0, 4.0);
         let disc = circle([3.0, -8.0], radius, count, dice.between(0.0, 1.0));
-        // A block above it that covers the side beyond a line.
+        // Block above the disc that covers one side of it.
         let from = 3.0 + radius * dice.between(-0.7, 0.7);
         let block = crate::support::scenes::sheet_models::block([from, -30.0, 6.0], [40.0, 30.0, 8.0]);
         let scene = scene(&[prism(&disc), block], dice.below(5));
@@ -309,7 +311,7 @@ fn hidden_circles_leave_arcs() {
     }
 }
 
-/// Views of parts of one model register, whatever is in the frame.
+/// Views of one model at other scales and in other frames have the same DXF coordinates.
 #[test]
 fn files_in_lengths_of_the_model_register() {
     let whole = circle([31.5, -12.25], 6.0, 32, 0.0);

@@ -1,4 +1,4 @@
-//! Chains of view edges: complete without tidying, and circles where corners lie on one.
+//! Tests of chains: plain chains equal the visible lines, and polygons become circles and arcs.
 
 mod circles_to_scale;
 mod untidied_chains;

@@ -1,4 +1,5 @@
-//! Chains that nothing is done to are the visible lines.
+//! Chains without smoothing, simplification, tidying or fitting cover exactly the visible lines of the view
+//! map.
 
 use crate::support::measures::segment_sets::{doubled, length, uncovered};
 use crate::support::pipeline::{counting, stages};

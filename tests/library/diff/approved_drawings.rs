@@ -1,4 +1,4 @@
-//! `assert_drawing!`: drawings approved, compared and refused.
+//! `assert_drawing!` approves a drawing, compares later drawings with it, and reports differences.
 
 use std::path::PathBuf;
 

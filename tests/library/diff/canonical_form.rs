@@ -1,5 +1,5 @@
-//! The canonical form of drawings: what is drawn is in it, other ways of writing a drawing come back to it, pictures stay
-//! the same, and small changes stay small.
+//! Canonical SVG form: it equals what the exporter writes, undoes equivalent rewrites, and keeps the picture.
+//! A small change of the model changes few lines.
 
 use std::fs;
 use std::path::PathBuf;
@@ -26,7 +26,7 @@ fn drawn(scene: &Scene, style: &str) -> Drawing {
     render(scene, &camera.fit(scene), &Style::preset(style).unwrap()).unwrap()
 }
 
-/// Drawings of each kind: lines, hidden lines, fills, outlines, hatching, the order of a plotter.
+/// Drawings with visible and hidden lines, fills, outlines, hatching and a plotter order.
 fn drawings() -> Vec<(String, Drawing)> {
     let example = |name: &str| Scene::open(root().join("examples/models").join(name)).unwrap();
     let solids = || {
@@ -66,8 +66,8 @@ fn what_is_drawn_is_in_the_form() {
     }
 }
 
-/// A drawing as another program might have written it: neighbours with the same paint the other way round, lines
-/// backwards, rings begun elsewhere, and absolute numbers.
+/// Rewrites an SVG as another program might: it shuffles neighbours with equal paint, reverses lines, starts
+/// rings at another point, and writes absolute coordinates.
 fn otherwise(svg: &str, decimals: usize) -> String {
     let paint = |line: &str| {
         let word =
@@ -114,7 +114,7 @@ fn otherwise(svg: &str, decimals: usize) -> String {
     }
     let mut out = String::new();
     for run in lines.chunk_by(|a, b| a.1.is_some() && a.1 == b.1) {
-        // Not just backwards: every third one first.
+        // Every third line first, then all reversed.
         let mixed = (0..3).flat_map(|rest| run.iter().skip(rest).step_by(3)).rev();
         mixed.for_each(|(line, _)| out += &format!("{line}\n"));
     }
@@ -140,7 +140,7 @@ fn rewritten(line: &str, open: &str, change: impl Fn(&BezPath) -> BezPath, decim
     format!("{before}{open}{}\"{after}", data.trim_end())
 }
 
-/// Each closed subpath begun one piece later; with `reversed`, every subpath the other way round.
+/// Starts each closed subpath one segment later. With `reversed`, it also reverses every subpath.
 fn path_turned(path: &BezPath, reversed: bool) -> BezPath {
     let mut out = BezPath::new();
     let elements = path.elements();
@@ -182,7 +182,7 @@ fn other_ways_of_writing_come_back() {
             let svg = drawing.to_svg(&options);
             let other = otherwise(&svg, decimals.into());
             changed += usize::from(other.lines().zip(svg.lines()).filter(|(a, b)| a != b).count() > 5);
-            // Numbers that end in zeros may have been all.
+            // The precision is given because it cannot be inferred if all numbers end in zero.
             assert_text(&canonical_svg(&other, Some(decimals)).unwrap(), &svg, &name);
             assert_same_picture(&other, &svg, &name);
         }
@@ -214,7 +214,7 @@ fn pictures_of_the_documents_stay_the_same() {
     assert!(pictures > 20, "{pictures}");
 }
 
-/// How many lines of the one are not in the other, in order: those that a version control would show.
+/// Number of changed lines by longest common subsequence, as version control shows them.
 fn changed_lines(a: &str, b: &str) -> usize {
     let (a, b): (Vec<&str>, Vec<&str>) = (a.lines().collect(), b.lines().collect());
     let mut common = vec![0usize; b.len() + 1];
@@ -251,11 +251,11 @@ fn a_small_change_of_the_model_is_a_small_change_of_the_text() {
     };
     let before = drawn(&cubes);
     let all = before.lines().count();
-    // Parts that are found in another order do not show.
+    // The order of parts does not change the text.
     let mut changed = cubes;
     changed.reverse();
     assert_text(&drawn(&changed), &before, "the same parts in another order");
-    // One that grows does, and little else.
+    // A part that grows changes its own lines and few others.
     changed[15].1 = 1.2;
     let lines = changed_lines(&before, &drawn(&changed));
     assert!(lines > 0 && lines * 5 < all, "{lines} of {all} lines");

@@ -1,4 +1,5 @@
-//! The canonical form of files that other programs write, and of files that mean harm.
+//! Canonical form of SVG files by other programs and of random paths: expected texts, idempotence and equal
+//! pictures.
 
 use crate::support::measures::canonical_checks::{assert_same_picture, form};
 use ligne::diff::canonical_svg;
@@ -9,9 +10,9 @@ fn svg(inside: &str) -> String {
     )
 }
 
-/// Lines that would change places and begin elsewhere.
+/// Two lines that the canonical form reorders and reverses.
 const TWO: &str = "<path d=\"M9 20L1 20\"/><path d=\"M9 10L1 10\"/>";
-/// The same as they are rounded only, and in the form.
+/// `TWO` with canonical numbers only. `FORM` is its full canonical form.
 const ROUNDED: &str = "<path d=\"M9 20h-8\"/><path d=\"M9 10h-8\"/>";
 const FORM: &str = "<path d=\"M1 10h8\"/><path d=\"M1 20h8\"/>";
 
@@ -32,7 +33,7 @@ fn files_of_others_keep_what_may_make_a_difference() {
             lines("<path d=\"M9 20L1 20\"/><!-- a --><path d=\"M9 10L1 10\"/>"),
             lines("<path d=\"M1 20h8\"/><!-- a --><path d=\"M1 10h8\"/>"),
         ),
-        // Different paint, other elements and other groups between.
+        // Lines with different paint, or with another element between them, keep their order.
         (
             lines("<path stroke=\"red\" d=\"M9 20L1 20\"/><path d=\"M9 10L1 10\"/>"),
             lines("<path stroke=\"red\" d=\"M1 20h8\"/><path d=\"M1 10h8\"/>"),
@@ -41,11 +42,12 @@ fn files_of_others_keep_what_may_make_a_difference() {
             lines("<path d=\"M9 20L1 20\"/><rect width=\"2\" height=\"3\"/><path d=\"M9 10L1 10\"/>"),
             lines("<path d=\"M1 20h8\"/><rect width=\"2\" height=\"3\"/><path d=\"M1 10h8\"/>"),
         ),
-        // Styles become attributes; what scripts may do, and sheets for some media, is not known.
+        // Styles become attributes. With scripts, media rules or other unknown CSS, paths keep their order
+        // and direction.
         (format!("<g style=\"fill : none; stroke:#123\">{TWO}</g>"), format!("<g fill=\"none\" stroke=\"#123\">{FORM}</g>")),
         (
             format!("<style>path {{ stroke-dasharray: 3 }}</style>{}", lines(TWO)),
-            // Dashed lines keep their directions, and may change places.
+            // Dashed lines keep their direction and may be reordered.
             lines("<path d=\"M9 10h-8\"/><path d=\"M9 20h-8\"/>").replace("<path", "<path stroke-dasharray=\"3\""),
         ),
         (
@@ -69,7 +71,7 @@ fn files_of_others_keep_what_may_make_a_difference() {
             format!("<g style=\"fill:none;stroke:var(--ink)\">{TWO}</g>"),
             format!("<g style=\"fill:none;stroke:var(--ink)\">{ROUNDED}</g>"),
         ),
-        // Two colours, and those that are not the same everywhere, do not change places.
+        // Marks with fill and stroke, gradients or blend modes keep their order.
         (
             "<path fill=\"red\" stroke=\"#000\" d=\"M5 5H9V9Z\"/><path fill=\"red\" stroke=\"#000\" d=\"M3 1H7V7Z\"/>".into(),
             "<path fill=\"red\" stroke=\"#000\" d=\"M5 5h4v4z\"/><path fill=\"red\" stroke=\"#000\" d=\"M3 1h4v6z\"/>".into(),
@@ -82,10 +84,10 @@ fn files_of_others_keep_what_may_make_a_difference() {
             "<path style=\"mix-blend-mode:difference\" d=\"M5 5H9V9Z\"/><path style=\"mix-blend-mode:difference\" d=\"M3 1H7V7Z\"/>".into(),
             "<path style=\"mix-blend-mode:difference\" d=\"M5 5h4v4z\"/><path style=\"mix-blend-mode:difference\" d=\"M3 1h4v6z\"/>".into(),
         ),
-        // Holes stay holes; regions begin at their least point.
+        // Holes stay holes. Regions start at their smallest point.
         ("<path d=\"M9 9V1H1V9ZM3 3V5H5V3Z\"/>".into(), "<path d=\"M1 1v8h8v-8zm2 2v2h2v-2z\"/>".into()),
         ("<path fill=\"red\" stroke=\"#000\" d=\"M9 9L1 1L9 1\"/>".into(), "<path fill=\"red\" stroke=\"#000\" d=\"M9 9l-8-8h8\"/>".into()),
-        // Dashes begin where the path does.
+        // A dashed path keeps its start.
         (
             lines("<path stroke-dasharray=\"2 1\" d=\"M9 20L1 20\"/>"),
             lines("<path stroke-dasharray=\"2 1\" d=\"M9 20h-8\"/>"),
@@ -94,7 +96,7 @@ fn files_of_others_keep_what_may_make_a_difference() {
             format!("<g stroke-dasharray=\"2 1\">{}</g>", lines("<path stroke-dasharray=\"none\" d=\"M9 20L1 20\"/>")),
             format!("<g stroke-dasharray=\"2 1\">{}</g>", lines("<path stroke-dasharray=\"none\" d=\"M1 20h8\"/>")),
         ),
-        // What is used elsewhere, bears markers or moves.
+        // Paths that are reused, have markers or are animated keep their order and direction.
         (
             format!("<g id=\"a\">{}</g><use xlink:href=\"#a\" stroke-dasharray=\"2\"/>", lines(TWO)),
             format!("<g id=\"a\">{}</g><use xlink:href=\"#a\" stroke-dasharray=\"2\"/>", lines(ROUNDED)),
@@ -121,16 +123,16 @@ fn files_of_others_keep_what_may_make_a_difference() {
             format!("<switch {line}><path d=\"M9 20L1 20\"/><path d=\"M9 10L1 10\"/></switch>"),
             format!("<switch {line}><path d=\"M1 20h8\"/><path d=\"M1 10h8\"/></switch>"),
         ),
-        // The order of a plotter.
+        // Plotter order is kept.
         (format!("<g data-order=\"travel\">{}</g>", lines(TWO)), format!("<g data-order=\"travel\">{}</g>", lines(ROUNDED))),
-        // Arcs and what is wrong stay, and do not keep others from their form.
+        // Arcs and invalid path data stay unchanged. Other paths still get their canonical form.
         (
             lines("<path d=\"M9 20A4 4 0 0 1 1 20\"/><path d=\"M9 10L1 10\"/>"),
             lines("<path d=\"M1 10h8\"/><path d=\"M9 20A4 4 0 0 1 1 20\"/>"),
         ),
         as_it_is("<path d=\"\"/><path/><path d=\"M1 1 L 5 5 6\"/><path d=\"M9 20L 1\"/><path d=\"none\"/>"),
         as_it_is("<path d=\"M99999999.12345678 1L 5 5.12345678\"/>"),
-        // A move that nothing is drawn from is no dot, and something of no length is.
+        // A move without a line draws nothing. A line of zero length draws a dot.
         as_it_is(&lines("<path d=\"M3 3M9 20L1 20M5 5\"/>")),
         (lines("<path d=\"M3 3L3 3\"/>"), lines("<path d=\"M3 3h0\"/>")),
     ];
@@ -162,7 +164,7 @@ fn declarations_and_entities_stay() {
     assert_eq!(form(&marked), format!("\u{feff}{}", svg("<path d=\"M9 10h-8\"/><path d=\"M9 20h-8\"/>")));
 }
 
-/// Numbers without a pattern.
+/// Xorshift random numbers.
 struct Random(u64);
 
 impl Random {
@@ -173,7 +175,7 @@ impl Random {
         self.0 % n
     }
 
-    /// Coordinates meet often.
+    /// A coordinate with few decimals, so that equal coordinates are common.
     fn number(&mut self) -> String {
         let digits = self.below(4) as usize;
         format!("{:.digits$}", self.below(40_000) as f64 / if self.below(3) == 0 { 1000.0 } else { 10_000.0 })

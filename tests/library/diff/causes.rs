@@ -1,4 +1,5 @@
-//! One cause is one sentence: other names, pens, sides, and holes that went far.
+//! Findings with one cause become one sentence: renamed parts, other pens, another camera, and holes that
+//! moved far.
 
 use ligne::diff::{self, Diff, DiffOptions, Picture, Verdict};
 
@@ -24,11 +25,11 @@ fn a_part_with_another_name_is_renamed_once() {
     let diff = compare(&rows("lid", 120.0), &rows("cover", 120.0));
     assert_eq!(verdicts(&diff), ["relabelled"], "{:#?}", diff.lines());
     assert!(diff.lines()[0].contains("part lid → cover"), "{:#?}", diff.lines());
-    // What else became of it is told with its new name.
+    // Other findings of the part carry its new name.
     let diff = compare(&rows("lid", 120.0), &rows("cover", 124.0));
     assert_eq!(verdicts(&diff), ["moved", "relabelled"], "{:#?}", diff.lines());
     assert_eq!(diff.findings[0].label.part.as_deref(), Some("cover"));
-    // Two parts that became one are none by another name.
+    // Two parts merged into one are not a rename: their marks are relabelled one by one.
     let two = rows("lid", 120.0) + &rows("rim", 160.0).replace("M30.25", "M230.25").replace("H210", "H410");
     let diff = compare(&two, &two.replace("lid", "one").replace("rim", "one"));
     assert!(diff.of(Verdict::Relabelled).count() > 2, "{:#?}", diff.lines());
@@ -78,7 +79,7 @@ fn marks_that_coincide_are_recoloured_one_by_one() {
 
 #[test]
 fn another_side_is_one_sentence() {
-    // Each part goes its own way, as parts of different depth do.
+    // Each part shifts by a different amount, as parts at different depths do.
     let parts = |turn: f64| -> String {
         let part = |i: usize| {
             let (x, y) = (30.0 + 45.0 * i as f64, 60.0 + 20.0 * (i % 3) as f64);

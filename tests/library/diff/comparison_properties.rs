@@ -1,5 +1,5 @@
-//! Properties of comparing drawings: on random drawings, what a person does not see is not told, what is told one way is
-//! told the other way round, and distances are those of brute force.
+//! Comparison of random drawings: equivalent drawings are equal, swapped inputs mirror the findings, and
+//! distances match brute force.
 
 use crate::support::scenes::random_dice::Dice;
 use kurbo::{Affine, BezPath, PathEl, Point, Vec2};
@@ -16,7 +16,7 @@ struct Line {
     path: BezPath,
 }
 
-/// Lines, curves and closed shapes all over a page.
+/// Random lines, curves and closed shapes all over the page.
 fn random_lines(dice: &mut Dice, count: usize) -> Vec<Line> {
     let mut lines = Vec::new();
     for _ in 0..count {
@@ -81,7 +81,7 @@ fn compare(before: &str, after: &str) -> Diff {
     diff::compare(&read(before), &read(after), &DiffOptions::default())
 }
 
-/// The same lines shuffled, turned round, split and written more finely.
+/// The same lines in random order, some of them reversed, flattened or split into two marks.
 fn disguised(lines: &[Line], dice: &mut Dice) -> Vec<Line> {
     let mut out = Vec::new();
     for line in lines {
@@ -97,7 +97,7 @@ fn disguised(lines: &[Line], dice: &mut Dice) -> Vec<Line> {
         let closed = matches!(path.elements().last(), Some(PathEl::ClosePath));
         let count = path.segments().count();
         if dice.below(2) == 0 && count > 1 && !closed {
-            // Two marks, in any order.
+            // Split into two marks.
             let at = 1 + dice.below(count - 1);
             for piece in [path.segments().take(at).collect::<Vec<_>>(), path.segments().skip(at).collect()] {
                 out.push(Line { path: BezPath::from_path_segments(piece.into_iter()), ..line.clone() });
@@ -148,7 +148,7 @@ fn a_shift_is_told_as_such() {
     }
 }
 
-/// A drawing with some lines gone, moved, bent, restyled and added.
+/// The lines with some removed, widened, moved or scaled, and with two lines added.
 fn changed(lines: &[Line], dice: &mut Dice) -> Vec<Line> {
     let mut out = random_lines(dice, 2);
     for line in lines {
@@ -208,7 +208,7 @@ fn differences_mirror() {
     }
 }
 
-/// The largest distance of points along the one line to the other, by trying all.
+/// Largest distance from points of one path to the other, by brute force.
 fn brute_force(one: &BezPath, other: &BezPath) -> f64 {
     let points = |path: &BezPath| {
         let mut points: Vec<Point> = Vec::new();
@@ -239,7 +239,7 @@ fn distances_are_those_of_brute_force() {
     for seed in 0..300 {
         let mut dice = Dice::new(seed);
         let line = random_lines(&mut dice, 1).remove(0);
-        // Each point of the path goes its own way.
+        // Each control point moves independently.
         let reach = [0.004, 0.012, 0.02, 0.03, 0.1, 1.0][dice.below(6)];
         let mut bent = line.clone();
         bent.path = line
@@ -254,7 +254,7 @@ fn distances_are_those_of_brute_force() {
         let diff = compare(&svg(std::slice::from_ref(&line), 2), &svg(std::slice::from_ref(&bent), 6));
         let tolerance = diff.tolerance_px;
         assert!((tolerance - 0.02).abs() < 1e-12);
-        // Two decimals round the one line.
+        // One of the two lines is written with two decimals.
         let rounding = 0.5e-2 * 1.5;
         if distance < tolerance - rounding - 0.003 {
             near += 1;

@@ -1,5 +1,6 @@
-//! Files that are no drawings, or mean harm: refused with a message, in bounded time and memory, and never a panic. Were
-//! something expanded that is not to be, these tests would not end.
+//! Malformed and malicious SVG files are refused with a message, in bounded time and memory, without a panic.
+//!
+//! Without a limit on expansion these tests would not end.
 
 use std::path::Path;
 
@@ -90,7 +91,7 @@ fn what_is_merely_odd_is_compared() {
     }
 }
 
-/// Drawings whose bytes are changed by chance.
+/// Random byte mutations of golden drawings.
 #[test]
 fn mutated_drawings_never_panic() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
@@ -116,7 +117,7 @@ fn mutated_drawings_never_panic() {
     let mut read = 0;
     for round in 0..400 {
         let original = &originals[round % originals.len()];
-        // A piece of a large drawing is enough.
+        // The start of a large drawing is enough.
         let mut bytes = original[..original.len().min(6000)].to_vec();
         if original.len() > 6000 && dice.below(4) > 0 {
             let end = bytes.iter().rposition(|byte| *byte == b'\n').unwrap_or(0);
@@ -146,7 +147,7 @@ fn mutated_drawings_never_panic() {
     assert!(read > 40, "{read} of 400 were read");
 }
 
-/// What took a search upwards from each element, for each of the groups around it, and again from there.
+/// A naive matcher searches all ancestors again for each step of a selector, with combinatorial cost.
 #[test]
 fn selectors_that_nest_are_matched_in_one_pass() {
     let groups = |count: usize, inner: &str| "<g>".repeat(count) + inner + &"</g>".repeat(count);
@@ -166,7 +167,7 @@ fn selectors_that_nest_are_matched_in_one_pass() {
     assert!(told.contains("style rules"), "{told}");
 }
 
-/// Styles that say the same over and over, for which readers take the square of their length.
+/// Repeated declarations, which take quadratic time in a naive reader.
 #[test]
 fn styles_that_repeat_themselves_are_read_once() {
     let paths = "<path stroke=\"#000\" d=\"M0 0L9 9\"/>".repeat(1000);
@@ -181,7 +182,7 @@ fn styles_that_repeat_themselves_are_read_once() {
     assert!(told.contains("declarations in a style") && told.contains(';'), "{told}");
 }
 
-/// Thousands of paths in one place, or nearly so: each was compared with each.
+/// Thousands of coincident or nearly coincident paths, which a naive comparison matches pairwise.
 #[test]
 fn paths_on_each_other_are_compared_once() {
     let many = |d: &dyn Fn(usize) -> String, colour: &str| {
@@ -197,7 +198,7 @@ fn paths_on_each_other_are_compared_once() {
     assert_eq!(told(&many(&same, "#c00")).summary(), "10000 restyled");
     assert!(told(&many(&moved, "#000")).summary().starts_with("10000 moved"));
     _ = told(&many(&near, "#000"));
-    // Two such bundles, each of lines that all differ, and lines that cross them.
+    // Two bundles of lines that all differ, and a bundle of equal lines of another shape.
     let after = |i: usize| format!("M10 12L60 42 90 22.{i:05}");
     let bent = |_: usize| "M10 10L60 45 90 20".to_owned();
     let bundle = read(&many(&near, "#000"));

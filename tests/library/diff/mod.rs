@@ -1,4 +1,4 @@
-//! Comparison of drawings: verdicts, causes, bounded work, and the canonical form.
+//! Tests of the comparison of drawings: verdicts, common causes, bounded work, and the canonical form of SVG.
 
 mod approved_drawings;
 mod canonical_form;

@@ -1,5 +1,5 @@
-//! Drawings compared by their pictures: kinds of change that geometry does not see, kinds of writing that no picture shows, and
-//! random pairs of both, judged by resvg and by librsvg at four times the size.
+//! Comparison by picture: changes that geometry misses, rewrites that no picture shows, and random pairs
+//! checked with resvg and librsvg at four pixels per px.
 
 use std::io::Write as _;
 use std::process::{Command, Stdio};
@@ -18,7 +18,7 @@ fn page(body: &str) -> String {
     format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="160" height="120">{body}</svg>"#)
 }
 
-/// Each kind is a test: what it is, the pair, and whether it looks the same.
+/// Defines a test for each kind of change: its name, the expected result, and the two drawings.
 macro_rules! kinds {
     ($($name:ident: $verdict:ident, $before:expr, $after:expr;)*) => {
         $(#[test]
@@ -207,7 +207,8 @@ fn a_place_that_looks_different_is_told() {
     assert!(diff.lines().iter().any(|line| line.contains("at (40, 40)")), "{:#?}", diff.lines());
 }
 
-/// Pens of other programs have other ends: a corner that they cut in two is the same line where widths do not count.
+/// With widths ignored, a corner drawn as two lines equals one bent line, because pens of other programs end
+/// differently.
 #[test]
 fn a_corner_in_two_lines_is_one_where_widths_do_not_count() {
     let pen = r##"<g fill="none" stroke="#000" stroke-width="3">"##;
@@ -220,7 +221,7 @@ fn a_corner_in_two_lines_is_one_where_widths_do_not_count() {
     assert!(diff.is_same(), "{:#?}", diff.lines());
 }
 
-/// A picture by resvg itself, four pixels to a px.
+/// Picture by resvg at four pixels per px.
 fn picture(svg: &str) -> tiny_skia::Pixmap {
     let tree = usvg::Tree::from_str(svg, &usvg::Options::default()).unwrap();
     let mut pixmap = tiny_skia::Pixmap::new(640, 480).unwrap();
@@ -228,7 +229,7 @@ fn picture(svg: &str) -> tiny_skia::Pixmap {
     pixmap
 }
 
-/// A picture by librsvg, four pixels to a px; none if it is not installed.
+/// Picture by librsvg at four pixels per px, or `None` if it is not installed.
 fn picture_by_librsvg(svg: &str) -> Option<tiny_skia::Pixmap> {
     let (input, output) = (Stdio::piped(), Stdio::piped());
     let mut child =
@@ -237,13 +238,13 @@ fn picture_by_librsvg(svg: &str) -> Option<tiny_skia::Pixmap> {
     tiny_skia::Pixmap::decode_png(&child.wait_with_output().ok()?.stdout).ok()
 }
 
-/// How many pixels differ by more than a quarter of the way from black to white.
+/// Number of pixels that differ by more than a quarter of the range from black to white.
 fn pixels_that_differ([a, b]: [tiny_skia::Pixmap; 2]) -> usize {
     let pairs = a.data().chunks_exact(4).zip(b.data().chunks_exact(4));
     pairs.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 64)).count()
 }
 
-/// Random pairs from these seeds, half of them changed: verdicts are as the pictures say.
+/// Asserts that verdicts on random pairs match their pictures. Pairs with odd seeds are changed.
 fn pairs_are_judged_as_seen(seeds: std::ops::Range<u64>, picture: impl Fn(&str) -> tiny_skia::Pixmap) {
     let (mut changed, mut unchanged, mut loudest, mut faintest) = (0, 0, 0u8, 255u8);
     for seed in seeds {
@@ -257,7 +258,7 @@ fn pairs_are_judged_as_seen(seeds: std::ops::Range<u64>, picture: impl Fn(&str) 
             unchanged += 1;
         } else {
             let (before, after, way) = seen_pair(&scene, &mut dice);
-            // A spot of one px² of the page.
+            // Less than one px² of the page changes visibly.
             if pixels_that_differ([&before, &after].map(|svg| picture(svg))) < 16 {
                 continue;
             }
@@ -268,7 +269,7 @@ fn pairs_are_judged_as_seen(seeds: std::ops::Range<u64>, picture: impl Fn(&str) 
         }
     }
     assert!(changed > unchanged / 4, "{changed} of {unchanged} changes are seen");
-    // How pixels that differ by rounding are told from those that differ: the threshold of `likeness` lies between.
+    // The threshold of `likeness` lies between rounding differences and real ones.
     assert!(loudest <= 2 && faintest >= 16, "one picture: up to {loudest}; two: {faintest} and more");
 }
 
@@ -283,7 +284,7 @@ fn ten_thousand_random_pairs_are_judged_as_seen() {
     pairs_are_judged_as_seen(1000..1000 + pairs(), picture);
 }
 
-/// Pairs of the long runs: ten thousand, or `LIGNE_PAIRS`.
+/// Number of pairs in the long runs: `LIGNE_PAIRS`, by default 10,000.
 fn pairs() -> u64 {
     std::env::var("LIGNE_PAIRS").map_or(10_000, |count| count.parse().expect("a number of pairs"))
 }

@@ -1,8 +1,9 @@
-//! Drawings compared by geometry: a table of edits with the verdict a person would give.
+//! Verdicts on edited drawings: a table of edits to a small SVG with the expected findings in both
+//! directions.
 
 use ligne::diff::{self, Change, Diff, DiffOptions, Picture, Stage, Tolerances, Verdict};
 
-/// A drawing as this program writes them, small enough to be edited by hand.
+/// Small drawing as ligne writes it. The tests edit its text.
 const BASE: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" width="200" height="100" viewBox="0 0 200 100">
 <title>plate</title>
 <g id="paper" inkscape:groupmode="layer" inkscape:label="paper">
@@ -30,13 +31,13 @@ fn compare(before: &str, after: &str) -> Diff {
     compare_with(before, after, &DiffOptions::default())
 }
 
-/// The base with a piece of its text replaced.
+/// `BASE` with one piece of text replaced.
 fn edited(from: &str, to: &str) -> String {
     assert!(BASE.contains(from), "{from} is not in the drawing");
     BASE.replacen(from, to, 1)
 }
 
-/// The verdicts in a line: `moved crease of plate`, sorted.
+/// All findings in one line, sorted, such as `moved crease of plate`.
 fn told(diff: &Diff) -> String {
     let mut words: Vec<String> = diff
         .findings
@@ -51,14 +52,14 @@ const CREASE: &str = r#"d="M20.25 20.5l60 1.25""#;
 const CURVE: &str = r#"d="M125 35c5 5 10 5 20 0""#;
 const FRAME: &str = r#"stroke-width="2.2" d="M10 10h80v80h-80z""#;
 
-/// Edits that a person does not see.
+/// Edits that do not change the picture.
 #[test]
 fn what_looks_the_same_is_the_same() {
     let flat: String = (0..=64)
         .map(|i| {
             let t = f64::from(i) / 64.0;
             let u = 1.0 - t;
-            // The cubic from (125, 35) by (130, 40) and (135, 40) to (145, 35).
+            // Cubic from (125, 35) with control points (130, 40) and (135, 40) to (145, 35).
             let at = |a: f64, b: f64, c: f64, d: f64| {
                 a * u * u * u + 3.0 * b * u * u * t + 3.0 * c * u * t * t + d * t * t * t
             };
@@ -175,14 +176,14 @@ fn what_looks_the_same_is_the_same() {
         for (from, to) in [(BASE, after.as_str()), (after.as_str(), BASE)] {
             let diff = compare(from, to);
             assert!(diff.is_same(), "{what}: {:#?}", diff.lines());
-            // Rounding may part points that are equal on paper, and may unite them.
+            // Rounding may separate or merge points, so any stage from `Structure` on is accepted.
             let wanted = if stage == Stage::Bytes { Stage::Bytes } else { Stage::Structure };
             assert!(diff.same_at.is_some_and(|at| at >= wanted), "{what}: {:?}", diff.same_at);
         }
     }
 }
 
-/// Edits that a person sees, and what that person would say.
+/// Edits that change the picture, with the expected findings forwards and backwards.
 #[test]
 fn what_differs_is_told_as_a_person_would() {
     let line = "<path class=\"crease\" data-part=\"plate\" d=\"M20.25 20.5l60 1.25\"/>\n";
@@ -230,7 +231,7 @@ fn what_differs_is_told_as_a_person_would() {
     }
 }
 
-/// The rest of what a verdict says: distances, growth, what changed.
+/// Details of findings: distances, growth and changed properties.
 #[test]
 fn findings_say_how_far_and_what() {
     for d in [0.05, 0.5, 5.0] {
@@ -290,7 +291,7 @@ fn tolerances_are_by_class_and_layer() {
     assert_eq!(compare_with(BASE, &after, &options).unused_tolerances, ["ceases"]);
 }
 
-/// The base with the bolt's fill over the plate's, and the same with the two swapped.
+/// `BASE` with the bolt's fill over the plate's fill, and the same with the two fills swapped.
 fn stacked() -> (String, String) {
     let over = BASE.replace("M120 30h30v30h-30z", "M60 30h60v30h-60z");
     let start = over.find("<path class=\"tone-1\"").unwrap();
@@ -308,7 +309,7 @@ fn what_lies_over_what_is_told() {
         "{}",
         told(&compare(&over, &swapped))
     );
-    // The whole layer of lines under the fills.
+    // The whole line layer under the fills.
     let lines = BASE.find("<g id=\"lines\"").unwrap();
     let fills = BASE.find("<g id=\"fills\"").unwrap();
     let under = [&BASE[..fills], &BASE[lines..BASE.len() - 7], &BASE[fills..lines], "</svg>\n"].concat();

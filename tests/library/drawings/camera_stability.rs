@@ -1,5 +1,5 @@
-//! A drawing stays where it is when the camera turns by a tenth of a degree: no line comes or goes but
-//! where the surface does.
+//! Drawings are stable when the camera turns by 0.1 degrees: 98 % of the ink follows the motion of the
+//! surface.
 
 use crate::support::readers::shared_folder;
 use std::path::Path;
@@ -8,7 +8,7 @@ use crate::support::measures::camera_turns::{Stability, compare, surface, turned
 use ligne::lines::LineOptions;
 use ligne::scene::{Camera, Scene};
 
-/// Percent of the ink that has to stay.
+/// Minimum share of the ink that stays, in percent.
 const LEAST: f64 = 98.0;
 
 fn stability(path: &Path, azimuths: &[f64], degrees: f64) -> Stability {

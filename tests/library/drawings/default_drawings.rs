@@ -1,8 +1,7 @@
-//! What is drawn by default is what is there: every example model from three sides, judged by rays, and
-//! nothing that is hidden is shown.
+//! Drawings of all example models from three views against ray casts: visible outlines are drawn and hidden
+//! lines are not.
 //!
-//! The judge takes triangles and drawings and nothing between: it finds lines, what is before them, and how
-//! near ink is, by itself.
+//! The reference in `drawing_judge` uses only the triangles and the finished drawing.
 
 use crate::support::references::triangle_scene;
 use std::path::Path;
@@ -23,7 +22,7 @@ use ligne::scene::{Camera, Projection, Scene, UpAxis};
 use ligne::style::Style;
 use rayon::prelude::*;
 
-/// Each example with its limits, and whether it is closed and machined.
+/// Example models with their limits, and whether they are closed and machined.
 const MODELS: [(&str, Limits, bool); 18] = [
     ("bear.ply", COARSE, false),
     ("bevels.obj", EXACT, true),
@@ -34,7 +33,7 @@ const MODELS: [(&str, Limits, bool); 18] = [
     ("elbow.obj", EXACT, true),
     ("gear.obj", EXACT, true),
     ("goose.obj", COARSE, false),
-    // Its shell is of few faces, and is drawn rounder than they are.
+    // Its shell has few faces and is drawn rounder than its mesh.
     ("helmet.obj", Limits { tolerance: 12.0, ..EXACT }, false),
     ("horn.obj", EXACT, false),
     ("knot.ply", ROUND, false),
@@ -46,8 +45,8 @@ const MODELS: [(&str, Limits, bool); 18] = [
     ("teapot.obj", ROUND, false),
 ];
 
-/// Drawings that fall short, by model, view and contours; the list may only get shorter. The goose's belly is drawn
-/// more than 15 px rounder than its faces, and tidying takes the end of the drum's shaft.
+/// Known failures by model, view and contours. This list may only get shorter. The belly of the goose is
+/// drawn more than 15 px rounder than its faces. Tidying removes the end of the drum's shaft.
 const SHORT: [(&str, usize, Contours); 2] =
     [("goose.obj", 1, Contours::Auto), ("drum.obj", 1, Contours::Smooth)];
 
@@ -83,7 +82,7 @@ fn ink_style(contours: Contours) -> Style {
     style
 }
 
-/// Draws the models that are wanted from all sides, and fails with a line for each drawing that falls short.
+/// Draws the wanted models in all views and fails with one line per drawing outside its limits.
 fn all_models(contours: Contours, wanted: impl Fn(bool) -> bool, limits: impl Fn(Limits) -> Limits + Sync) {
     let jobs: Vec<(&str, Limits, (f64, f64, bool))> = MODELS
         .iter()
@@ -165,7 +164,8 @@ fn flat_faces_are_drawn_by_default_as_along_the_mesh() {
     }
 }
 
-/// The hull of a barrel with steep lids: its faces reach from rim to rim and from there to the tips, and no two lie in a plane.
+/// Convex hull of a barrel with steep lids. Its faces reach from rim to rim and from the rims to the tips,
+/// and no two are coplanar.
 fn hull() -> Solid {
     const AROUND: u32 = 40;
     let mut hull = Solid { positions: vec![DVec3::Z * -3.4, DVec3::Z * 3.4], ..Solid::default() };
@@ -191,8 +191,8 @@ fn hulls_keep_the_outline_of_their_faces() {
     }
 }
 
-/// Four studs with six sides before a wall, their caps rounded by normals that lean to the rim from both faces beside each
-/// corner. Sides run to a point behind the wall.
+/// Four six-sided studs in front of a wall. Normals at the rim are averaged over the adjacent cap faces, so
+/// the caps look round. The sides run to a point behind the wall.
 fn studs() -> Scene {
     const HIGH: f64 = 0.38;
     const DEEP: f64 = 3.5;
@@ -233,8 +233,8 @@ fn studs() -> Scene {
     Scene::from_bytes((points + &normals + &faces).as_bytes(), ModelFormat::Obj).unwrap()
 }
 
-/// The sides beyond a rim are turned from the eye there, and the cap is cut finer and bulges: its last faces are turned
-/// away as well, which is no ripple but where the cap ends.
+/// At a rim the sides face away from the camera. The refined cap bulges, so its last faces face away as well.
+/// That is the end of the cap, not a ripple of the surface.
 #[test]
 fn rounded_caps_keep_their_rims_before_a_wall() {
     let model = studs();

@@ -1,6 +1,6 @@
-//! What holds for every drawing with contours along the mesh, by default and all smooth, on random scenes that
-//! are hard to see right: nothing shows through another part, no outline is lost, and hiding a part changes only what
-//! is near it.
+//! Drawings with mesh, default and smooth contours on difficult random scenes, against ray casts.
+//!
+//! Nothing shows through another part, no outline is lost, and hiding a part changes only lines near it.
 
 use crate::support::measures::line_picture;
 use crate::support::references::drawing_judge;
@@ -30,10 +30,11 @@ use rayon::prelude::*;
 
 const ALL: [Contours; 3] = [Contours::Mesh, Contours::Auto, Contours::Smooth];
 
-/// How far ink may lie beside the polygon: what smoothing and joining take, and 15 % of the edge that is rounded.
+/// Largest distance of ink from the polygon due to smoothing and joining. `ROUNDING` adds 15 % of the length
+/// of a rounded edge.
 const SMOOTHING_PX: f64 = 2.5;
 const ROUNDING: f64 = 0.15;
-/// What a line that ends may run too far.
+/// Tolerated length of wrong ink, such as an overrun at a line end, px.
 const CRUMB_PX: f64 = 3.0;
 
 fn draw(scene: &Scene, camera: &Camera, contours: Contours) -> Drawing {
@@ -46,7 +47,7 @@ fn strokes(drawing: &Drawing) -> Vec<[Point; 2]> {
     ink_marks(drawing).flat_map(axis).collect()
 }
 
-/// Runs a check on random scenes of all kinds, drawn all ways, and fails with a line for each that fails it.
+/// Runs a check on random scenes of all kinds with all contours, and fails with one line per failure.
 fn for_scenes(seeds: std::ops::Range<u64>, check: impl Fn(&str, u64, Contours) -> Result<(), String> + Sync) {
     let jobs: Vec<(&str, u64, Contours)> = HARD_SCENES
         .iter()
@@ -72,7 +73,7 @@ fn random(kind: &str, seed: u64) -> (Scene, Camera) {
 fn no_visible_point_is_hidden_by_another_part() {
     for_scenes(0..4, |kind, seed, contours| {
         let (scene, camera) = random(kind, seed);
-        // Round lines lie beside the polygon's, and so do their ends.
+        // Rounded lines and their ends lie next to the polygon.
         let excused = if contours == Contours::Mesh { 0.75 } else { SMOOTHING_PX };
         let options = LineOptions { contours, ..LineOptions::default() };
         let shown = visible_points::hidden_by_others(&scene, &camera, &options, excused);
@@ -121,14 +122,14 @@ fn every_point_of_the_outline_has_ink() {
     });
 }
 
-/// Hides a part under a fixed camera: whatever lies away from its picture stays, but for what fitting takes
-/// where a line is longer or shorter than before, and for crumbs that show beside it and are left out.
+/// Compares drawings with and without a part under a fixed camera. Lines away from the part must stay, except
+/// for refitted lines of another length and short faint lines.
 fn hiding_is_local(scene: &Scene, camera: &Camera, part: usize, contours: Contours) -> Result<(), String> {
-    /// How far a line may move when it ends elsewhere, px.
+    /// Largest shift of a line whose end changes, px.
     const REFITTED: f64 = 0.5;
-    /// A faint crease of a figure that the part cuts short is no line any more below this length, px.
+    /// A faint crease that the part shortens to less than this length may disappear, px.
     const FAINT_PX: f64 = 100.0;
-    // How far from the picture of the part marks may change: round lines lie beside it.
+    // Radius around the picture of the part within which marks may change. Rounded lines need more.
     let near = if contours == Contours::Mesh { 4.0 } else { 12.0 };
     let hidden = &scene.parts[part];
     let only = Scene { parts: vec![hidden.clone()], ..scene.clone() };
@@ -215,7 +216,7 @@ fn a_rod_behind_a_wall_is_hidden_in_any_tessellation() {
     }
 }
 
-/// The length of ink between two heights of the page.
+/// Length of ink between two y coordinates of the page.
 fn length_between(strokes: &[[Point; 2]], [low, high]: [f64; 2]) -> f64 {
     let inside = |[a, b]: &[Point; 2]| {
         let (from, to) = (a.y.min(b.y), a.y.max(b.y));

@@ -1,7 +1,7 @@
-//! Golden drawings: small drawings that must not change unnoticed.
+//! Golden drawings: small drawings compared with approved SVG files.
 //!
-//! After a change that is meant, look at what differs and renew them with
-//! `LIGNE_BLESS=1 cargo test --test library golden`; that is refused where `CI` is set.
+//! After an intended change, review the differences and renew the files with
+//! `LIGNE_BLESS=1 cargo test --test library golden`. That is refused where `CI` is set.
 
 use std::path::Path;
 

@@ -1,7 +1,7 @@
-//! What must not change a drawing: where scene and camera are and how large, how a file numbers vertices and orders
-//! faces and parts, how flat faces are cut, what is hidden, how many threads draw.
+//! Changes that must not change a drawing: position and scale, numbering, order of parts, splits of flat
+//! faces, winding, hidden parts and thread count.
 //!
-//! Each property is asked of every way to draw for which it holds: the table in `support/properties` lists them.
+//! `support/properties/table` lists the drawing options and the bounds for each property.
 
 use crate::support::properties::bound::Bound;
 use crate::support::properties::change::{Change, Property};

@@ -1,4 +1,4 @@
-//! Whole drawings: properties that no change of numbering, place or notation may break, and approved pictures.
+//! Tests of whole drawings: invariances, checks by ray casts, and approved pictures.
 
 mod camera_stability;
 mod default_drawings;

@@ -1,14 +1,14 @@
-//! The same model, however it is written, gives the same drawing: random scenes in other formats, precisions, places, orders and
-//! cuts.
+//! Random scenes give the same drawing in other formats, precisions, places, orders and triangulations.
 //!
-//! A failure names the scene by its seed. `LIGNE_SCENE=SEED` runs all relations on that scene alone; with
-//! `LIGNE_CASES=FOLDER`, failing scenes are reduced to as few bodies as possible and written there, both files with their cameras:
+//! A failure names the scene by its seed. `LIGNE_SCENE=SEED` runs all relations on that scene only.
+//! `LIGNE_CASES=FOLDER` reduces failing scenes to the fewest bodies, and writes both files and their cameras
+//! to the folder:
 //!
 //! ```text
-//! LIGNE_SCENE=17 LIGNE_CASES=cases cargo test --test library rewriting::a_hundred_scenes -- --nocapture
+//! LIGNE_SCENE=17 LIGNE_CASES=cases cargo test --test library rewritten_models::a_hundred -- --nocapture
 //! ```
 //!
-//! `LIGNE_SCENES=300` draws that many scenes in the long run, instead of five thousand.
+//! `LIGNE_SCENES=300` sets the number of scenes in the long run, by default five thousand.
 
 use std::ops::Range;
 use std::path::Path;
@@ -22,7 +22,7 @@ use crate::support::rewriting::table::Table;
 use crate::support::rewriting::trial::Trial;
 use crate::support::scenes::random_dice::Dice;
 
-/// Six relations, others for each seed.
+/// Six relations, chosen by the seed.
 fn a_few(seed: u64) -> Vec<Relation> {
     let mut relations = Dice::new(7000 + seed).shuffled(Relation::ALL.to_vec());
     relations.truncate(6);
@@ -33,7 +33,8 @@ fn all(_: u64) -> Vec<Relation> {
     Relation::ALL.to_vec()
 }
 
-/// Draws scenes and their rewritten files, prints the table, and fails where more differ than is known.
+/// Draws random scenes and their rewritten files, prints the table, and fails if more drawings differ than
+/// the known failures allow.
 fn holds(seeds: Range<u64>, relations: fn(u64) -> Vec<Relation>, is_short: bool) {
     let one =
         std::env::var("LIGNE_SCENE").ok().map(|seed| seed.parse::<u64>().expect("LIGNE_SCENE is a seed"));

@@ -1,4 +1,4 @@
-//! Every shared model is drawn, and every broken one refused or saved as its README wants.
+//! Shared models: every valid file is drawn, and every broken file is refused or repaired as its README says.
 
 use crate::support::long_run::is_long;
 use crate::support::readers::shared_folder;
@@ -10,7 +10,7 @@ use ligne::pipeline::render_reported;
 use ligne::scene::{Camera, Scene};
 use ligne::style::Style;
 
-/// Larger models are left to long runs.
+/// Largest model of the short runs, in triangles.
 const MOST_TRIANGLES: usize = 60_000;
 
 fn files(folder: &Path) -> Vec<PathBuf> {
@@ -34,7 +34,7 @@ fn is_model(path: &Path) -> bool {
     path.extension().is_some_and(|e| ["obj", "gltf", "glb", "stl", "ply"].iter().any(|known| e == *known))
 }
 
-/// Draws a scene in ink; the drawing and its warnings, those of reading first.
+/// Drawing of a scene in ink, and the warnings of reading and drawing it.
 fn draw(scene: &Scene) -> (Drawing, Vec<String>) {
     let camera = Camera::three_quarter().fit(scene);
     let style = Style::preset("ink").unwrap();
@@ -68,21 +68,21 @@ fn every_model_is_drawn() {
     let mut faults = Vec::new();
     let mut drawn = 0;
     for path in files(&folder).iter().filter(|p| is_model(p) && !p.starts_with(&bad)) {
-        // Files of many megabytes take long to read at debug speed.
+        // Large files take long to read in debug builds.
         if !all && std::fs::metadata(path).is_ok_and(|data| data.len() > 4_000_000) {
             continue;
         }
         let name = path.strip_prefix(&folder).unwrap().display().to_string();
         let scene = match Scene::open(path) {
             Ok(scene) => scene,
-            // A cloud of points and corners that cannot be read leave nothing to draw, and say so.
+            // Point clouds and files with unreadable corners have nothing to draw, and the error says so.
             Err(error)
                 if error.message.contains("nothing to draw")
                     && ["points-only", "all-in-brackets"].iter().any(|kind| name.contains(kind)) =>
             {
                 continue;
             }
-            // An accessor that is not there is named, with its mesh.
+            // The error names the missing accessor.
             Err(error) if name.ends_with("plate-minus1.glb") && error.to_string().contains("accessor -1") => {
                 continue;
             }
@@ -108,15 +108,15 @@ fn every_model_is_drawn() {
     assert!(drawn > 40, "only {drawn} models drawn");
 }
 
-/// What the README of the models wants of a broken file.
+/// Expected result for a broken file, by the README of the models.
 enum Wanted {
-    /// An error whose text holds one of these, whatever the case.
+    /// Error that contains one of these words, in upper or lower case.
     Error(&'static [&'static str]),
-    /// A picture, with a warning that holds one of these.
+    /// Drawing with a warning that contains one of these words.
     Warning(&'static [&'static str]),
-    /// A picture.
+    /// Drawing.
     Picture,
-    /// An error, or a picture of finite numbers.
+    /// Error, or a drawing with finite numbers.
     Either,
 }
 

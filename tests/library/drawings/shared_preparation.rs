@@ -1,4 +1,4 @@
-//! What is made ready for several views, or for one alone, draws what each view draws by itself.
+//! A `Prepared` scene draws the same for several views, for one view, and when it consumes the scene.
 
 use std::path::PathBuf;
 
@@ -20,14 +20,14 @@ fn draw(prepared: &Prepared, camera: &Camera) -> Drawing {
     prepared.draw(camera, page, None).expect("a camera that can draw").0
 }
 
-/// A light that stays in the world casts the same shadows in every view; one of the camera does not.
+/// Covers a light fixed to the world, whose shadows all views share, and a light fixed to the camera.
 #[test]
 fn shadows_that_views_share_are_those_of_each_view() {
     let castle = model("castle.obj");
     let fixed = "light.sources=[{ kind = \"directional\", direction = [1, 2, 1] }]";
     let moving = "light.sources=[{ kind = \"directional\", direction = [1, 2, 1], space = \"camera\" }]";
     for light in [fixed, moving] {
-        // Without finer faces of round surfaces all views are of one mesh.
+        // With mesh contours no view refines round surfaces, so all views share one mesh.
         let sets = [light, "fills.cast_shadows=true", "lines.contours=mesh"].map(str::to_owned);
         let style = Style::load("toon", &sets).expect("a style");
         let shared = Prepared::new(&castle, &style);
@@ -41,7 +41,8 @@ fn shadows_that_views_share_are_those_of_each_view() {
     }
 }
 
-/// A scene that is used up leaves the drawing of one that is kept, whatever its style asks of parts, materials and pictures.
+/// `Prepared::of_scene` consumes its scene and must draw the same as `Prepared::for_camera`, for styles that
+/// use parts, materials and textures.
 #[test]
 fn a_scene_that_is_used_up_is_drawn_as_one_that_is_kept() {
     for (name, style, sets) in [

@@ -1,5 +1,5 @@
-//! Stages drawn: every stage of every example model, by its classes and titles, with any number of
-//! threads.
+//! Debug drawings of pipeline stages: every stage of every example model has classified marks, on any number
+//! of threads.
 
 use std::path::{Path, PathBuf};
 
@@ -88,7 +88,7 @@ fn surfaces_are_cut_where_contours_are_traced() {
     let facing = lines::facing(&surface, &view);
     let cut = light::cut(&surface.mesh, &surface.smooth, &facing, &[0.0]);
     assert!(cut.points.len() > 100);
-    // To the bit: regions cut from the surface end at the lines that are drawn.
+    // Bitwise equal, because regions cut from the surface must end exactly at the drawn contours.
     assert_eq!(cut.points, found.points[..cut.points.len()]);
     let first = surface.mesh.positions.len() as u32;
     let on_faces: std::collections::BTreeSet<[u32; 2]> =

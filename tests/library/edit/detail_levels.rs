@@ -1,5 +1,8 @@
-//! Detail by budget: levels are reached alike from above and below, closed forms keep their shape, borders, creases and seams,
-//! files are bound to their model, and what is simplified lies near what it was.
+//! Levels of detail: closed forms keep their shape, borders, creases and seams, and simplified models stay
+//! near the original.
+//!
+//! Also checks that levels do not depend on the direction of seeking and that detail files are bound to their
+//! model.
 
 use std::path::Path;
 
@@ -17,7 +20,7 @@ fn example(name: &str) -> Scene {
     Scene::open(Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models").join(name)).unwrap()
 }
 
-/// A scene at a number of faces, and how many it has.
+/// The scene simplified to at most `most` faces, and its number of faces.
 fn at(scene: &Scene, most: u64) -> (Scene, u64) {
     let detail = Detail::of(scene);
     let mut levels = detail.levels();
@@ -27,13 +30,13 @@ fn at(scene: &Scene, most: u64) -> (Scene, u64) {
     (coarse, faces)
 }
 
-/// A scene of one part.
+/// Scene with one part.
 fn of(geometry: Geometry) -> Scene {
     let part = Part { name: "model".to_owned(), geometry: 0, world_from_part: DAffine3::IDENTITY };
     Scene { geometries: vec![geometry], parts: vec![part], ..Scene::default() }
 }
 
-/// A grid of squares, each cut in two; `place` maps the unit square.
+/// Grid of squares, each split in two. `place` maps the unit square into space.
 fn grid(side: u32, place: impl Fn(f64, f64) -> DVec3) -> Geometry {
     let (count, number) = (side + 1, |i: u32, j: u32| j * (side + 1) + i);
     let share = |k: u32| f64::from(k) / f64::from(side);
@@ -46,7 +49,7 @@ fn grid(side: u32, place: impl Fn(f64, f64) -> DVec3) -> Geometry {
     Geometry { positions, triangles: squares.flat_map(cut).collect(), ..Geometry::default() }
 }
 
-/// Two geometries as one; what one of them lacks both lack.
+/// Two geometries merged into one. Only positions and triangles are merged.
 fn joined(mut one: Geometry, other: &Geometry) -> Geometry {
     let first = one.positions.len() as u32;
     one.positions.extend(&other.positions);
@@ -62,7 +65,7 @@ fn area([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a) / 2.0
 }
 
-/// All that a geometry is made of, to the last bit.
+/// Text that is equal only for bitwise equal geometries.
 fn bits(geometry: &Geometry) -> String {
     let places: Vec<[u64; 3]> = geometry.positions.iter().map(|p| p.to_array().map(f64::to_bits)).collect();
     format!("{places:?} {geometry:?}")
@@ -101,7 +104,7 @@ fn levels_are_the_same_from_above_and_below() {
         }
         assert_eq!(levels.level(), 0);
         assert!(all_bits(&levels.scene(&scene).unwrap()) == all_bits(&scene), "{name} in full");
-        // What is found down to a number of faces is how all begins.
+        // A simplification that stops at a number of faces is a prefix of the full one.
         let begun = Detail::down_to(&scene, full / 3);
         let mut begun = begun.levels();
         assert_eq!(begun.seek(&scene, full / 3), levels.seek(&scene, full / 3), "{name}");
@@ -149,7 +152,7 @@ fn the_border_of_an_open_sheet_stays() {
     let scene = of(grid(40, wave));
     let (coarse, faces_left) = at(&scene, 320);
     assert!(faces_left > 310, "{faces_left}");
-    // Seen from above the sheet is still the whole square.
+    // The projection from above is still the whole square.
     let above: f64 = faces(&coarse.geometries[0]).map(|face| area(face).z).sum();
     assert!((above - 1.0).abs() < 1e-12, "{above}");
 }
@@ -163,7 +166,7 @@ fn the_crease_of_an_angle_stays() {
     assert!((whole - 1.0).abs() < 1e-12, "{whole}");
 }
 
-/// A square whose left half and right half have different texture coordinates, colours or materials.
+/// Two adjacent unit squares. `change` gives the right one other texture coordinates, colours or materials.
 fn parted(change: impl Fn(&mut Geometry, &dyn Fn(usize) -> bool)) -> Scene {
     let mut geometry =
         joined(grid(12, |x, y| DVec3::new(x, y, 0.0)), &grid(12, |x, y| DVec3::new(1.0 + x, y, 0.0)));
@@ -242,12 +245,12 @@ fn seams_of_pictures_colours_and_materials_stay() {
 #[test]
 fn surfaces_that_are_no_surfaces_are_simplified_too() {
     let flat = || grid(10, |x, y| DVec3::new(x, y, 0.0));
-    // The same sheet twice, once turned over.
+    // The same sheet twice, once with reversed winding.
     let mut turned = flat();
     turned.triangles.iter_mut().for_each(|corners| corners.swap(0, 1));
     let (coarse, faces_left) = at(&of(joined(flat(), &turned)), 4);
     assert_eq!((faces_left, coarse.geometries[0].triangles.len()), (4, 4));
-    // Three sheets on one edge.
+    // Three sheets with a common edge (non-manifold).
     let fins = joined(
         joined(flat(), &grid(10, |x, y| DVec3::new(-x, y, 0.0))),
         &grid(10, |x, y| DVec3::new(0.0, y, x)),
@@ -256,12 +259,12 @@ fn surfaces_that_are_no_surfaces_are_simplified_too() {
     assert_eq!(faces_left, 6);
     let whole: f64 = faces(&coarse.geometries[0]).map(|face| area(face).length()).sum();
     assert!((whole - 3.0).abs() < 1e-12, "{whole}");
-    // Faces without area go first; faces that point nowhere are nobody's.
+    // Faces of zero area and faces with invalid indices.
     let mut broken = flat();
     broken.triangles.extend([[0, 0, 1], [3, 4, 3], [0, 1, 99_999]]);
     let detail = Detail::of(&of(broken.clone()));
     assert!(detail.levels().seek(&of(broken), 203).unwrap() <= 203);
-    // Nothing at all.
+    // Empty scene.
     assert_eq!(Detail::of(&Scene::default()).levels().deepest(), 0);
 }
 
@@ -284,7 +287,7 @@ fn instances_share_one_budget() {
     assert_eq!(faces_left, left[0] + 3 * left[1]);
     assert!(faces_left <= count && faces_left + 6 > count, "{faces_left}");
     assert!(left[0] > 4 * left[1], "small copies have fewer: {left:?}");
-    // What is left out has no share in it.
+    // Removed parts do not use the budget.
     let detail = Detail::of(&scene);
     scene.parts.truncate(1);
     assert!(detail.levels().seek(&scene, count).unwrap() > count - 3);
@@ -364,7 +367,7 @@ fn damaged_files_are_refused() {
     assert!(Detail::read(&huge, &scene).is_err());
 }
 
-/// The squared distance of a point from a triangle.
+/// Squared distance from a point to a triangle.
 fn from_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
     let normal = (b - a).cross(c - a);
     let inside = |p: DVec3, q: DVec3, at: DVec3| (q - p).cross(at - p).dot(normal) >= 0.0;
@@ -380,7 +383,7 @@ fn from_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
 
 #[test]
 fn a_tenth_of_the_faces_lies_near_the_whole() {
-    // The greatest mean distance, in parts of the size of the model: half as much again as was measured.
+    // Largest root mean square distance relative to the size of the model: 1.5 times the measured value.
     for (name, bound) in [("horn.obj", 5.4e-3), ("knot.ply", 3e-3), ("teapot.obj", 4.3e-3)] {
         let scene = example(name);
         let (coarse, _) = at(&scene, scene.triangle_count() as u64 / 10);

@@ -1,4 +1,5 @@
-//! Assemblies taken apart: order, room between parts, what cannot be parted, trail lines.
+//! Exploded views of small assemblies against exact offsets: order of parts, gaps, free directions, part
+//! settings and trail lines.
 
 use glam::{DAffine3, DQuat, DVec3};
 use ligne::Scene;
@@ -24,7 +25,7 @@ fn block(low: [f64; 3], high: [f64; 3]) -> Solid {
     cuboid(DVec3::from(low), DVec3::from(high))
 }
 
-/// A square frame about the z axis.
+/// Square frame about the z axis.
 fn frame(inner: f64, outer: f64, low: f64, high: f64) -> Solid {
     let mut ring = block([-outer, -outer, low], [-inner, outer, high]);
     ring.add(block([inner, -outer, low], [outer, outer, high]));
@@ -33,7 +34,7 @@ fn frame(inner: f64, outer: f64, low: f64, high: f64) -> Solid {
     ring
 }
 
-/// The box around each part.
+/// World-space bounding box of each part.
 fn boxes(scene: &Scene) -> Vec<[DVec3; 2]> {
     let of = |part: &Part| {
         let corner = |p: &DVec3| part.world_from_part.transform_point3(*p);
@@ -62,14 +63,14 @@ fn stacked_parts_keep_their_order_and_come_apart() {
         assert!(ways.offsets.iter().all(|way| way.x == 0.0 && way.y == 0.0));
         assert_eq!(ways.offsets.iter().filter(|way| **way == DVec3::ZERO).count(), 1);
     }
-    // Twice as far.
+    // A factor of 2 doubles the gaps.
     let far = boxes(&moved(scene.clone(), &explode(&scene, &along(DVec3::Z, 2.0))));
     assert!((far[2][0].z - far[1][1].z - 0.08 * 48f64.sqrt()).abs() < 1e-9);
 }
 
 #[test]
 fn parts_come_off_on_the_side_that_is_free() {
-    // A pot, what is in it, its lid, and its foot.
+    // A pot with its contents, a lid and a foot.
     let mut pot = frame(2.0, 3.0, 0.0, 4.0);
     pot.add(block([-3.0, -3.0, -1.0], [3.0, 3.0, 0.0]));
     let scene = assembly(&[
@@ -82,10 +83,10 @@ fn parts_come_off_on_the_side_that_is_free() {
     let apart = boxes(&moved(scene.clone(), &ways));
     assert_eq!(ways.offsets[1], DVec3::ZERO);
     assert!(apart[0][0].z > apart[1][1].z && apart[2][0].z > apart[0][1].z && apart[3][1].z < apart[1][0].z);
-    // Along x the pot holds what is in it; lid and foot are beside it there.
+    // Along x the pot blocks its contents, so they move in another direction.
     let ways = explode(&scene, &along(DVec3::X, 1.0));
     assert!(ways.offsets[0].x == 0.0 && ways.offsets[0].length() > 0.0, "{ways:?}");
-    // The axis is found.
+    // Without an axis, the z axis is found.
     let found = explode(&scene, &Explosion::default());
     assert!(found.offsets.iter().all(|way| way.x == 0.0 && way.y == 0.0) && found.offsets[0].z > 0.0);
 }
@@ -100,7 +101,7 @@ fn what_stands_in_a_bore_comes_out_of_it() {
     ]);
     let ways = explode(&scene, &along(DVec3::Z, 1.0));
     let apart = boxes(&moved(scene.clone(), &ways));
-    // The one nearer to an end leaves by that; what stands beside stays.
+    // Each part leaves the bore by the nearer end. The post next to the case stays.
     assert!(apart[0][0].z > apart[1][1].z && apart[2][1].z < apart[1][0].z, "{ways:?}");
     assert_eq!([ways.offsets[1], ways.offsets[3]], [DVec3::ZERO; 2]);
 }
@@ -122,7 +123,7 @@ fn no_two_parts_overlap_on_the_axis_where_they_overlap_across_it() {
         let mut parts = Vec::new();
         let mut height = 0.0;
         for _ in 0..8 {
-            // Blocks on top of each other, shifted and of all sizes.
+            // Stacked blocks of random sizes and offsets.
             let (x, y) = (dice.between(-2.0, 2.0), dice.between(-2.0, 2.0));
             let (w, d, h) = (dice.between(0.5, 3.0), dice.between(0.5, 3.0), dice.between(0.2, 2.0));
             parts.push(("block", block([x - w, y - d, height], [x + w, y + d, height + h])));
@@ -159,7 +160,7 @@ fn trails_lead_from_where_parts_were() {
     assert_eq!(wires.positions, [DVec3::new(0.0, 0.0, 1.5), DVec3::new(0.0, 0.0, 1.5) + ways.offsets[1]]);
 }
 
-/// A base, a washer, a disc, a nut and a stud through these three, about the z axis, as tall as 6.
+/// A base, and a washer, a disc and a nut on a stud along the z axis. The stack is 6 units tall.
 fn stack(place: impl Fn(DVec3) -> DVec3) -> Vec<(&'static str, Solid)> {
     let parts = vec![
         ("base", block([-2.0, -2.0, 0.0], [2.0, 2.0, 1.0])),
@@ -200,7 +201,7 @@ fn sub_assemblies_come_apart_along_their_own_axis() {
 
 #[test]
 fn nothing_is_pulled_through_what_holds_it() {
-    // The nut is cut a little by the stud, as threads are.
+    // The stud overlaps the nut slightly, as modelled threads do.
     let parts = stack(|p| p);
     for axis in [DVec3::X, DVec3::Y, DVec3::new(1.0, 1.0, 0.0)] {
         let ways = explode(&assembly(&parts), &along(axis, 1.0));
@@ -211,7 +212,7 @@ fn nothing_is_pulled_through_what_holds_it() {
 
 #[test]
 fn what_blocks_is_seen_however_thin_it_is() {
-    // A pin under a hook, both far thinner than a hundredth of the plate that they stand on.
+    // A pin under a hook, both much thinner than a hundredth of their plate.
     for side in [0.5, 0.05, 0.005] {
         let mut hook = block([side, 0.0, 0.0], [2.0 * side, side, 3.0]);
         hook.add(block([0.0, 0.0, 2.0], [side, side, 3.0]));
@@ -256,11 +257,11 @@ fn what_is_told_of_parts_is_done() {
     let exactly = PartExplosion { direction: Some(DVec3::NEG_X), distance: Some(4.0), ..told("base") };
     assert_eq!(ways(vec![exactly])[0], DVec3::X * -4.0);
 
-    // The stud below the base.
+    // `order` moves the stud below the base.
     let order = |name: &str, order: f64| PartExplosion { order: Some(order), ..told(name) };
     let turned = ways(vec![order("stud", 1.0), order("base", 2.0)]);
     assert!(turned[4].z + 6.0 < turned[0].z, "{turned:?}");
-    // The last that says a thing counts.
+    // The last matching entry wins.
     let last = ways(vec![
         PartExplosion { distance: Some(1.0), ..told("*") },
         PartExplosion { distance: Some(2.0), ..told("nut") },

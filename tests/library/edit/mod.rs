@@ -1,4 +1,4 @@
-//! Scenes cut open, taken apart or simplified.
+//! Tests of scene edits: sections, exploded views and levels of detail.
 
 mod detail_levels;
 mod exploded_views;

@@ -1,4 +1,5 @@
-//! Cut faces of assemblies against exact areas of what lies in a plane, and hatching within the material of its part.
+//! Sections of assemblies: cut areas per part against an exact sweep of the section plane, and hatching
+//! inside its part.
 
 use std::collections::BTreeMap;
 
@@ -12,14 +13,15 @@ use ligne::{Camera, Scene, Style};
 
 use crate::support::scenes::solids::{Solid, cuboid};
 
-/// Where the triangles of a part cross a plane, as ways along its axes that run the same way round material.
+/// Segment where a triangle crosses the plane, in plane coordinates. Material is always on the same side.
 struct Outline {
     from: DVec2,
     to: DVec2,
     part: usize,
 }
 
-/// The outlines of all parts in a plane, and the order in which parts have what lies in several: the least volume first.
+/// Section outlines of all parts. Where parts overlap, the part with the lowest `rank`, the smallest volume,
+/// owns the area.
 struct Slice {
     outlines: Vec<Outline>,
     rank: Vec<usize>,
@@ -40,7 +42,7 @@ fn slice(scene: &Scene, plane: &Plane) -> Slice {
                 let n = (k + 1) % 3;
                 let rises = far[k] <= 0.0 && far[n] > 0.0;
                 if rises || far[k] > 0.0 && far[n] <= 0.0 {
-                    // The same for both faces at an edge.
+                    // Gives the same result for both faces at an edge.
                     let is_first = corners[k].to_array() < corners[n].to_array();
                     let [a, b, from, to] = if is_first {
                         [
@@ -81,7 +83,8 @@ impl Slice {
             .min_by_key(|part| self.rank[*part])
     }
 
-    /// The area that each part has, exactly: between the heights of all corners and crossings outlines are straight and in one order.
+    /// Exact area of each part. Between consecutive heights of corners and crossings, outlines are straight
+    /// and keep their order.
     fn areas(&self) -> BTreeMap<usize, f64> {
         let span = |o: &Outline| (o.from.y.min(o.to.y), o.from.y.max(o.to.y));
         let mut order: Vec<&Outline> = self.outlines.iter().filter(|o| o.from.y != o.to.y).collect();
@@ -123,7 +126,7 @@ impl Slice {
         areas
     }
 
-    /// The part that has a point.
+    /// Part that owns a point, by winding numbers.
     fn at(&self, p: DVec2) -> Option<usize> {
         let mut turns: BTreeMap<usize, i32> = BTreeMap::new();
         for o in &self.outlines {
@@ -143,7 +146,7 @@ fn example(name: &str) -> Scene {
     Scene::open(path).expect("a model")
 }
 
-/// An upright plane a little beside the shafts, in which no face of the models lies.
+/// Vertical plane slightly off the shaft axes. No face of the models lies in it.
 fn beside(z: f64) -> Plane {
     Plane::new(DVec3::new(0.0, 0.0, z), DVec3::Z).expect("a direction")
 }
@@ -185,7 +188,7 @@ fn cut_faces_of_assemblies_are_exact() {
     }
 }
 
-/// How far lines may lie beside their part, px: what is narrower belongs to its neighbour.
+/// Largest distance of a hatch line from its part, px. Narrower areas count as the neighbour.
 const NEAR: f64 = 0.5;
 
 #[test]
@@ -228,7 +231,7 @@ fn lines_of_cut_faces_lie_in_the_part_that_has_the_place() {
                         let near = Point::new(at.x + dx, at.y + dy);
                         slice.at(place(near)).map(|part| scene.parts[part].name.as_str())
                     };
-                    // Ends lie on borders, which regions have within a fraction of a px.
+                    // Ends lie on region borders, which are exact to a fraction of a px.
                     let is_near = |far: f64| {
                         let around = (0..16).map(|k| f64::from(k) * std::f64::consts::TAU / 16.0);
                         around.into_iter().any(|turn| {
@@ -257,7 +260,7 @@ fn part(scene: &mut Scene, name: &str, solid: Solid) {
     scene.parts.push(Part { name: name.into(), geometry, world_from_part: glam::DAffine3::IDENTITY });
 }
 
-/// A plate with a bolt through it, in either order.
+/// A plate with a bolt through it. `bolt_first` sets the order of the parts.
 fn bolted(bolt_first: bool) -> Scene {
     let mut scene = Scene::default();
     let plate = cuboid(DVec3::new(-4.0, -4.0, -1.0), DVec3::new(4.0, 4.0, 1.0));
@@ -278,14 +281,15 @@ fn a_bolt_in_a_plate_has_what_lies_in_both() {
         let section = cut(bolted(bolt_first), &plane, &[]);
         let own = section.faces.iter().map(|faces| (faces.part, faces.area));
         let areas = areas_by_name(&section.scene, own);
-        // The shank is 2 wide from -2 to 0.5, the head 4 wide to 2; the plate is what is left of 8 x 2.
+        // The shank is 2 wide from z = -2 to 0.5, the head 4 wide up to z = 2. The plate has the rest of
+        // 8 by 2.
         assert!((areas["bolt"] - 11.0).abs() < 1e-12 && (areas["plate"] - 11.0).abs() < 1e-12, "{areas:?}");
         let kinds: Vec<usize> = section.faces.iter().map(|faces| faces.kind).collect();
         assert_ne!(kinds[0], kinds[1]);
     }
 }
 
-/// The lines of a view from the front, by their kind and width, and their ends rounded.
+/// Width and sorted end points (in tenths of a px) of each line segment in a front view.
 fn drawn(scene: &Scene, style: &Style) -> Vec<(f64, [[i64; 2]; 2])> {
     let camera = Camera {
         width: 100.0,
@@ -319,8 +323,8 @@ fn the_border_between_cut_parts_is_one_wide_line_and_nothing_is_drawn_within() {
     style.lines.hidden = ligne::lines::HiddenLines::None;
     let section = cut(bolted(false), &plane, &[]);
     let lines = drawn(&section.scene, &hatched(&style, &section));
-    // Ten px a unit, in tenths of a px; y down from the middle. The lower edge of the plate at z = -1, its sides, its upper edge beside
-    // the head at z = 1; the bolt all round.
+    // 10 px per unit, in tenths of a px, y down from the centre. The plate has a lower edge at z = -1, two
+    // sides, and an upper edge at z = 1 next to the bolt head. The bolt is outlined all round.
     let point = |x: f64, z: f64| [(500.0 + x * 100.0) as i64, (500.0 - z * 100.0) as i64];
     let corners = |way: &[(f64, f64)]| -> Vec<[[i64; 2]; 2]> {
         let ends = |pair: &[(f64, f64)]| {
@@ -351,7 +355,7 @@ fn the_border_between_cut_parts_is_one_wide_line_and_nothing_is_drawn_within() {
     ];
     let mut wanted = corners(&bolt);
     plate.iter().for_each(|side| wanted.extend(corners(side)));
-    // Lines may be divided where others meet them: compare what they cover.
+    // Lines may be split at junctions, so covered lengths are compared.
     let covered = |side: &[[i64; 2]; 2]| {
         let long = |a: [i64; 2], b: [i64; 2]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs();
         let on = |p: [i64; 2]| {

@@ -1,4 +1,7 @@
-//! Sections of shells that overlap, of surfaces with gaps, along planes through vertices and faces; hatching and long sides.
+//! Sections of overlapping shells, surfaces with gaps and coplanar faces, against closed-form areas and
+//! outline lengths.
+//!
+//! Also checks the hatching angles of cut faces.
 
 use std::f64::consts::TAU;
 
@@ -30,7 +33,7 @@ fn area(section: &Section) -> f64 {
     section.faces.iter().map(|faces| faces.area).sum()
 }
 
-/// What lies behind a plane across y, its cut faces hatched, seen along y at 100 px a unit.
+/// Drawing of a section across y with hatched cut faces, seen along y at 100 px per unit.
 fn drawn(mut section: Section, preset: &str) -> Drawing {
     let camera = orthographic(DVec3::NEG_Y * 50.0, DVec3::ZERO, 10.0).with_frame(1000.0, 1000.0);
     let camera = Camera { up: DVec3::Z, ..camera };
@@ -40,14 +43,14 @@ fn drawn(mut section: Section, preset: &str) -> Drawing {
     Prepared::new(&section.scene, &style).draw(&camera, page, None).expect("a drawing").0
 }
 
-/// The length of all visible lines of a drawing, px.
+/// Total length of the visible lines, px.
 fn ink(drawing: &Drawing) -> f64 {
     let lines = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Lines);
     let paths = lines.flat_map(|layer| &layer.marks).flat_map(|mark| mark.path.segments());
     paths.map(|segment| segment.arclen(1e-6)).sum()
 }
 
-/// A prism about the x axis over a regular polygon with a corner at y = 0.
+/// Prism about the x axis over a regular polygon with a corner at y = 0.
 fn shaft(corners: u32, radius: f64, from: f64, to: f64) -> Solid {
     let mut solid = Solid::default();
     for k in 0..corners {
@@ -77,7 +80,7 @@ fn shaft(corners: u32, radius: f64, from: f64, to: f64) -> Solid {
 }
 
 fn across_y(at: f64) -> Plane {
-    // What has less y is taken away.
+    // Everything with smaller y is removed.
     Plane::new(DVec3::Y * at, DVec3::NEG_Y).expect("a direction")
 }
 
@@ -85,7 +88,8 @@ fn across_y(at: f64) -> Plane {
 fn overlapping_shells_have_one_outline_wherever_the_plane_lies() {
     let mut dice = Dice::new(573);
     for round in 0..12 {
-        // A stepped shaft of prisms that overlap, each a shell of one part. Some have corners in the plane, all have them near it.
+        // A stepped shaft of overlapping prisms, all shells of one part. Their corners lie in the plane or
+        // very near it.
         let steps: Vec<(f64, f64, f64)> = (0..4)
             .map(|k| {
                 let from = -4.0 + 2.0 * f64::from(k);
@@ -98,7 +102,7 @@ fn overlapping_shells_have_one_outline_wherever_the_plane_lies() {
             let shift = [0.0, 3e-10, -2e-9, 1e-12][(k + round) % 4];
             solid.add(shaft(corners, *radius, *from, *to).moved(|p| p + DVec3::Y * shift));
         }
-        // The profile: the greatest radius at each place.
+        // Profile: the largest radius at each x.
         let mut places: Vec<f64> = steps.iter().flat_map(|step| [step.1, step.2]).collect();
         places.sort_by(f64::total_cmp);
         let height = |x: f64| steps.iter().filter(|s| s.1 < x && x < s.2).map(|s| s.0).fold(0.0, f64::max);
@@ -109,7 +113,8 @@ fn overlapping_shells_have_one_outline_wherever_the_plane_lies() {
         let steps_up: f64 = ends.windows(2).map(|pair| (pair[0] - pair[1]).abs()).sum();
         let along: f64 = heights.iter().map(|(length, _)| length).sum();
         let outline = 100.0 * (2.0 * along + 2.0 * steps_up);
-        // At a millionth of the part behind its corners the edges of slivers are drawn as well.
+        // Offsets near a millionth of the size of the part are left out: there the edges of slivers are drawn
+        // as well.
         for at in [0.0, 1e-10, -1e-10, 1e-9, -3e-8, 1e-7, 2e-6, 1e-3] {
             let section = cut(scene_of([solid.clone()]), &across_y(at), &[]);
             assert!(section.scene.warnings.is_empty(), "{round} at {at}: {}", section.scene.warnings);
@@ -125,14 +130,14 @@ fn overlapping_shells_have_one_outline_wherever_the_plane_lies() {
 fn boxes_are_cut_alike_through_their_faces_and_a_little_beside_them() {
     let mut dice = Dice::new(574);
     for round in 0..30 {
-        // Boxes of whole numbers in one part, cut along a plane that many of their faces lie in.
+        // Boxes with integer corners in one part. Many of their faces lie in the plane.
         let boxes: Vec<[DVec3; 2]> = (0..5)
             .map(|_| {
                 let low = DVec3::from_array([0; 3].map(|_: i32| dice.below(5) as f64 - 4.0));
                 [low, low + DVec3::from_array([0; 3].map(|_: i32| 1.0 + dice.below(4) as f64))]
             })
             .collect();
-        // Just behind the plane, and just in front of it.
+        // Whether a box covers a point. It is sampled on both sides of the plane.
         let covers = |x: f64, z: f64, y: f64| {
             boxes.iter().any(|[low, high]| {
                 let p = DVec3::new(x, y, z);
@@ -172,13 +177,13 @@ fn a_face_in_the_plane_within_another_shell_is_no_line() {
     let section = cut(scene_of([one.clone()]), &across_y(0.0), &[]);
     assert!((area(&section) - 36.0).abs() < 1e-9);
     assert!((ink(&drawn(section, "ink")) - 2400.0).abs() < 2.0);
-    // One that is half outside: what of it is outside is no cut face, and its border is drawn.
+    // A second shell that is half outside. Its outer half is not a cut face, and its border is drawn.
     one.add(beside);
     let section = cut(scene_of([one]), &across_y(0.0), &[]);
     assert!((area(&section) - 36.0).abs() < 1e-9);
     let found = ink(&drawn(section, "ink"));
     assert!((found - 2800.0).abs() < 3.0, "{found}");
-    // Of two parts the smaller one has what lies in both.
+    // Where two parts overlap, the smaller one owns the area.
     let section = cut(scene_of([big, small]), &across_y(0.0), &[]);
     let areas: Vec<f64> = section.faces.iter().map(|faces| faces.area).collect();
     assert!((areas[0] - 32.0).abs() < 1e-9 && (areas[1] - 4.0).abs() < 1e-9, "{areas:?}");
@@ -186,7 +191,7 @@ fn a_face_in_the_plane_within_another_shell_is_no_line() {
 
 #[test]
 fn small_gaps_of_surfaces_are_closed_and_others_are_left_open() {
-    // A box whose upper side is moved away by a part of its size, and one with a vertex in an edge on one side only.
+    // A box with its upper side moved up by `by`.
     let opened = |by: f64| {
         let mut solid = cuboid(DVec3::splat(-1.0), DVec3::splat(1.0));
         let first = solid.positions.len() as u32;
@@ -215,7 +220,7 @@ fn small_gaps_of_surfaces_are_closed_and_others_are_left_open() {
     }
 }
 
-/// The angles of the lines of each part's hatching, degrees.
+/// Part name and angle in degrees of each hatch line.
 fn angles(drawing: &Drawing) -> Vec<(String, f64)> {
     let hatching = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Hatching);
     let mut found = Vec::new();
@@ -261,7 +266,7 @@ fn hatching_is_never_parallel_to_long_sides_and_neighbours_differ() {
         for (name, angle) in &lines {
             assert!(between(*angle, degrees) > 9.99, "{round}: {name} at {angle}, its sides at {degrees}");
         }
-        // At least the angle or the distance differs.
+        // Neighbours differ in angle or spacing.
         let of =
             |name: &str| lines.iter().filter(|line| line.0 == name).map(|line| line.1).collect::<Vec<_>>();
         let [a, b] = ["part 0", "part 1"].map(of);
@@ -273,7 +278,7 @@ fn hatching_is_never_parallel_to_long_sides_and_neighbours_differ() {
 fn parts_without_long_sides_are_hatched_at_45_degrees() {
     for (corners, radius) in [(64, 3.0), (128, 2.0)] {
         let mut solid = shaft(corners, radius, -1.0, 1.0);
-        // The axis along y.
+        // Turns the axis to y.
         solid = solid.moved(|p| DVec3::new(p.y, p.x, -p.z));
         let section = cut(scene_of([solid]), &across_y(0.1), &[]);
         let lines = angles(&drawn(section, "technical"));

@@ -1,4 +1,5 @@
-//! Scenes cut open by planes: areas of cut faces, closed results, what stays open, hatching within material.
+//! Sections by planes: cut areas against closed forms and rows of rays, closed results, open surfaces, and
+//! hatching in material.
 
 use std::f64::consts::TAU;
 
@@ -42,7 +43,7 @@ fn plane(point: DVec3, normal: DVec3) -> Plane {
     Plane::new(point, normal).expect("a direction")
 }
 
-/// An upright prism over a regular polygon about the z axis, from −1 to 1.
+/// Prism about the z axis over a regular polygon, from z = −1 to 1.
 fn prism(corners: u32, radius: f64) -> Solid {
     let mut solid = Solid::default();
     for k in 0..corners {
@@ -71,14 +72,15 @@ fn volume(scene: &Scene) -> f64 {
     soup.triangles.iter().map(|t| corner(t[0]).dot(corner(t[1]).cross(corner(t[2])))).sum::<f64>() / 6.0
 }
 
-/// Edges that have no two faces.
+/// Number of edges without two consistently oriented faces.
 fn open_edges(scene: &Scene) -> usize {
     let mesh = Mesh::build(scene.to_soup());
     let is_closed = |e: &usize| matches!(mesh.edges.faces(*e), EdgeFaces::Two { same_way: false, .. });
     (0..mesh.edges.len()).filter(|e| !is_closed(e)).count()
 }
 
-/// The area of a cut by asking along rows of the plane which part of each is inside, by the crossings of triangles with the row.
+/// Area of a section by scan lines: rows of rays in the plane, inside where their signed crossings do not
+/// cancel.
 fn area_by_rows(solid: &Solid, plane: &Plane, half: f64, rows: u32) -> f64 {
     let at = |x: f64, y: f64| plane.raised(glam::DVec2::new(x, y));
     let step = 2.0 * half / f64::from(rows);
@@ -123,14 +125,14 @@ fn cut_faces_are_as_large_as_in_closed_form() {
     close(&cut(block(), &plane(DVec3::ZERO, DVec3::X), &[]), 24.0);
     close(&cut(block(), &plane(DVec3::new(0.0, 0.0, 1.5), DVec3::Z), &[]), 8.0);
     close(&cut(block(), &plane(DVec3::ZERO, DVec3::new(1.0, 0.0, 1.0)), &[]), 2.0 * 2f64.sqrt() * 4.0);
-    // A prism across and along its axis; through two of its edges.
+    // A prism cut across its axis, along it through two edges, and at an angle.
     let n = 24;
     let polygon = f64::from(n) / 2.0 * sin(TAU / f64::from(n)) * 4.0;
     close(&cut(scene_of(prism(n, 2.0)), &plane(DVec3::ZERO, DVec3::Z), &[]), polygon);
     close(&cut(scene_of(prism(n, 2.0)), &plane(DVec3::ZERO, DVec3::Y), &[]), 8.0);
     let slanting = DVec3::new(0.3, 0.0, 1.0);
     close(&cut(scene_of(prism(n, 2.0)), &plane(DVec3::ZERO, slanting), &[]), polygon * slanting.length());
-    // A ball with a hollow in it, which has a core in it.
+    // A ball with a cavity that contains a core.
     let ball = |radius: f64| sphere(16, radius);
     let equator = |radius: f64| 16.0 * sin(TAU / 32.0) * radius * radius;
     let mut nested = ball(3.0);
@@ -140,7 +142,7 @@ fn cut_faces_are_as_large_as_in_closed_form() {
         &cut(scene_of(nested), &plane(DVec3::ZERO, DVec3::Z), &[]),
         equator(3.0) - equator(2.0) + equator(1.0),
     );
-    // A torus across its axis: two polygons; along it: a ring.
+    // A torus cut along its axis gives two polygons, across its axis a ring.
     let ring = |m: u32, r: f64| f64::from(m) / 2.0 * sin(TAU / f64::from(m)) * r * r;
     let across = cut(scene_of(torus(40, 16, 4.0, 1.0)), &plane(DVec3::ZERO, DVec3::Y), &[]);
     close(&across, 2.0 * ring(16, 1.0));
@@ -148,7 +150,7 @@ fn cut_faces_are_as_large_as_in_closed_form() {
         &cut(scene_of(torus(40, 16, 4.0, 1.0)), &plane(DVec3::ZERO, DVec3::Z), &[]),
         ring(40, 5.0) - ring(40, 3.0),
     );
-    // Solids of one part that overlap are one.
+    // Overlapping solids of one part count as their union.
     let mut crossed = cuboid(DVec3::new(-3.0, -1.0, -1.0), DVec3::new(3.0, 1.0, 1.0));
     crossed.add(cuboid(DVec3::new(-1.0, -3.0, -1.0), DVec3::new(1.0, 3.0, 1.0)));
     close(&cut(scene_of(crossed), &plane(DVec3::ZERO, DVec3::Z), &[]), 20.0);
@@ -168,7 +170,7 @@ fn a_ball_in_a_ball_is_a_hollow_if_the_two_are_wound_against_each_other() {
         let section = cut(scene_of(ball), &plane(DVec3::ZERO, DVec3::Z), &[]);
         let (found, exact) = (area(&section), equator(3.0) - if is_hollow { equator(2.0) } else { 0.0 });
         assert!((found - exact).abs() < 1e-9 * exact, "{flags}: {found} instead of {exact}");
-        // What lies within the solid of a union is left as it is.
+        // Surfaces inside a union are kept, so only hollow results must be closed.
         assert!(!is_hollow || open_edges(&section.scene) == 0);
         let drawn = styles.map(|name| {
             let style = Style::load(name, &[]).unwrap();
@@ -225,7 +227,7 @@ fn both_halves_are_closed_and_make_up_the_whole() {
 
 #[test]
 fn what_lies_in_the_plane_is_cut_once() {
-    // Vertices, edges and faces of these lie in the plane.
+    // Vertices, edges and faces of these solids lie in the plane.
     let block = || cuboid(DVec3::splat(-1.0), DVec3::splat(1.0));
     let on_top = plane(DVec3::Z, DVec3::Z);
     let under = cut(scene_of(block()), &on_top, &[]);
@@ -233,7 +235,7 @@ fn what_lies_in_the_plane_is_cut_once() {
     assert!((volume(&under.scene) - 8.0).abs() < 1e-12);
     let over = cut(scene_of(block()), &plane(DVec3::NEG_Z, DVec3::Z), &[]);
     assert!(over.scene.parts.is_empty());
-    // A step whose tread lies in the plane: the riser's part is cut.
+    // A stair step whose tread lies in the plane: only the block behind its riser is cut.
     let mut step = Solid::default();
     let points = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
     for [x, z] in points {
@@ -254,7 +256,7 @@ fn what_lies_in_the_plane_is_cut_once() {
     assert!((area(&upper) - 1.0).abs() < 1e-12);
     assert_eq!(open_edges(&upper.scene), 0);
     assert!((volume(&lower.scene) + volume(&upper.scene) - 3.0).abs() < 1e-12);
-    // An octahedron through four of its corners, and along its edges.
+    // An octahedron cut through four corners and the edges between them.
     let positions = [DVec3::X, DVec3::Y, DVec3::NEG_X, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z].into();
     let mut eight = Solid { positions, ..Solid::default() };
     for k in 0..4u32 {
@@ -269,7 +271,7 @@ fn what_lies_in_the_plane_is_cut_once() {
 #[test]
 fn open_surfaces_are_left_open_and_counted() {
     let mut open = cuboid(DVec3::splat(-1.0), DVec3::splat(1.0));
-    // Two triangles of one side are gone.
+    // Two triangles of one side are missing.
     open.triangles.truncate(10);
     open.add(cuboid(DVec3::new(4.0, -1.0, -1.0), DVec3::new(6.0, 1.0, 1.0)));
     let section = cut(scene_of(open), &plane(DVec3::ZERO, DVec3::Z), &[]);
@@ -365,7 +367,7 @@ fn lines_of_cut_faces_lie_in_material_at_the_angle_of_their_part() {
                                 - ligne::kurbo::Vec2::new(page.width, page.height) / 2.0)
                                 .hypot()
                                 / unit;
-                            // Sides of the polygon lie a little inside its circle.
+                            // The sides of the polygon lie slightly inside its circle.
                             assert!(at >= from * 0.997 && at < to * 1.001, "{preset}: {name} at {at}");
                         }
                         lines += 1;
@@ -376,7 +378,7 @@ fn lines_of_cut_faces_lie_in_material_at_the_angle_of_their_part() {
                 }
             }
         }
-        // Lines so far apart fill so much of the area.
+        // Line length times line spacing (2 mm) is the hatched area.
         let covered = inked * 2.0 * 96.0 / 25.4 / (unit * unit);
         assert!(lines > 100 && (covered / area(&section) - 1.0).abs() < 0.02, "{preset}: {lines}, {covered}");
     }
@@ -384,7 +386,7 @@ fn lines_of_cut_faces_lie_in_material_at_the_angle_of_their_part() {
 
 #[test]
 fn files_hold_what_is_cut() {
-    // The corners of each triangle by themselves, as in STL.
+    // Each triangle has its own corners, as in STL.
     let solid = torus(20, 10, 3.0, 1.0);
     let mut stl = vec![0u8; 80];
     stl.extend((solid.triangles.len() as u32).to_le_bytes());

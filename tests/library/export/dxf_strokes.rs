@@ -1,4 +1,4 @@
-//! DXF files hold the strokes of the drawing, each once, as lines and arcs, told by a plain reader of pairs.
+//! DXF files contain each stroke of the drawing once, as lines and arcs, checked with an independent reader.
 
 use std::collections::BTreeSet;
 
@@ -9,14 +9,14 @@ use ligne::{Camera, Scene, Style, render};
 
 use crate::support::readers::dxf_reader::{entities, pairs};
 
-/// What a pen draws: points so close that chords are the curve.
+/// Entity of a DXF file as a dense polyline.
 struct Inked {
     layer: String,
     part: Option<String>,
     points: Vec<Point>,
 }
 
-/// Points of an arc by its bulge.
+/// Points along a polyline segment with a DXF bulge.
 fn along(from: Point, to: Point, bulge: f64) -> Vec<Point> {
     let steps = if bulge == 0.0 { 1 } else { 400 };
     let turn = 4.0 * kurbo::Vec2::new(1.0, bulge).atan2();
@@ -120,7 +120,7 @@ fn drawn(model: &str, style: &str) -> (Drawing, Camera) {
     (render(&scene, &camera, &style).expect("a drawing"), camera)
 }
 
-/// The strokes of a drawing, y up, in px.
+/// Layer kind and mark of each stroke of a drawing.
 fn strokes(drawing: &Drawing) -> impl Iterator<Item = (LayerKind, &ligne::drawing::Mark)> {
     let marks = drawing.layers.iter().flat_map(|layer| layer.marks.iter().map(|mark| (layer.kind, mark)));
     marks.filter(|(_, mark)| matches!(mark.paint, Paint::Stroke(_)))
@@ -144,7 +144,7 @@ fn every_stroke_is_there_once_and_nothing_else() {
             let paths: Vec<Vec<kurbo::PathSeg>> =
                 strokes(&drawing).map(|(_, mark)| mark.path.segments().collect()).collect();
             for one in &told {
-                // A stroke is near all of one mark.
+                // Each entity must lie on one single mark.
                 let off = |path: &Vec<kurbo::PathSeg>| {
                     one.points
                         .iter()
@@ -158,7 +158,7 @@ fn every_stroke_is_there_once_and_nothing_else() {
                         })
                         .fold(0.0, f64::max)
                 };
-                // Circles of which the model has corners only are circles, between which chords run inside.
+                // Polygons of the model may be written as circles, and chords run inside their circle.
                 let is_near = |path: &Vec<kurbo::PathSeg>| {
                     let chords = path.iter().all(|segment| matches!(segment, kurbo::PathSeg::Line(_)));
                     off(path) < if chords { 0.45 } else { 0.16 }
@@ -171,7 +171,7 @@ fn every_stroke_is_there_once_and_nothing_else() {
 
 #[test]
 fn curves_are_arcs_and_not_chopped() {
-    // A gear seen along its axis: its holes are circles.
+    // A gear seen along its axis, with circular holes.
     let scene = Scene::open("examples/models/gear.obj").expect("a gear");
     let camera = Camera::named(ligne::scene::NamedView::Top, scene.up).fit(&scene);
     let drawing = render(&scene, &camera, &Style::default().to_scale()).expect("a drawing");
@@ -193,7 +193,7 @@ fn lines_are_in_layers_by_their_kind_and_know_their_parts() {
     }
     let parts: BTreeSet<&str> = told.iter().filter_map(|one| one.part.as_deref()).collect();
     assert!(parts.contains("terminal-box"), "{parts:?}");
-    // Hidden lines have a type with gaps, visible ones none.
+    // Hidden lines have a line type with gaps, visible ones a continuous type.
     let bytes = drawing.to_dxf(&DxfOptions::default());
     let pairs = pairs(&bytes);
     let type_of = |layer: &str| {
@@ -246,7 +246,7 @@ fn fills_are_hatches_of_release_2000_alone() {
     assert_eq!((hatches(&new), drawing.left_out_of_dxf(&new)), (fills, 0));
 }
 
-/// Handles are numbers of the file that no two things share.
+/// Handles are unique in the file and smaller than `$HANDSEED`.
 #[test]
 fn handles_are_each_given_once() {
     let (drawing, _) = drawn("examples/models/pump.glb", "technical");

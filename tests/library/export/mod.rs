@@ -1,4 +1,4 @@
-//! Written files, each read back by another reader.
+//! Tests of exported files, each read back with an independent reader.
 
 mod dxf_strokes;
 mod part_groups;

@@ -1,4 +1,4 @@
-//! Groups of parts paint the picture that layers do, against an SVG program, and a part has no more of them than it needs.
+//! SVG grouped by part looks like SVG grouped by layer when rendered by resvg, and has few groups per part.
 
 use std::collections::BTreeSet;
 
@@ -25,7 +25,7 @@ fn pixels(svg: &str) -> Pixmap {
     pixels
 }
 
-/// The ids of the groups of parts.
+/// Ids of the part groups in an SVG.
 fn groups(svg: &str) -> Vec<&str> {
     svg.split("<g id=\"part-").skip(1).filter_map(|rest| rest.split('"').next()).collect()
 }
@@ -44,7 +44,7 @@ fn the_picture_is_that_of_layers() {
         let drawing = drawn(&format!("examples/models/{model}"), style, sets);
         let [layers, parts] =
             [drawing.to_svg(&SvgOptions::default()), by_part(&drawing)].map(|svg| pixels(&svg));
-        // One colour over itself is the same either way round but for the rounding of a channel, twice.
+        // The order of overlapping marks of one colour changes a channel only by rounding, twice.
         let most = layers.data().iter().zip(parts.data()).map(|(a, b)| a.abs_diff(*b)).max().unwrap();
         assert!(most <= 3, "{model} {style}: {most} of 255");
     }
@@ -56,7 +56,7 @@ fn a_part_is_one_group_where_that_changes_nothing() {
     let names: BTreeSet<&str> =
         svg.split("data-part=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
     assert_eq!(groups(&svg).len(), names.len());
-    // Lines lie over the fills of neighbours: most parts are two groups, and hardly more.
+    // Lines lie over the fills of neighbours, so most parts need two groups and few need more.
     let svg = by_part(&drawn("examples/models/pump.glb", "toon", &[]));
     assert!(groups(&svg).len() <= 3 * names.len(), "{} of {}", groups(&svg).len(), names.len());
     let unique: BTreeSet<&str> = groups(&svg).into_iter().collect();

@@ -1,4 +1,5 @@
-//! Ink of lines and pictures in PNG: as much as their width and length, at all slants, widths and places.
+//! Ink in PNG files: strokes, dashes, fills and image strokes cover their exact area at all angles, widths
+//! and positions.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -16,7 +17,7 @@ use ligne::{PngOptions, SvgOptions};
 
 const SIZE: f64 = 120.0;
 
-/// A white page with marks.
+/// White page with marks.
 fn drawing(marks: Vec<Mark>) -> Drawing {
     let page = Page { width: SIZE, height: SIZE, unit: Unit::Px, background: Some(Colour::WHITE) };
     Drawing::new("ink", page, vec![Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks }])
@@ -26,7 +27,7 @@ fn mark(path: BezPath, paint: Paint) -> Mark {
     Mark { path, paint, provenance: Provenance::default() }
 }
 
-/// A black line of a width; `dash` as in SVG.
+/// Black stroke with butt ends. `dash` is as in SVG.
 fn stroke(path: BezPath, width: f64, dash: &[f64]) -> Mark {
     let paint = StrokePaint {
         width,
@@ -39,14 +40,14 @@ fn stroke(path: BezPath, width: f64, dash: &[f64]) -> Mark {
     mark(path, Paint::Stroke(paint))
 }
 
-/// How dark each pixel is, 0 to 1, row by row, at so many pixels a px.
+/// Darkness of each pixel from 0 to 1, row by row, at `scale` pixels per px.
 fn darkness(marks: Vec<Mark>, scale: f64) -> Vec<f64> {
     let options = PngOptions::of_resolution(Resolution::Dpi(96.0 * scale));
     let pixels = drawing(marks).to_pixels(&options).unwrap();
     pixels.rgba.chunks_exact(4).map(|pixel| 1.0 - f64::from(pixel[0]) / 255.0).collect()
 }
 
-/// The ink of marks, px².
+/// Total ink of the marks, px².
 fn ink(marks: Vec<Mark>) -> f64 {
     darkness(marks, 1.0).iter().sum()
 }
@@ -55,7 +56,7 @@ fn at(angle: f64) -> Vec2 {
     Vec2::new(cos(angle), sin(angle))
 }
 
-/// A line of 90 px through about the middle.
+/// Line of 90 px at an angle, `shift` px off the centre of the page.
 fn line(degrees: f64, shift: f64) -> BezPath {
     let way = at(degrees.to_radians());
     let middle = Point::new(60.0, 60.0) + Vec2::new(-way.y, way.x) * shift;
@@ -100,7 +101,7 @@ fn a_circle_is_even_all_round() {
         let dark = darkness(vec![stroke(circle, width, &[])], 1.0);
         let mut sectors = [0.0; 16];
         for (k, dark) in dark.iter().enumerate() {
-            // Each pixel as several, so that sectors share those that they cut.
+            // Each pixel is split into 64, so that sectors share the pixels they cut.
             for part in 0..64 {
                 let [x, y] = [k % 120, k / 120].map(|place| place as f64);
                 let point =
@@ -132,23 +133,24 @@ fn fills_have_their_area_where_the_page_cuts_them() {
     assert!((ink(vec![black(half)]) - PI * 450.0).abs() < 1.5);
     let corner = Rect::new(100.25, -50.0, 900.0, 10.6).to_path(1e-3);
     assert!((ink(vec![black(corner)]) - 19.75 * 10.6).abs() < 0.2);
-    // Its bounds hold the page, and it does not.
+    // The bounds of this path contain the page, but its area does not.
     let around = BezPath::from_svg("M-900 -900H900V-1H-1V900H-900Z").unwrap();
     assert!(ink(vec![black(around)]) < 1e-9);
-    // A hole, and one contour over another.
+    // A hole, and two overlapping subpaths.
     let ring = BezPath::from_svg("M10 10H50V50H10ZM20 20V40H40V20Z").unwrap();
     assert!((ink(vec![black(ring)]) - 1200.0).abs() < 0.2);
     let twice = BezPath::from_svg("M10 10H50V50H10ZM20 20H40V40H20Z").unwrap();
     assert!((ink(vec![black(twice)]) - 1600.0).abs() < 0.2);
 }
 
-/// A grey picture of a stroke: as dark as `dark` says of a row.
+/// Black picture of a stroke, with the opacity `dark(row)`.
 fn picture(dark: impl Fn(usize) -> u8) -> Arc<Picture> {
     let pixel = |k: usize| Colour { r: 0, g: 0, b: 0, a: dark(k / 320) };
     Arc::new(Picture { width: 320, height: 32, pixels: (0..320 * 32).map(pixel).collect() })
 }
 
-/// A stroke of a picture, 8 px wide and 80 long at a slant, in pieces that are half a px wider and overlap by a px.
+/// Image stroke of 8 by 80 px at an angle. Its pieces extend by 1 px along the stroke and by 0.5 px across
+/// it.
 fn brushed(picture: &Arc<Picture>, degrees: f64, pieces: usize) -> Mark {
     let way = at(degrees.to_radians());
     let across = Vec2::new(-way.y, way.x);
@@ -164,7 +166,7 @@ fn brushed(picture: &Arc<Picture>, degrees: f64, pieces: usize) -> Mark {
     mark(area(0.0, 80.0, 0.0), Paint::Image(image))
 }
 
-/// The least and the greatest darkness well within the stroke.
+/// Smallest and largest darkness well inside the stroke.
 fn within(mark: Mark, degrees: f64, scale: f64) -> (f64, f64) {
     let side = (SIZE * scale) as usize;
     let way = at(degrees.to_radians());
@@ -179,7 +181,7 @@ fn within(mark: Mark, degrees: f64, scale: f64) -> (f64, f64) {
 
 #[test]
 fn pictures_are_averaged_along_the_axis_that_shrinks() {
-    // Streaks of two rows of ink and two of paper: four rows to a px across, four columns to one along.
+    // Streaks of two rows of ink and two of paper. One px has four rows across and four columns along.
     let streaks = picture(|row| if row % 4 < 2 { 255 } else { 0 });
     for degrees in [0.0, 20.0, 45.0, 77.0, 90.0] {
         let (low, high) = within(brushed(&streaks, degrees, 1), degrees, 1.0);
@@ -209,7 +211,7 @@ fn pieces_of_a_half_clear_picture_make_one_even_stroke() {
             assert!(high - low < 0.02 && (low - 143.0 / 255.0).abs() < 0.02, "{degrees}: {low} to {high}");
         }
     }
-    // SVG and PDF show them through a mask, in which pieces are opaque; the picture is grey.
+    // SVG and PDF paint the stroke in its colour through a mask of opaque pieces.
     let drawing = drawing(vec![brushed(&grey, 33.0, 7), brushed(&grey, 45.0, 3)]);
     let svg = drawing.to_svg(&SvgOptions::default());
     assert_eq!(svg.matches("<mask ").count(), 2, "{svg}");
@@ -221,7 +223,7 @@ fn pieces_of_a_half_clear_picture_make_one_even_stroke() {
         let text = String::from_utf8_lossy(&pdf);
         assert_eq!(text.matches("/Luminosity").count(), 2);
     }
-    // Opaque pictures, and those that do not overlap, are clipped as ever.
+    // Opaque pictures and single pieces need only a clip path.
     for mark in [brushed(&picture(|_| 255), 33.0, 7), brushed(&grey, 33.0, 1)] {
         let svg = self::drawing(vec![mark]).to_svg(&SvgOptions::default());
         assert!(!svg.contains("<mask ") && svg.contains("clip-path="), "{svg}");

@@ -1,4 +1,5 @@
-//! PDF for presses: boxes, marks, plates, overprint, layers, fonts and standards, as the file says them.
+//! PDF for printing presses: boxes, marks, separations, overprint, layers, fonts, halftone screens and
+//! standards, as written in the file.
 
 use kurbo::{Affine, BezPath, Point, Rect, Shape};
 use ligne::colour::pixel_picture::Picture;
@@ -52,7 +53,7 @@ fn k() -> PdfOptions {
     PdfOptions::default().with_inks(Inks::K)
 }
 
-/// A box of the file, points.
+/// Page box of the file by name, in points.
 fn rect(rest: &str, name: &str) -> Vec<f64> {
     let inner = rest.split(&format!("/{name} [")).nth(1).unwrap_or_else(|| panic!("no {name} in {rest}"));
     inner.split(']').next().unwrap().split(' ').map(|x| x.parse().unwrap()).collect()
@@ -73,7 +74,7 @@ fn boxes_are_where_the_page_is_cut() {
     near(rect(&rest, "TrimBox"), [3.0, 3.0, 103.0, 63.0]);
     near(rect(&rest, "BleedBox"), [0.0, 0.0, 106.0, 66.0]);
     assert!(!content.contains("/All"));
-    // Crop marks begin where the bleed ends, are 5 mm long and have 1 mm beyond them; all plates have them.
+    // Crop marks start at the bleed, are 5 mm long with 1 mm of margin, and print on all plates.
     let (content, rest) = take_apart(&to_pdf(&[composed.clone()], &k().with_marks()).unwrap());
     near(rect(&rest, "MediaBox"), [0.0, 0.0, 118.0, 78.0]);
     near(rect(&rest, "TrimBox"), [9.0, 9.0, 109.0, 69.0]);
@@ -82,7 +83,7 @@ fn boxes_are_where_the_page_is_cut() {
     let marks = content.split("/All CS").nth(1).unwrap();
     assert!(marks.contains("3 0 m\n3 -5 l\nS") && marks.contains("106 63 m\n111 63 l\nS"), "{marks}");
     assert_eq!(marks.matches(" c\n").count(), 16, "four circles");
-    // No mark is within the bleed.
+    // No mark lies inside the bleed.
     for line in marks.lines().filter(|line| line.ends_with(" m") || line.ends_with(" l")) {
         let numbers: Vec<f64> = line.split(' ').filter_map(|x| x.parse().ok()).collect();
         assert!(!bleed.inset(-1e-6).contains(Point::new(numbers[0], numbers[1])), "{line}");
@@ -155,7 +156,7 @@ fn drawings_are_layers_in_their_place_and_clip() {
     let order = rest.split("/Order [").nth(1).unwrap().split(">>").next().unwrap();
     assert_eq!(order.matches("(A page)").count(), 2, "each page lists its layers: {order}");
     assert_eq!(bytes, to_pdf(&pages, &PdfOptions::default()).unwrap(), "the same pages give the same bytes");
-    // With no clip but one without area nothing is seen.
+    // A clip without area hides everything.
     let mut hidden = item("hidden", Vec::new());
     hidden.clip = Some(BezPath::new());
     assert!(take_apart(&to_pdf(&[page(vec![hidden])], &k()).unwrap()).0.contains("0 0 m\nW n"));
@@ -173,13 +174,13 @@ fn letters_are_set_in_parts_of_their_fonts() {
     let text: Vec<&str> = content.split("BT\n").nth(1).unwrap().split("ET").next().unwrap().lines().collect();
     assert_eq!(text[0], "/F0 1 Tf");
     assert!(text[1].starts_with("5 0 0 -5 ") && text[1].ends_with(" Tm"), "{} is not {matrix}", text[1]);
-    // Kerning: the V stands nearer to the A than the A is wide.
+    // Kerning moves the V towards the A.
     let shift: f64 = text[2].split('>').nth(1).unwrap().split('<').next().unwrap().parse().unwrap();
     assert!(shift > 10.0, "{}", text[2]);
     assert!(rest.contains("AAAAAA+ComicNeue-Bold") && rest.contains("/Subtype /CIDFontType0C"), "{rest}");
     assert!(content.contains("beginbfchar") && content.contains("<00E9>"), "{content}");
     let part = bytes.len();
-    // As outlines there is no font.
+    // Text as outlines needs no font.
     let (content, rest) = take_apart(&to_pdf(&[page(vec![item("words", marks)])], &k().outlined()).unwrap());
     assert!(!content.contains("BT\n") && !rest.contains("/Font"), "{rest}");
     assert!(part < 12_000, "{part} bytes: the whole font is in it");
@@ -219,7 +220,7 @@ fn fills_are_dots_of_solid_ink_on_one_lattice() {
     let grey = Paint::Fill(Colour::rgb(128, 128, 128));
     let options = k().with_screen(25.4, 0.0);
     let (content, rest) = written(vec![mark("M0.5 0.5H20.5V10.5H0.5Z", grey.clone())], &options);
-    // Lines of points one apart, of which the last is half a step before the end.
+    // Dots of a dashed line, 1 apart. The last dot lies half a step before the end of the line.
     let points = |line: &str| -> Vec<(i64, i64)> {
         let numbers: Vec<f64> = line.split(' ').filter_map(|word| word.parse().ok()).collect();
         let [from, y, to, _] = numbers[..] else { panic!("{line}") };
@@ -232,23 +233,23 @@ fn fills_are_dots_of_solid_ink_on_one_lattice() {
     dots.sort_unstable();
     dots.dedup();
     assert!(lines.len() < 16 && content.contains("1 J [0 1] 0 d"), "{lines:?}");
-    // 200 dots have their middles inside, and others reach in; none is laid twice.
+    // 200 dots have their centres inside, and others overlap the border. No dot occurs twice.
     assert!((200..290).contains(&dots.len()) && laid == dots.len(), "{laid} dots");
     assert!(dots.contains(&(3, 5)) && dots.contains(&(20, 1)) && !dots.contains(&(3, 15)));
     assert!(content.contains("0 0 0 0 k\n.5 .5 m") && content.contains("0 0 0 1 K"), "{content}");
-    // A dot that covers 127/255 of a square.
+    // Diameter of a dot that covers 127/255 of a lattice cell.
     let width = (4.0 * (127.0 / 255.0) / std::f64::consts::PI).sqrt();
     assert!(
         content.contains(&format!("{width:.4} w").trim_start_matches('0').to_string()),
         "no {width:.4}: {content}"
     );
     assert!(rest.contains("/OP true"));
-    // The lattice is that of the page, wherever a drawing is put on it.
+    // The lattice is fixed to the page, not to the drawing.
     let mut moved = item("a", vec![mark("M0.5 0.5H20.5V10.5H0.5Z", grey)]);
     moved.place = Affine::translate((0.25, 0.0)) * Affine::scale(2.0);
     let content = take_apart(&to_pdf(&[page(vec![moved])], &options).unwrap()).0;
     assert!(content.contains("\n.5 0 0 .5 -.125 0 cm\n0 0 0 1 K"), "{content}");
-    // Black lines and fills stay as they are, and a gradient has dots of many sizes.
+    // Lines and black fills are not screened. A gradient has dots of many sizes.
     let gradient = Gradient {
         start: Point::ZERO,
         end: Point::new(20.0, 0.0),
@@ -274,7 +275,7 @@ fn fills_are_dots_of_solid_ink_on_one_lattice() {
     );
 }
 
-/// The profile of a press, which comes with Ghostscript.
+/// CMYK profile of Ghostscript.
 const PRESS: &str = "/usr/share/color/icc/ghostscript/default_cmyk.icc";
 
 #[test]

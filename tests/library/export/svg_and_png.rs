@@ -1,4 +1,4 @@
-//! Drawings as SVG and PNG: what is written is what was drawn, at the written precision.
+//! SVG, PNG and PDF files contain the drawing at the written precision, checked with independent readers.
 
 use std::sync::Arc;
 
@@ -45,7 +45,7 @@ fn drawing(marks: Vec<Mark>) -> Drawing {
     Drawing::new("", page, vec![Layer { kind: LayerKind::Lines, pen: None, ordered: false, marks }])
 }
 
-/// Numbers that look random and never change.
+/// Deterministic random numbers.
 struct Random(u64);
 
 impl Random {
@@ -58,7 +58,7 @@ impl Random {
         Point::new(self.next() * 1200.0 - 100.0, self.next() * 1200.0 - 100.0)
     }
 
-    /// A path of lines and curves, of one or two subpaths, some of them closed.
+    /// Random path of lines and curves, with one or two subpaths, some of them closed.
     fn path(&mut self) -> BezPath {
         let mut path = BezPath::new();
         for _ in 0..1 + (self.next() * 2.0) as usize {
@@ -92,7 +92,7 @@ impl Random {
     }
 }
 
-/// The corners and control points of each piece, without lines of no length.
+/// Control points of each segment, rounded to `step`, without zero-length lines.
 fn pieces(path: &BezPath, step: f64) -> Vec<Vec<Point>> {
     let round = |p: Point| Point::new((p.x / step).round() * step, (p.y / step).round() * step);
     path.segments()
@@ -105,7 +105,7 @@ fn pieces(path: &BezPath, step: f64) -> Vec<Vec<Point>> {
         .collect()
 }
 
-/// The path data of all paths of a document, in order.
+/// Path data of all paths of a document, in order.
 fn path_data(svg: &str) -> Vec<String> {
     let paths = svg.split(" d=\"").skip(1);
     paths.map(|rest| rest.split('"').next().unwrap().to_owned()).collect()
@@ -124,7 +124,7 @@ fn paths_read_back_within_half_the_written_precision() {
         })
         .collect();
     let mut drawing = drawing(marks);
-    // Paths are to run as they do, to be compared piece by piece.
+    // Ordered layers keep path directions, so paths can be compared segment by segment.
     drawing.layers[0].ordered = true;
     for precision in [0, 1, 2, 3, 5] {
         let svg = drawing.to_svg(&SvgOptions::default().with_precision(precision));
@@ -377,7 +377,7 @@ fn pdf_pages_are_as_large_as_the_paper() {
     let (_, sides) = text.split_once("/MediaBox [0 0 ").expect("the page has a size");
     let sides: Vec<f64> =
         sides.split([' ', ']']).take(2).map(|side| side.parse().expect("a number")).collect();
-    // A4 in points, within what single precision holds.
+    // A4 in points, within single precision.
     assert!((sides[0] - 595.275_59).abs() < 1e-3 && (sides[1] - 841.889_76).abs() < 1e-3, "{sides:?}");
     drawing.page = Page { width: 38_400.0, height: 100.0, unit: Unit::Px, background: None };
     let (_, rest) = take_apart(&drawing.to_pdf());

@@ -1,5 +1,4 @@
-//! Half-tone dots and stippling: as dark as asked, within their surfaces, the same with any number of
-//! threads.
+//! Halftone dots and stippling: measured coverage equals the requested tone, and marks stay on their surface.
 
 use crate::support::measures::polygon_cover;
 use crate::support::measures::polygon_cover::{coverage, ground, square};
@@ -37,8 +36,8 @@ fn same_with_any_number_of_threads<T: Send + PartialEq>(make: impl Fn() -> T + S
     assert!(one == with(2) && one == with(3));
 }
 
-/// A wavy star in two tones of light on one surface, a square on it that is another surface, and the light
-/// on them.
+/// A wavy star in two tones on one surface, a square in it on another surface, and the shade at a point of a
+/// cell.
 fn scene() -> (Ground, impl Fn(u32, Point) -> f64 + Sync) {
     let middle = Point::new(100.0, 100.0);
     let at = |k: usize| {
@@ -46,7 +45,7 @@ fn scene() -> (Ground, impl Fn(u32, Point) -> f64 + Sync) {
         middle + kurbo::Vec2::new(cos(angle), sin(angle)) * (80.0 + 12.0 * sin(5.0 * angle))
     };
     let hole = square(60.0, 110.0, 30.0);
-    // The upper half, and the lower one with a slit to the hole and around it.
+    // The upper half, and the lower half with a slit to the hole and around it.
     let upper: Vec<Point> = (100..=200).map(at).collect();
     let mut lower: Vec<Point> = (0..=100).map(at).collect();
     lower.extend([hole[0], hole[3], hole[2], hole[1], hole[0], at(100)]);
@@ -121,7 +120,7 @@ fn marks_stay_on_their_surface() {
             for segment in path.segments() {
                 for t in [0.0, 0.3, 0.6] {
                     let p = kurbo::ParamCurve::eval(&segment, t);
-                    // The nearest point of the surface is no farther than 0.02 px.
+                    // A point of the surface lies within 0.02 px.
                     let mut around = (0..16).map(|k| {
                         let angle = std::f64::consts::TAU * (f64::from(k) + 0.3) / 16.0;
                         let way = kurbo::Vec2::new(cos(angle), sin(angle));
@@ -162,7 +161,7 @@ fn light_stippling_is_even_without_a_lattice() {
         .collect();
     let density = centres.len() as f64 / (300.0 * 300.0);
     let spacing = density.sqrt().recip();
-    // Pairs by their distance in tenths of the spacing, seen from dots that are not near the edge.
+    // Radial distribution: pair distances in tenths of the spacing, from dots away from the edge.
     let mut pairs = [0.0_f64; 60];
     let mut seen = 0.0;
     for (k, (p, radius)) in centres.iter().enumerate() {
@@ -187,7 +186,7 @@ fn light_stippling_is_even_without_a_lattice() {
     };
     let radial: Vec<f64> = pairs.iter().enumerate().map(|(k, pairs)| pairs / seen / ring(k)).collect();
     println!("{radial:.2?}");
-    // No other dot within two thirds of the spacing, and beyond its neighbours a dot is surrounded evenly.
+    // No dot within 0.6 of the spacing, no sharp peak at the neighbours, and even density from 3 spacings on.
     assert!(radial[..6].iter().all(|share| *share == 0.0), "{radial:.2?}");
     assert!(radial[7..14].iter().all(|share| *share < 3.0), "{radial:.2?}");
     assert!(radial[30..].iter().all(|share| (0.8..1.2).contains(share)), "{radial:.2?}");

@@ -1,4 +1,5 @@
-//! Hatching beside fills: shadows of its own, level strokes on flat faces, white lines in blacks, and colours.
+//! Hatching together with fills: separate cast shadows, horizontal strokes on flat faces, white lines in
+//! black areas, and colours.
 
 use crate::support::pipeline;
 use crate::support::styled::{camera, page, style};
@@ -22,7 +23,7 @@ fn pillar(sets: &[&str]) -> Drawing {
     ligne::render(&scene, &camera(&scene), &style).unwrap()
 }
 
-/// The area of the marks of a layer.
+/// Total area of the marks of a layer kind.
 fn area(drawing: &Drawing, kind: LayerKind) -> f64 {
     let marks = drawing.layers.iter().filter(|layer| layer.kind == kind).flat_map(|layer| &layer.marks);
     marks.map(|mark| kurbo::Shape::area(&mark.path).abs()).sum()
@@ -44,7 +45,7 @@ fn fills_and_hatching_have_cast_shadows_of_their_own() {
     assert!((hatched - hatched_alone).abs() < 0.01 * hatched, "{hatched} {hatched_alone}");
 }
 
-/// A wall whose upper part leans back a little, in one sheet, each part with its own normal.
+/// A wall in one sheet. Its upper part leans back slightly, and each part has its own normal.
 fn leaning_wall() -> Scene {
     let positions = [(0.0, 0.0), (2.0, 0.0), (3.0, -0.45)]
         .into_iter()
@@ -65,7 +66,7 @@ fn flat_faces_have_level_strokes() {
     let scene = leaning_wall();
     let camera = Camera::named(NamedView::Front, scene.up).fit(&scene);
     for name in ["engraving", "woodcut"] {
-        // From the side and above, so that no part is left blank.
+        // Light from the side and above, so that every part is hatched.
         let light = "light.sources=[{kind=\"directional\", direction=[-1, 0.5, 0.3]}]";
         let style = style(name, &[light]);
         let (_, layers) =
@@ -83,7 +84,7 @@ fn flat_faces_have_level_strokes() {
     }
 }
 
-/// Lines of a drawing in a colour, by class.
+/// Number of lines in a colour, by class.
 fn lines_in(drawing: &Drawing, wanted: Colour) -> BTreeMap<&'static str, usize> {
     let layers = drawing.layers.iter().filter(|layer| layer.kind == LayerKind::Lines);
     let mut count = BTreeMap::new();
@@ -112,11 +113,11 @@ fn white_lines_part_blacks_and_nothing_else() {
         let sets = [&["pen.colour=\"#101014\"", &light], more].concat();
         ligne::render(&scene, &camera(&scene), &style("comic", &sets)).unwrap()
     };
-    // From behind: all three sides are black. Of the edges between them two are joined end to end.
+    // Lit from behind, all three sides are black. Two of the three edges between them form one line.
     let dark = from("[0, 0, -1]", &[]);
     assert_eq!(lines_in(&dark, paper), BTreeMap::from([("crease", 2)]));
     assert!(lines_in(&dark, Colour::rgb(0x10, 0x10, 0x14)).contains_key("contour"));
-    // They are as much thinner than ink as the style says, and may be left out.
+    // `hatching.parting` scales their width relative to ink, and 0 removes them.
     let width = |drawing: &Drawing| {
         let marks = drawing.layers.iter().flat_map(|layer| &layer.marks);
         let widths = marks.filter_map(|mark| match &mark.paint {
@@ -130,9 +131,9 @@ fn white_lines_part_blacks_and_nothing_else() {
     assert!((width(&from("[0, 0, -1]", &half)) - 0.9).abs() < 0.02);
     assert!((width(&from("[0, 0, -1]", &whole)) - 1.8).abs() < 0.02);
     assert!(lines_in(&from("[0, 0, -1]", &["hatching.parting=0"]), paper).is_empty());
-    // In full light nothing is black, and no line white.
+    // In full light nothing is black, so no line is white.
     assert!(lines_in(&from("[0, 0.2, 1]", &[]), paper).is_empty());
-    // Paint may be as black, and pens may be without a hand.
+    // The same holds for black fills (`noir`) and for pens without hand-drawn effects (`woodcut`).
     let noir =
         style("noir", &["light.sources=[{kind=\"directional\", direction=[0, 0, -1], space=\"camera\"}]"]);
     let noir = ligne::render(&scene, &camera(&scene), &noir).unwrap();

@@ -1,5 +1,5 @@
-//! Hatching: as much ink as the tone asks for, nested, inside its borders, without repetition, and fixed
-//! to the model where that is asked for.
+//! Hatching tone: coverage matches the table, darker tones contain the lighter ones, and strokes stay in
+//! their region.
 
 use crate::support::pipeline;
 use crate::support::styled::{camera, page, style};
@@ -25,7 +25,7 @@ use ligne::{Drawing, Style, render};
 /// Side of a flat patch, px.
 const SIDE: f64 = 360.0;
 
-/// A flat square patch of one bin.
+/// Hatch regions with one flat square of tone bin `bin`.
 fn patch(bin: u16) -> Ground {
     let look =
         Look { part: PartId(0), material: MaterialId(0), paint: PaintId(0), tone: 0, bin, cast: false };
@@ -56,7 +56,7 @@ fn context(tones: &[Tone], seed: u64) -> HatchContext<'_> {
     }
 }
 
-/// The strokes of all layers on a patch, by what they are known by.
+/// Strokes of all layers on a patch, by layer and stroke id.
 fn strokes(
     options: &HatchOptions,
     tones: &[Tone],
@@ -68,7 +68,7 @@ fn strokes(
     named.collect()
 }
 
-/// The share of the middle of a patch that is black.
+/// Share of ink in the inner part of a rendered patch.
 fn covered(options: &HatchOptions, tones: &[Tone], bin: u16) -> f64 {
     const SCALE: u32 = 4;
     let layer = hatching::fill(&patch(bin), &context(tones, 0), options, Vec::new());
@@ -90,7 +90,7 @@ fn covered(options: &HatchOptions, tones: &[Tone], bin: u16) -> f64 {
     ink / count
 }
 
-/// The options of a style, in opaque black.
+/// Hatching options of a style in opaque black, without grain.
 fn black(style: &Style) -> HatchOptions {
     let mut options = style.hatch.clone();
     for layer in &mut options.layers {
@@ -150,13 +150,13 @@ fn as_much_is_covered_as_the_table_says() {
 
 #[test]
 fn hatching_does_not_repeat() {
-    // One layer of a pencil, by how far ink on a line agrees with ink farther along it.
+    // Autocorrelation of the ink of one pencil layer.
     let mut options = black(&style("pencil", &[]));
     options.layers.truncate(1);
     options.layers[0].angle = 0.0;
     let tones = vec![Tone { levels: Vec::new(), coverage: vec![0.3] }];
     let strokes = strokes(&options, &tones, 0, 0);
-    // Where strokes cover the patch: rows of px, each with the height above its row at which ink lies.
+    // Raster of the patch: 1 where a stroke passes.
     let (columns, rows) = (SIDE as usize, SIDE as usize);
     let mut ink = vec![0.0_f64; columns * rows];
     for stroke in strokes.values() {
@@ -171,7 +171,7 @@ fn hatching_does_not_repeat() {
             }
         }
     }
-    // The lines themselves are no repetition: each row is measured against its own mean.
+    // Each row is measured against its own mean, so the rows of lines do not count as repetition.
     let means: Vec<f64> =
         ink.chunks_exact(columns).map(|row| row.iter().sum::<f64>() / columns as f64).collect();
     let correlation = |dx: usize, dy: usize| {
@@ -185,7 +185,7 @@ fn hatching_does_not_repeat() {
         }
         sum / square
     };
-    // Beyond the length of a stroke nothing agrees but the spacing of lines.
+    // Farther apart than a stroke length, nothing may correlate.
     let mut greatest: f64 = 0.0;
     for dx in (60..240).step_by(3) {
         for dy in 0..24 {
@@ -234,7 +234,7 @@ fn strokes_stay_inside(sheets: &[&str]) {
                     let own = ground.cells[ground.cell_at(p) as usize].facet;
                     assert!(own == facet || distance(&ground, p) < 0.02, "{name}, {sheet}: {p:?} is outside");
                 }
-                // A neighbour on the page is one on the surface: depth changes as the faces slope.
+                // Sampled points away from borders must have surface under them.
                 let depths: Vec<Option<f64>> = along(&stroke.points, 0.5)
                     .into_iter()
                     .filter(|p| distance(&ground, *p) > 0.1)
@@ -250,7 +250,8 @@ fn strokes_stay_inside(sheets: &[&str]) {
     }
 }
 
-/// The depth of the surface at a page point by brute force, for some points; infinite on paper.
+/// Depth of the surface at a page point by brute force. It is `None` if `is_asked` is false, and infinite on
+/// paper.
 fn depth(mesh: &Mesh, view: &ligne::view::View, p: Point, is_asked: bool) -> Option<f64> {
     if !is_asked {
         return None;
@@ -273,7 +274,7 @@ fn depth(mesh: &Mesh, view: &ligne::view::View, p: Point, is_asked: bool) -> Opt
     Some(nearest)
 }
 
-/// Points along a polyline, its ends and its corners among them.
+/// Points along a polyline at most `step` apart, including its ends and corners.
 fn along(line: &[Point], step: f64) -> Vec<Point> {
     let mut points = vec![line[0]];
     for pair in line.windows(2) {
@@ -283,7 +284,7 @@ fn along(line: &[Point], step: f64) -> Vec<Point> {
     points
 }
 
-/// How far a point is from the nearest border.
+/// Distance from a point to the nearest border.
 fn distance(ground: &Ground, p: Point) -> f64 {
     let of = |number: u32| {
         let [a, b] = ground.pieces[number as usize].ends;
@@ -294,7 +295,7 @@ fn distance(ground: &Ground, p: Point) -> f64 {
     ground.pieces_near(p, 1.0).into_iter().map(of).fold(f64::INFINITY, f64::min)
 }
 
-/// A style with strokes that are fixed to the model.
+/// Style with strokes that are fixed to the model.
 fn fixed() -> Style {
     let layer = "hatching.layer=[{ direction = 'object', angle = 30, spacing = 5, width = 1.2 }]";
     style("pen", &[layer, "hatching.cast_shadows=false"])
@@ -321,7 +322,7 @@ fn strokes_fixed_to_the_model_stay_when_it_turns() {
             let strokes = layers.into_iter().flat_map(|layer| layer.strokes);
             strokes.map(|stroke| (stroke.id, stroke)).collect::<BTreeMap<u64, HatchStroke>>()
         };
-        // Several turns both ways: some strokes of a single one always begin or end at a border.
+        // Several turns both ways, because in a single one some strokes begin or end at a border.
         let turned: Vec<_> = (-5..=5).map(|k| drawn((0.1 * f64::from(k)).to_radians())).collect();
         let pairs = || turned.iter().zip(&turned[1..]);
         let both = |(before, after): (&BTreeMap<u64, _>, &BTreeMap<u64, _>)| {

@@ -1,4 +1,4 @@
-//! Hatching, half-tone dots, patterns and paper, measured as covered area.
+//! Tests of hatching, halftone dots, patterns and paper.
 
 mod halftone;
 mod hatching_and_fills;

@@ -1,4 +1,5 @@
-//! Paper: a picture lies behind the model, and shows through what is drawn on it where it is dark.
+//! Paper pictures lie behind the drawing, and `page.tooth` lets their dark grain show through ink. Expected
+//! pixel colours are computed from the paper.
 
 use std::path::PathBuf;
 
@@ -12,7 +13,7 @@ use ligne::style::Style;
 use crate::support::pipeline::{self, orthographic};
 use crate::support::scenes::solids::cuboid;
 
-/// Laid paper: light, with a dark line of 4 pixels in each 16.
+/// Whether a column of the laid paper is dark: 4 pixels in every 16.
 fn is_dark(x: u32) -> bool {
     x % 16 < 4
 }
@@ -20,7 +21,7 @@ fn is_dark(x: u32) -> bool {
 const LIGHT: [u8; 3] = [250, 240, 220];
 const DARK: [u8; 3] = [200, 190, 170];
 
-/// A file with that paper.
+/// Temporary PNG file with laid paper.
 struct Sheet(PathBuf);
 
 impl Sheet {
@@ -33,7 +34,7 @@ impl Sheet {
         Self(file)
     }
 
-    /// A black box in the middle of the page.
+    /// Drawing of a black box in the middle of the page.
     fn drawing(&self, sets: &[&str]) -> Drawing {
         let scene = pipeline::scene([cuboid(DVec3::splat(-1.0), DVec3::splat(1.0))]);
         let camera = orthographic(DVec3::new(0.0, -5.0, 0.0), DVec3::ZERO, 4.0);
@@ -63,7 +64,7 @@ fn paper_is_behind_and_shows_through_where_it_is_dark() {
         let drawn = pixels(&drawing);
         for k in 0..2000_u32 {
             let (x, y) = (k * 37 % 1000, k * 91 % 1000);
-            // Beside what is mixed with its neighbours, and not on the lines of the box.
+            // Skips columns that blend with their neighbours, and the lines of the box.
             let column = x % 16;
             let is_mixed = [0, 3, 4, 15].contains(&column);
             let off = [x, y].map(|i| (f64::from(i) - 500.0).abs());
@@ -81,7 +82,8 @@ fn paper_is_behind_and_shows_through_where_it_is_dark() {
             };
             let own = drawn.at(x as usize, y as usize);
             for (own, paper) in [own.r, own.g, own.b].into_iter().zip(paper) {
-                // A quarter of it is dark: two deviations below the mean is more than the darkest is.
+                // Full strength is reached two standard deviations below the mean. A quarter of the paper is
+                // dark, so dark pixels lie 1.73 deviations below, at 0.87 of full strength.
                 let least = f64::from(paper) * if outside { 1.0 } else { 0.8 * shows };
                 let most = f64::from(paper) * shows;
                 let own = f64::from(own);

@@ -1,4 +1,4 @@
-//! Patterns over tones: they lie in their tone and nowhere else, as dense and as turned as they are asked for.
+//! Fill patterns lie in their tone only, with the set density, size and angle, against closed-form areas.
 
 use std::f64::consts::PI;
 
@@ -20,12 +20,12 @@ fn style(patterns: &str) -> Style {
     Style::load("toon", &sets).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The marks of a layer.
+/// Marks of a layer kind.
 fn marks(drawing: &Drawing, kind: LayerKind) -> Vec<&Mark> {
     drawing.layers.iter().filter(|layer| layer.kind == kind).flat_map(|layer| &layer.marks).collect()
 }
 
-/// A cube of 4 units, seen from in front on 500 px.
+/// A cube of side 4, seen from the front at 100 px per unit.
 fn wall() -> (Scene, Camera) {
     let mut scene = pipeline::scene([cuboid(DVec3::splat(-2.0), DVec3::splat(2.0))]);
     scene.materials = vec![Material { name: "wall".to_owned(), ..Material::default() }];
@@ -35,13 +35,13 @@ fn wall() -> (Scene, Camera) {
     (scene, camera)
 }
 
-/// How many places of each material a pattern's ink covers, and how many of them are not in its tone as it is painted.
+/// Number of sampled points of pattern ink by material, and how many of them lie outside their painted tone.
 fn asked(patterns: &str, tones: [Option<u16>; 4]) -> ([usize; 4], usize) {
     let scene = Scene::open("examples/models/castle.obj").unwrap();
     let camera = Camera::three_quarter_of(scene.up).fit(&scene);
     let drawing = render(&scene, &camera, &style(patterns)).unwrap();
     let fills = marks(&drawing, LayerKind::Fills);
-    // What is painted on top at a place.
+    // Topmost fill at a point.
     let at = |p: Point| fills.iter().rev().find(|fill| fill.path.contains(p)).map(|fill| &fill.provenance);
     let (mut asked, mut wrong) = ([0; 4], 0);
     let of =
@@ -51,12 +51,12 @@ fn asked(patterns: &str, tones: [Option<u16>; 4]) -> ([usize; 4], usize) {
         let name = mark.provenance.material.as_deref().unwrap();
         let is_filled = matches!(mark.paint, Paint::Fill(_));
         for (p, _) in samples(&flattened(&mark.path, 0.05), 25.0) {
-            // Of what is filled a place beside the outline.
+            // For filled marks, a point next to the outline and inside it.
             let beside =
                 [(0.8, 0.5), (-0.8, -0.5), (-0.5, 0.8), (0.5, -0.8)].map(|way| p + kurbo::Vec2::from(way));
             let inside = beside.into_iter().find(|p| !is_filled || mark.path.contains(*p));
             let Some(p) = inside.map(|inside| if is_filled { inside } else { p }) else { continue };
-            // Painted borders are fitted, and reach a little under their neighbours.
+            // Borders of fills are fitted and reach slightly under their neighbours.
             let near = [(0., 0.), (1.2, 0.), (-1.2, 0.), (0., 1.2), (0., -1.2)];
             let tone = tones[of(name)];
             let fits = near.iter().any(|(x, y)| {
@@ -87,7 +87,7 @@ fn patterns_lie_in_their_tone_and_nowhere_else() {
                     size = 6 }";
     let (found, wrong) = asked(filled, [Some(0), Some(1), None, Some(1)]);
     assert!(found.iter().all(|count| *count > 30), "{found:?}");
-    // Slivers may be painted as what is beside them.
+    // Slivers may be painted like their neighbours.
     assert!(100 * wrong <= found.iter().sum::<usize>(), "{wrong} of {found:?}");
 }
 
@@ -109,7 +109,7 @@ fn dots_and_lines_are_as_dense_and_as_turned_as_asked() {
             .collect();
         assert!((length(&lines) * 8.0 / (side * side) - 1.0).abs() < 0.02, "{angle}");
         for [a, b] in lines {
-            // Counter-clockwise as the page is seen, y down.
+            // Angles run counter-clockwise on the page, with y down.
             let along = (b - a).normalize();
             let turn = kurbo::Vec2::new(cos(angle.to_radians()), -sin(angle.to_radians()));
             assert!(along.cross(turn).abs() < 1e-6, "{angle}");
@@ -156,7 +156,7 @@ fn what_is_fixed_to_the_surface_turns_with_it_and_what_is_fixed_to_the_page_does
             .filter(|e| matches!(e, kurbo::PathEl::MoveTo(_)))
             .count()
     };
-    // Rolled about the line of sight: the same face, turned on the page.
+    // Camera rolled about its axis: the same face, turned on the page.
     let rolled = Camera { up: DVec3::new(0.4, 1.0, 0.0).normalize(), ..camera };
     assert_eq!(count(&camera, "surface"), count(&rolled, "surface"));
     assert!(count(&rolled, "page") > count(&camera, "page") + 3);
@@ -165,7 +165,7 @@ fn what_is_fixed_to_the_surface_turns_with_it_and_what_is_fixed_to_the_page_does
 fn inked(scene: &Scene, camera: &Camera, pattern: &str) -> f64 {
     let drawing = render(scene, camera, &style(pattern)).unwrap();
     let marks = marks(&drawing, LayerKind::Hatching);
-    // No shape lies over another, and holes turn the other way.
+    // Shapes do not overlap, and holes have the opposite direction.
     marks.iter().map(|mark| mark.path.area()).sum::<f64>().abs()
 }
 
@@ -175,7 +175,7 @@ fn filled_tiles_cover_what_they_should() {
     let folder = std::env::temp_dir().join(format!("ligne-tiles-{}", std::process::id()));
     std::fs::create_dir_all(&folder).unwrap();
     let [image, file] = ["tile.png", "tile.svg"].map(|name| folder.join(name));
-    // A disc of radius 18 pixels in 48, softened over one.
+    // Disc of radius 18 pixels in a tile of 48, with an edge one pixel soft.
     let disc = |k: u32| {
         let [x, y] = [k % 48, k / 48].map(|v| f64::from(v) + 0.5 - 24.0);
         (255.0 * ((x * x + y * y).sqrt() - 17.5).clamp(0.0, 1.0)).round() as u8
@@ -184,7 +184,7 @@ fn filled_tiles_cover_what_they_should() {
     encoder.set_color(png::ColorType::Grayscale);
     let pixels: Vec<u8> = (0..48 * 48).map(disc).collect();
     encoder.write_header().unwrap().write_image_data(&pixels).unwrap();
-    // A stroked ring, a square on it, and what is paper; twice as wide as high.
+    // A stroked ring, a square and a white corner, in a tile twice as wide as high.
     std::fs::write(
         &file,
         "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 40 20'><circle cx='10' cy='10' r='6' fill='none' \
@@ -194,7 +194,7 @@ fn filled_tiles_cover_what_they_should() {
     let literal = |path: &std::path::Path| path.display().to_string().replace('\\', "/");
     let cases = [
         ("path = 'M2 2H8V8H2Z', fill = true".to_owned(), 0.36),
-        // Reaches over its square: neighbours go on in each other.
+        // Reaches across its cell and joins its neighbours.
         ("path = 'M0 4H10V6H0Z', fill = true".to_owned(), 0.2),
         (format!("image = '{}'", literal(&image)), PI * 18.0 * 18.0 / (48.0 * 48.0)),
         (format!("file = '{}'", literal(&file)), (PI * (49.0 - 25.0) + 144.0) / 800.0),
@@ -215,11 +215,11 @@ fn filled_tiles_cover_what_they_should() {
 #[test]
 fn dots_on_the_surface_are_seen_at_its_slant() {
     let (scene, _) = wall();
-    // Two faces of the cube, each turned from the eye by 45 degrees.
+    // Two faces of the cube, each at 45 degrees to the view direction.
     let mut camera = orthographic(DVec3::new(9.0, 0.0, 9.0), DVec3::ZERO, 8.0);
     (camera.width, camera.height) = (500.0, 500.0);
     let seen = (4.0 * 2.0_f64.sqrt() * 4.0) * (500.0 / 8.0) * (500.0 / 8.0);
-    // A face is 250 px wide: a whole number of rows, between which its borders run, or through whose middles.
+    // A face is 250 px wide, a whole number of rows. Its borders run between rows or through row centres.
     for rows in [25.0, 26.0] {
         let size = 250.0 / rows;
         let part =
@@ -255,7 +255,7 @@ fn what_is_fixed_to_the_surface_does_not_know_how_the_world_is_turned() {
     };
     let (own, other) = (drawn(&scene, &tilted), drawn(&turned, &aside));
     assert!(own.len() > 60 && own.len() == other.len(), "{} {}", own.len(), other.len());
-    // Dots that are cut may be cut a little otherwise.
+    // Clipped dots may differ slightly.
     let near = |p: &&[i64; 2]| other.iter().any(|q| (p[0] - q[0]).abs() <= 2 && (p[1] - q[1]).abs() <= 2);
     let same = own.iter().filter(near).count();
     assert!(same == own.len(), "{same} of {}", own.len());

@@ -1,4 +1,5 @@
-//! The glTF reader over the shared models: what it draws, what it refuses, and a second opinion.
+//! glTF reader on the shared models: triangle counts and bounds against a facts table, refusals, warnings and
+//! random mutations.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -10,7 +11,7 @@ use ligne::scene::Scene;
 use crate::support::readers::glb_writer::glb;
 use crate::support::readers::shared_folder;
 
-/// Rows of facts.tsv about glTF files: column name to value.
+/// Rows of facts.tsv for glTF files, by column name.
 fn facts(folder: &Path) -> Vec<BTreeMap<String, String>> {
     let text = std::fs::read_to_string(folder.join("facts.tsv")).unwrap();
     let mut lines = text.lines().map(|line| line.split('\t').map(str::to_owned).collect::<Vec<_>>());
@@ -36,7 +37,7 @@ fn bounds(scene: &Scene) -> (DVec3, DVec3) {
     bounds
 }
 
-/// Arrays are as long as they promise, and every index is in range.
+/// Asserts that array lengths match, indices are in range, and numbers are finite.
 fn assert_sound(scene: &Scene) {
     for geometry in &scene.geometries {
         let count = geometry.triangles.len();
@@ -64,8 +65,8 @@ fn assert_sound(scene: &Scene) {
     assert!(scene.parts.iter().all(|part| part.world_from_part.is_finite()));
 }
 
-/// Bounds of files whose table has those of the stored accessors, without sparse values, morphs,
-/// joints and instances; worked out apart from this reader, or seen in its picture.
+/// Bounds of files for which the table ignores sparse values, morph targets, skins and instances. They were
+/// computed without this reader, or read from a picture.
 const POSED: [(&str, [f64; 3], [f64; 3]); 5] = [
     ("edge/gpu-instancing.glb", [-1.029_64, 0.0, -1.030_65], [18.885_52, 2.48, 18.916_07]),
     ("edge/morph-sphere.glb", [-1.104_34, -1.143_84, -1.104_4], [4.0, 1.0, 1.104_4]),
@@ -100,7 +101,7 @@ fn shared_models_have_the_triangles_and_bounds_they_should() {
         let posed = posed.map(|(_, low, high)| (DVec3::from_array(*low), DVec3::from_array(*high)));
         let Some((low, high)) = posed.or(corner("min").zip(corner("max"))) else { continue };
         let (found_low, found_high) = bounds(&scene);
-        // The table has five digits, and quantized files are rounded to some thousandths.
+        // The table has five digits. Quantized files are rounded to a few thousandths.
         let tolerance = 1e-4 * (high - low).max_element().max(low.abs().max_element());
         if (found_low - low).abs().max_element() > tolerance
             || (found_high - high).abs().max_element() > tolerance
@@ -234,7 +235,7 @@ fn cameras_and_lights_stand_in_the_world() {
     );
 }
 
-/// Two triangles in a GLB with a skin, a morph, sparse values and a strip, built here.
+/// GLB with two triangles, a skin, a morph target, sparse values and a triangle strip.
 fn small_glb() -> Vec<u8> {
     let mut bin: Vec<u8> = [0.0_f32, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.5]
         .into_iter()
@@ -281,7 +282,7 @@ fn mutated_files_never_panic() {
             seed ^= seed >> 7;
             seed ^= seed << 17;
             let at = (seed >> 8) as usize % mutated.len();
-            // Digits become digits, so that the JSON often stays valid and means something else.
+            // Digits are replaced by digits, so the JSON often stays valid with another meaning.
             let digit = mutated[at].is_ascii_digit();
             mutated[at] = if digit { b'0' + (seed % 10) as u8 } else { mutated[at] ^ (1 << (seed % 8)) };
         }

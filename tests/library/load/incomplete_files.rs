@@ -1,4 +1,5 @@
-//! Files that lack something, or say it twice: the rest is drawn, with a warning, and each edge once.
+//! Incomplete and redundant files: the valid rest is drawn with a warning, and an edge that the file lists as
+//! a line too is drawn once.
 
 use std::fmt::Write as _;
 
@@ -14,7 +15,7 @@ use crate::support::readers::glb_writer::glb;
 
 const CORNERS: [[f32; 3]; 4] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
 
-/// A square of two triangles with texture coordinates and a texture, whose JSON is changed before it is read.
+/// glTF scene with two squares, one of them textured. `change` edits the JSON before it is read.
 fn square(change: impl FnOnce(&mut Value)) -> Result<Scene, Error> {
     let mut picture = Vec::new();
     let mut encoder = png::Encoder::new(&mut picture, 1, 1);
@@ -162,7 +163,8 @@ fn colours_of_vertices_without_a_material_stand_on_white() {
         (seen, last)
     };
     let tint = json!({"POSITION": 0, "COLOR_0": 3});
-    // Each primitive draws one triangle of the square, as of two in one place one is left out.
+    // Each primitive draws one triangle of the square, because the reader drops one of two coincident
+    // triangles.
     let half = |from: usize| json!({"bufferView": 1, "byteOffset": from, "componentType": 5123, "count": 3, "type": "SCALAR"});
     let only = |primitives: Value| {
         let halves = [half(0), half(6)];
@@ -178,7 +180,7 @@ fn colours_of_vertices_without_a_material_stand_on_white() {
     let painted = json!({"attributes": {"POSITION": 0}, "indices": 4, "material": 0});
     assert_eq!(colours(&only(json!([tinted]))).0, ["#ff0000"]);
     assert_eq!(colours(&only(json!([plain]))).0, ["#cccccc"]);
-    // What has neither in the same mesh stays unchanged, before and after what has colours.
+    // A primitive without colours and material keeps the default colour, before or after one with colours.
     for primitives in [json!([tinted, plain]), json!([plain, tinted])] {
         assert_eq!(colours(&only(primitives)).0, ["#cccccc", "#ff0000"]);
     }
@@ -193,7 +195,8 @@ fn colours_of_vertices_without_a_material_stand_on_white() {
     assert_eq!(colours(&grey(json!([tinted, painted]))).0, ["#bcbcbc", "#ff0000"]);
 }
 
-/// A prism on an even polygon, as OBJ, with polylines along both of its rims at so many steps, turned by a share of a step.
+/// OBJ prism over a regular polygon. `rims` adds polylines along both rims: their number of steps, and their
+/// rotation in steps.
 fn prism(sides: usize, rims: Option<(usize, f64)>) -> Scene {
     let mut text = String::from("o prism\n");
     let ring = |text: &mut String, steps: usize, turned: f64, z: f64| {
@@ -274,7 +277,7 @@ fn lines_of_a_file_that_no_edge_has_are_drawn() {
     let mut across = prism(4, None);
     across.geometries[0].wires.push([4, 6]);
     assert_eq!(wires(&drawn(&across, &style)), 1);
-    // Where creases are not drawn, the file's own edges are.
+    // If the style draws no creases, the lines of the file are drawn.
     let mut style = Style::default();
     style.lines.kinds = vec![LineKind::Wire];
     assert!(wires(&drawn(&prism(16, Some((64, 0.0))), &style)) > 0);

@@ -1,4 +1,4 @@
-//! Model files: the formats, broken files, and files that lack something.
+//! Tests of the model readers: formats, broken files and incomplete files.
 
 mod gltf_reader;
 mod incomplete_files;

@@ -1,4 +1,5 @@
-//! Model files: the shared models, broken files, and what mutation makes of small ones.
+//! OBJ, STL and PLY readers: shared models against their facts table, broken files, and random mutations of
+//! small files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,7 +13,7 @@ fn is_ours(path: &str) -> bool {
     [".obj", ".stl", ".ply"].iter().any(|ending| path.ends_with(ending))
 }
 
-/// The columns of facts.tsv by name, a row a file.
+/// Rows of facts.tsv, one per file, each as a lookup by column name.
 fn facts(folder: &Path) -> Vec<impl Fn(&str) -> String> {
     let text = fs::read_to_string(folder.join("facts.tsv")).unwrap();
     let mut lines = text.lines().map(|line| line.split('\t').map(str::to_owned).collect::<Vec<_>>());
@@ -39,7 +40,7 @@ fn shared_models_are_as_their_facts_say() {
         }
         seen += 1;
         let scene = Scene::open(folder.join(&file)).unwrap_or_else(|e| panic!("{e}"));
-        // The facts count the words of a comment as corners of its face.
+        // The facts table counts the words of a comment as face corners.
         let wanted = if file == "edge/syntax-variety.obj" { "12".into() } else { fact("triangles_drawn") };
         assert_eq!(scene.triangle_count().to_string(), wanted, "{file}");
         let soup = scene.to_soup();
@@ -50,7 +51,8 @@ fn shared_models_are_as_their_facts_say() {
         let Some((least, greatest)) = scene.bounds() else { panic!("{file} has no bounds") };
         let diagonal = (greatest - least).length();
         for (column, point) in [("min", least), ("max", greatest)] {
-            // The facts count a face on a line from 2 to 4, next to the cube, which has no area and is left out.
+            // The facts table includes a face of zero area next to the cube, from 2 to 4. The reader drops
+            // it.
             let is_beside = file == "edge/degenerate.obj" && column == "max";
             let fact = if is_beside { "1 1 1".to_owned() } else { fact(column) };
             let wanted: Vec<f64> = fact.split(' ').filter_map(|v| v.parse().ok()).collect();
@@ -89,7 +91,7 @@ fn concave_polygons_keep_their_area() {
     let Some(folder) = shared_folder::folder() else { return };
     let scene = Scene::open(folder.join("edge/concave-ngons.obj")).unwrap();
     for (part, geometry) in scene.parts.iter().zip(&scene.geometries) {
-        // The ring of corners is all positions in order; its area is what the triangles must cover.
+        // All positions in order form the polygon, and the triangles must have its area.
         if part.name == "warped_quad" {
             continue;
         }
@@ -135,7 +137,7 @@ fn broken_models_are_refused_or_mended() {
     assert!(error.message.contains("only points; nothing to draw"), "{error}");
 }
 
-/// Runs every reader over some bytes: what they make of them is sound, and no larger than the bytes allow.
+/// Runs every reader on the bytes and asserts that each scene is valid and no larger than the bytes allow.
 fn read_with_all(bytes: &[u8]) {
     let library = |_: &str| Some(bytes.to_vec());
     for scene in [
@@ -163,7 +165,7 @@ fn corpus() -> Vec<(PathBuf, Vec<u8>)> {
     paths.into_iter().filter(|p| p.is_file()).map(|p| (p.clone(), fs::read(p).unwrap())).collect()
 }
 
-/// Files named `ok-` load, the others are refused; all readers survive all of them.
+/// Files named `ok-…` load and the others are refused. No reader panics on any of them.
 #[test]
 fn the_corpus_is_read_or_refused() {
     let mut seen = 0;
